@@ -1,0 +1,52 @@
+# Everything a reader needs: `make demo`, then `make test`.
+
+CASE := examples/tadina2011/outer-dent.toml
+REPORT := out/outer-dent/report.html
+
+.PHONY: help setup demo test meshes docs bench clean
+
+help:
+	@echo "make demo    build, run the dented bearing and say where its report is"
+	@echo "make test    all tests, documentation tests and examples"
+	@echo "make setup   install the system libraries that are missing"
+	@echo "make meshes  make the example meshes again (needs gmsh)"
+	@echo "make docs    documentation of the library"
+	@echo "make bench   benchmarks"
+	@echo "make clean   remove what was built and computed"
+
+setup:
+	@sh scripts/setup.sh
+
+demo: setup
+	cargo build --release
+	target/release/plummer run $(CASE) --force
+	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
+
+# cargo-nextest where it is installed; it leaves out documentation tests.
+test: setup
+	@if cargo nextest --version >/dev/null 2>&1; then \
+		echo "cargo nextest run && cargo test --doc"; \
+		cargo nextest run && cargo test --doc; \
+	else \
+		echo "cargo test"; \
+		cargo test; \
+	fi
+	cargo build --examples
+
+meshes:
+	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }
+	@set -e; for geometry in meshes/*.geo; do \
+		test -f "$$geometry" || { echo "no meshes/*.geo to make meshes from" >&2; exit 1; }; \
+		gmsh "$$geometry" - -v 2 -save -format msh41 -o "$${geometry%.geo}.msh"; \
+		echo "made $${geometry%.geo}.msh"; \
+	done
+
+docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
+
+bench: setup
+	cargo bench
+
+clean:
+	cargo clean
+	rm -rf out

@@ -1,0 +1,9 @@
+#!/bin/sh
+# Makes every mesh of this folder from its .geo (gmsh 4.8 or later). Makefile target:
+#   meshes:
+#   	sh meshes/rebuild.sh
+set -eu
+cd "$(dirname "$0")"
+for geo in *.geo; do
+    gmsh -2 -v 2 -format msh41 -o "${geo%.geo}.msh" "$geo"
+done

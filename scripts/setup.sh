@@ -1,0 +1,55 @@
+#!/bin/sh
+# Installs what the build needs beside Rust, where it is missing: a C compiler and linker, pkg-config and ARPACK
+# (Debian's package names). Quick and silent when everything is there.
+set -eu
+
+if ! command -v cargo >/dev/null 2>&1; then
+    echo "cargo is missing: install Rust first, see https://rustup.rs" >&2
+    exit 1
+fi
+
+missing=""
+need() {
+    missing="$missing $1"
+}
+
+if ! command -v gcc >/dev/null 2>&1 && ! command -v cc >/dev/null 2>&1; then
+    need gcc
+fi
+# The C library's headers and start files; without them the linker cannot make a program.
+if ! { [ -e /usr/include/stdio.h ] || [ -e /usr/local/include/stdio.h ]; }; then
+    need libc6-dev
+fi
+if ! command -v pkg-config >/dev/null 2>&1; then
+    need pkg-config
+    # Nothing can be asked about ARPACK yet; installing what is there already does no harm.
+    need libarpack2-dev
+elif ! pkg-config --exists arpack; then
+    need libarpack2-dev
+fi
+
+[ -n "$missing" ] || exit 0
+
+if ! command -v apt-get >/dev/null 2>&1; then
+    echo "missing (Debian's names):$missing" >&2
+    echo "apt-get is not available: install them with this system's package manager" >&2
+    exit 1
+fi
+
+if [ "$(id -u)" -eq 0 ]; then
+    as_root=""
+elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+    as_root="sudo -n"
+else
+    echo "missing:$missing; install them by" >&2
+    echo "    sudo apt-get update && sudo apt-get install --yes$missing" >&2
+    exit 1
+fi
+
+echo "installing:$missing"
+# Both variables are lists of words.
+# shellcheck disable=SC2086
+{
+    $as_root apt-get update
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
+}

@@ -1,0 +1,285 @@
+//! Dimensions of a radial ball bearing, checked once at the door.
+
+use std::f64::consts::PI;
+
+use thiserror::Error;
+
+use crate::closed_form::hertz::PrincipalCurvatures;
+use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
+
+/// Largest radial play, either sign, as a fraction of the ball radius. Catalogue clearances stay below
+/// a few percent; more than this means that a radius is wrong or in another unit.
+pub const PLAY_LIMIT: f64 = 0.1;
+
+/// Fewest and most balls that are accepted.
+pub const BALL_COUNTS: std::ops::RangeInclusive<u32> = 3..=40;
+
+/// Why a bearing's dimensions are refused; the key is the name in the case file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GeometryError {
+    /// The number of balls is outside [`BALL_COUNTS`].
+    #[error("balls = {value} must be 3 to 40")]
+    Balls {
+        /// Number that was given.
+        value: u32,
+    },
+    /// A length or mass breaks its rule.
+    #[error("{key} = {value} {rule}")]
+    Value {
+        /// Key in the case file.
+        key: &'static str,
+        /// Value that was given, SI.
+        value: f64,
+        /// What it must satisfy.
+        rule: &'static str,
+    },
+    /// The radii leave more play, or more interference, than a bearing has.
+    #[error(
+        "radial_play = {play} m (outer_race_radius - inner_race_radius - 2 ball_radius unless given) \
+         must be within +-{limit} m, a tenth of the ball radius"
+    )]
+    Play {
+        /// Radial play, m.
+        play: f64,
+        /// Largest magnitude, m.
+        limit: f64,
+    },
+    /// The balls overlap on the pitch circle.
+    #[error(
+        "balls = {balls} of radius {ball_radius} m do not fit on a pitch radius of {pitch_radius} m: at most {most}"
+    )]
+    Crowded {
+        /// Number of balls.
+        balls: u32,
+        /// Ball radius, m.
+        ball_radius: f64,
+        /// Pitch radius, m.
+        pitch_radius: f64,
+        /// Largest number that fits.
+        most: u32,
+    },
+    /// The rolling kinematics refuse the diameters.
+    #[error(transparent)]
+    Race(#[from] RaceError),
+}
+
+/// What a drawing gives; unchecked. Lengths in m, all positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingDimensions {
+    /// Number of balls, 3 to 40.
+    pub balls: u32,
+    /// Ball radius ρ_b, m.
+    pub ball_radius: f64,
+    /// Mass of one ball m_b, kg.
+    pub ball_mass: f64,
+    /// Radius r of the inner raceway at the groove's bottom, m.
+    pub inner_race_radius: f64,
+    /// Radius R_0 of the outer raceway at the groove's bottom, m.
+    pub outer_race_radius: f64,
+    /// Radius of the inner groove across the rolling direction, m; above the ball radius.
+    pub inner_groove_radius: f64,
+    /// Radius of the outer groove across the rolling direction, m; above the ball radius.
+    pub outer_groove_radius: f64,
+}
+
+/// A radial ball bearing whose dimensions have passed every rule.
+///
+/// Radial play is `c = R_0 − r − 2 ρ_b` (half the diametral clearance), negative when the bearing is
+/// preloaded. [`Self::with_radial_play`] moves the inner contact only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingGeometry {
+    dimensions: BearingDimensions,
+    radial_play: f64,
+    orders: DefectOrders,
+}
+
+impl BearingGeometry {
+    /// Checks `dimensions`.
+    ///
+    /// # Errors
+    /// [`GeometryError`]: ball count outside 3..=40; a value not positive and finite; a groove not
+    /// wider than the ball; play beyond a tenth of the ball radius; balls that overlap.
+    pub fn new(dimensions: BearingDimensions) -> Result<Self, GeometryError> {
+        let d = &dimensions;
+        if !BALL_COUNTS.contains(&d.balls) {
+            return Err(GeometryError::Balls { value: d.balls });
+        }
+        for (key, value) in [
+            ("ball_radius", d.ball_radius),
+            ("ball_mass", d.ball_mass),
+            ("inner_race_radius", d.inner_race_radius),
+            ("outer_race_radius", d.outer_race_radius),
+            ("inner_groove_radius", d.inner_groove_radius),
+            ("outer_groove_radius", d.outer_groove_radius),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                let rule = "must be positive and finite";
+                return Err(GeometryError::Value { key, value, rule });
+            }
+        }
+        for (key, value) in [
+            ("inner_groove_radius", d.inner_groove_radius),
+            ("outer_groove_radius", d.outer_groove_radius),
+        ] {
+            if value <= d.ball_radius {
+                let rule = "must be greater than ball_radius";
+                return Err(GeometryError::Value { key, value, rule });
+            }
+        }
+        let radial_play = checked_play(
+            d.outer_race_radius - d.inner_race_radius - 2.0 * d.ball_radius,
+            d.ball_radius,
+        )?;
+        let pitch_radius = 0.5 * (d.outer_race_radius + d.inner_race_radius);
+        let row = BallRow::new(d.balls, 2.0 * d.ball_radius, 2.0 * pitch_radius, 0.0)?;
+        let most = (PI / (d.ball_radius / pitch_radius).asin()).floor();
+        if f64::from(d.balls) > most {
+            return Err(GeometryError::Crowded {
+                balls: d.balls,
+                ball_radius: d.ball_radius,
+                pitch_radius,
+                most: most as u32,
+            });
+        }
+        Ok(Self {
+            dimensions,
+            radial_play,
+            orders: row.orders(),
+        })
+    }
+
+    /// The same bearing with radial play `play` (m; negative: preload) in place of what the radii give.
+    ///
+    /// Only the effective inner raceway radius `r_eff = R_0 − 2 ρ_b − c`, the one in
+    /// `δ_i = r_eff + ρ_b − χ`, changes. The nominal r stays in the curvatures, the pitch radius and
+    /// the orders: microns of fit do not change those, and R_0 stays where the ring and its dents are.
+    ///
+    /// # Errors
+    /// [`GeometryError::Play`] beyond a tenth of the ball radius or not finite.
+    pub fn with_radial_play(self, play: f64) -> Result<Self, GeometryError> {
+        let radial_play = checked_play(play, self.dimensions.ball_radius)?;
+        Ok(Self {
+            radial_play,
+            ..self
+        })
+    }
+
+    /// The dimensions as given.
+    #[must_use]
+    pub fn dimensions(&self) -> &BearingDimensions {
+        &self.dimensions
+    }
+
+    /// Number of balls.
+    #[must_use]
+    pub fn balls(&self) -> u32 {
+        self.dimensions.balls
+    }
+
+    /// Ball radius ρ_b, m.
+    #[must_use]
+    #[inline]
+    pub fn ball_radius(&self) -> f64 {
+        self.dimensions.ball_radius
+    }
+
+    /// Mass of one ball, kg.
+    #[must_use]
+    #[inline]
+    pub fn ball_mass(&self) -> f64 {
+        self.dimensions.ball_mass
+    }
+
+    /// Radius R_0 of the undeformed outer raceway, m.
+    #[must_use]
+    #[inline]
+    pub fn outer_race_radius(&self) -> f64 {
+        self.dimensions.outer_race_radius
+    }
+
+    /// Inner raceway radius `R_0 − 2 ρ_b − c` that belongs in δ_i, m; the nominal r unless play was given.
+    #[must_use]
+    #[inline]
+    pub fn effective_inner_race_radius(&self) -> f64 {
+        self.dimensions.outer_race_radius - 2.0 * self.dimensions.ball_radius - self.radial_play
+    }
+
+    /// Pitch radius `(R_0 + r) / 2` from the nominal radii, m.
+    #[must_use]
+    pub fn pitch_radius(&self) -> f64 {
+        0.5 * (self.dimensions.outer_race_radius + self.dimensions.inner_race_radius)
+    }
+
+    /// Ball over pitch diameter, below one.
+    #[must_use]
+    pub fn diameter_ratio(&self) -> f64 {
+        self.dimensions.ball_radius / self.pitch_radius()
+    }
+
+    /// Radial play c, m: how far the shaft can move from the middle; negative is preload.
+    #[must_use]
+    pub fn radial_play(&self) -> f64 {
+        self.radial_play
+    }
+
+    /// Diametral clearance 2 c, m: what catalogues list.
+    #[must_use]
+    pub fn diametral_clearance(&self) -> f64 {
+        2.0 * self.radial_play
+    }
+
+    /// Inner groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
+    #[must_use]
+    pub fn inner_conformity(&self) -> f64 {
+        0.5 * self.dimensions.inner_groove_radius / self.dimensions.ball_radius
+    }
+
+    /// Outer groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
+    #[must_use]
+    pub fn outer_conformity(&self) -> f64 {
+        0.5 * self.dimensions.outer_groove_radius / self.dimensions.ball_radius
+    }
+
+    /// Defect orders for pure rolling, per shaft turn.
+    #[must_use]
+    pub fn orders(&self) -> DefectOrders {
+        self.orders
+    }
+
+    /// Curvatures of a ball, 1/m.
+    #[must_use]
+    pub fn ball_curvatures(&self) -> PrincipalCurvatures {
+        PrincipalCurvatures::sphere(self.dimensions.ball_radius)
+    }
+
+    /// Curvatures of the inner race, 1/m: concave groove, convex along the rolling direction.
+    #[must_use]
+    pub fn inner_curvatures(&self) -> PrincipalCurvatures {
+        PrincipalCurvatures {
+            plane_1: -1.0 / self.dimensions.inner_groove_radius,
+            plane_2: 1.0 / self.dimensions.inner_race_radius,
+        }
+    }
+
+    /// Curvatures of the outer race, 1/m: concave both ways.
+    #[must_use]
+    pub fn outer_curvatures(&self) -> PrincipalCurvatures {
+        PrincipalCurvatures {
+            plane_1: -1.0 / self.dimensions.outer_groove_radius,
+            plane_2: -1.0 / self.dimensions.outer_race_radius,
+        }
+    }
+}
+
+fn checked_play(play: f64, ball_radius: f64) -> Result<f64, GeometryError> {
+    let limit = PLAY_LIMIT * ball_radius;
+    if play.abs() <= limit {
+        Ok(play)
+    } else {
+        Err(GeometryError::Play { play, limit })
+    }
+}
+
+#[cfg(test)]
+#[path = "geometry_tests.rs"]
+mod tests;

@@ -1,0 +1,200 @@
+//! Contact stiffness of the two races: from materials and geometry (Hertz), or given.
+
+use thiserror::Error;
+
+use super::geometry::BearingGeometry;
+use crate::closed_form::hertz::{self, HertzError, HertzStiffness};
+
+/// Elastic constants of a surface in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactMaterial {
+    /// Young's modulus, Pa, positive.
+    pub young: f64,
+    /// Poisson's ratio, above −1 and at most 0.5.
+    pub poisson: f64,
+}
+
+/// Which race a ball touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Race {
+    /// Inner race, turning with the shaft.
+    Inner,
+    /// Outer race, fixed in the housing.
+    Outer,
+}
+
+impl std::fmt::Display for Race {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Inner => "inner",
+            Self::Outer => "outer",
+        })
+    }
+}
+
+/// Why a contact stiffness cannot be given.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StiffnessError {
+    /// Hertz theory refuses the geometry or the materials at one race.
+    #[error("{race} race: {source}")]
+    Hertz {
+        /// The race concerned.
+        race: Race,
+        /// What Hertz theory says.
+        source: HertzError,
+    },
+    /// A given stiffness is not positive and finite.
+    #[error("stiffness.{race} = {value} N/m^1.5 must be positive and finite")]
+    Given {
+        /// The race concerned.
+        race: Race,
+        /// The value that was given, N/m^{3/2}.
+        value: f64,
+    },
+}
+
+/// Full Hertz results at both races, for the report.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RaceContacts {
+    /// Ball on inner race.
+    pub inner: HertzStiffness,
+    /// Ball on outer race.
+    pub outer: HertzStiffness,
+}
+
+impl RaceContacts {
+    /// Hertz theory for `ball` against each race of `bearing` (the paper's (21), (22), nominal radii).
+    ///
+    /// # Errors
+    /// [`StiffnessError::Hertz`] names the race and the reason.
+    pub fn new(
+        bearing: &BearingGeometry,
+        ball: ContactMaterial,
+        inner_race: ContactMaterial,
+        outer_race: ContactMaterial,
+    ) -> Result<Self, StiffnessError> {
+        let contact = |race, material: ContactMaterial, curvatures| {
+            hertz::effective_modulus(
+                [ball.young, material.young],
+                [ball.poisson, material.poisson],
+            )
+            .and_then(|modulus| hertz::stiffness(bearing.ball_curvatures(), curvatures, modulus))
+            .map_err(|source| StiffnessError::Hertz { race, source })
+        };
+        Ok(Self {
+            inner: contact(Race::Inner, inner_race, bearing.inner_curvatures())?,
+            outer: contact(Race::Outer, outer_race, bearing.outer_curvatures())?,
+        })
+    }
+
+    /// The two stiffnesses alone.
+    #[must_use]
+    pub fn stiffness(&self) -> ContactStiffness {
+        ContactStiffness {
+            inner: self.inner.stiffness,
+            outer: self.outer.stiffness,
+        }
+    }
+}
+
+/// k of `F = k δ^{3/2}` at each race, N/m^{3/2}, positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactStiffness {
+    inner: f64,
+    outer: f64,
+}
+
+impl ContactStiffness {
+    /// From geometry and materials; see [`RaceContacts::new`].
+    ///
+    /// # Errors
+    /// [`StiffnessError::Hertz`].
+    pub fn hertz(
+        bearing: &BearingGeometry,
+        ball: ContactMaterial,
+        inner_race: ContactMaterial,
+        outer_race: ContactMaterial,
+    ) -> Result<Self, StiffnessError> {
+        Ok(RaceContacts::new(bearing, ball, inner_race, outer_race)?.stiffness())
+    }
+
+    /// As given, N/m^{3/2}.
+    ///
+    /// # Errors
+    /// [`StiffnessError::Given`] unless positive and finite.
+    pub fn given(inner: f64, outer: f64) -> Result<Self, StiffnessError> {
+        for (race, value) in [(Race::Inner, inner), (Race::Outer, outer)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(StiffnessError::Given { race, value });
+            }
+        }
+        Ok(Self { inner, outer })
+    }
+
+    /// Ball on inner race, N/m^{3/2}.
+    #[must_use]
+    #[inline]
+    pub fn inner(&self) -> f64 {
+        self.inner
+    }
+
+    /// Ball on outer race, N/m^{3/2}.
+    #[must_use]
+    #[inline]
+    pub fn outer(&self) -> f64 {
+        self.outer
+    }
+
+    /// Both in series, N/m^{3/2}: `(k_i^{-2/3} + k_o^{-2/3})^{-3/2}`, shaft against outer race through one ball.
+    #[must_use]
+    pub fn series(&self) -> f64 {
+        let compliance = self.inner.powf(-2.0 / 3.0) + self.outer.powf(-2.0 / 3.0);
+        compliance.powf(-1.5)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bearing::samples::{source_bearing, source_stiffness, steel};
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn source_bearing_in_steel() {
+        let stiffness = source_stiffness();
+        assert_relative_eq!(stiffness.inner(), 1.257e10, max_relative = 5e-4);
+        assert_relative_eq!(stiffness.outer(), 1.129e10, max_relative = 5e-4);
+        assert_relative_eq!(stiffness.series(), 4.21e9, max_relative = 1.5e-3);
+    }
+
+    #[test]
+    fn a_softer_outer_race_softens_the_outer_contact_alone() {
+        let soft = ContactMaterial {
+            young: 103e9,
+            poisson: 0.3,
+        };
+        let mixed = ContactStiffness::hertz(&source_bearing(), steel(), steel(), soft).unwrap();
+        let all = source_stiffness();
+        assert_relative_eq!(mixed.inner(), all.inner(), max_relative = 1e-15);
+        assert_relative_eq!(mixed.outer(), all.outer() * 2.0 / 3.0, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn errors_name_the_race() {
+        let bad = ContactMaterial {
+            young: -1.0,
+            poisson: 0.3,
+        };
+        let error = ContactStiffness::hertz(&source_bearing(), steel(), steel(), bad).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "outer race: Young's modulus -1 Pa must be positive"
+        );
+        let error = ContactStiffness::given(0.0, 1.0).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "stiffness.inner = 0 N/m^1.5 must be positive and finite"
+        );
+        assert!(ContactStiffness::given(1.0, f64::NAN).is_err());
+    }
+}

@@ -1,0 +1,34 @@
+//! The source paper's bearing, for tests.
+
+use super::{BearingDimensions, BearingGeometry, ContactMaterial, ContactStiffness};
+
+/// Table 1 of the source, SI.
+pub fn source_dimensions() -> BearingDimensions {
+    BearingDimensions {
+        balls: 7,
+        ball_radius: 1e-3,
+        ball_mass: 3.29e-5,
+        inner_race_radius: 2.754e-3,
+        outer_race_radius: 4.7565e-3,
+        inner_groove_radius: 1.04e-3,
+        outer_groove_radius: 1.07e-3,
+    }
+}
+
+/// The source's bearing, checked.
+pub fn source_bearing() -> BearingGeometry {
+    BearingGeometry::new(source_dimensions()).unwrap()
+}
+
+/// Bearing steel, 206 GPa.
+pub fn steel() -> ContactMaterial {
+    ContactMaterial {
+        young: 206e9,
+        poisson: 0.3,
+    }
+}
+
+/// Hertz stiffness of the source's bearing in steel.
+pub fn source_stiffness() -> ContactStiffness {
+    ContactStiffness::hertz(&source_bearing(), steel(), steel(), steel()).unwrap()
+}

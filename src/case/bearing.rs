@@ -1,0 +1,218 @@
+//! `[bearing]`: balls, races and contacts.
+
+use serde::{Deserialize, Serialize};
+
+use super::defect::Defect;
+use super::union::{Loose, Mismatch, written_as};
+
+/// A deep-groove ball bearing, its outer ring fixed to the housing. Lengths in m.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bearing {
+    /// Number of balls, 3 to 40.
+    pub balls: usize,
+    /// Ball radius, > 0.
+    pub ball_radius: f64,
+    /// Mass of one ball in kg, > 0; excludes `density`. See [`Bearing::ball_inertia`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ball_mass: Option<f64>,
+    /// Density of the balls in kg/m^3, > 0; excludes `ball_mass`. See [`Bearing::ball_inertia`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// Name of the balls' material, for the contact stiffness and, by default, for their mass.
+    #[serde(default = "bearing_steel")]
+    pub ball_material: String,
+    /// Names of the races' materials, for the contact stiffness.
+    #[serde(default)]
+    pub race_material: RaceMaterial,
+    /// Radial play from the centred position to first contact; negative: preload. `None`: what the radii give.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_play: Option<f64>,
+    /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^1.5 (1 + c delta').
+    #[serde(default)]
+    pub contact_damping: f64,
+    /// How balls follow their radial motion.
+    #[serde(default)]
+    pub balls_inertia: BallsInertia,
+    /// Radius of the inner race at the groove's bottom, > 0.
+    pub inner_race_radius: f64,
+    /// Radius of the outer race at the groove's bottom, above that of the inner one.
+    pub outer_race_radius: f64,
+    /// Radius of the inner groove across the rolling direction, above the ball's.
+    pub inner_groove_radius: f64,
+    /// Radius of the outer groove across the rolling direction, above the ball's.
+    pub outer_groove_radius: f64,
+    /// Contact stiffness.
+    #[serde(default)]
+    pub stiffness: ContactStiffness,
+    /// Which equations of motion.
+    #[serde(default)]
+    pub formulation: Formulation,
+    /// Angle of the first ball at t = 0 and for linearisation, in degrees; 270 puts a ball under the load.
+    #[serde(default = "under_the_load")]
+    pub first_ball_deg: f64,
+    /// Share of the cage's rolling speed that is lost by slip, >= 0 and < 1; 0: pure rolling.
+    #[serde(default)]
+    pub slip: f64,
+    /// Localised defects; may be empty.
+    #[serde(default)]
+    pub defects: Vec<Defect>,
+}
+
+fn bearing_steel() -> String {
+    "bearing steel".to_owned()
+}
+
+fn under_the_load() -> f64 {
+    270.0
+}
+
+/// Where a ball's mass comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BallInertia {
+    /// Given: mass of one ball in kg.
+    Mass(f64),
+    /// A full sphere of this density in kg/m^3.
+    Density(f64),
+    /// A full sphere of the ball material's density.
+    Material,
+}
+
+impl Bearing {
+    /// Returns where a ball's mass comes from.
+    #[must_use]
+    pub fn ball_inertia(&self) -> BallInertia {
+        match (self.ball_mass, self.density) {
+            (Some(mass), _) => BallInertia::Mass(mass),
+            (None, Some(density)) => BallInertia::Density(density),
+            (None, None) => BallInertia::Material,
+        }
+    }
+
+    /// Returns the radial play in m: the given one, else R - r - 2 rho_b from the radii.
+    #[must_use]
+    pub fn play(&self) -> f64 {
+        self.radial_play.unwrap_or_else(|| self.play_from_radii())
+    }
+
+    /// Returns the radial play that the radii give, R - r - 2 rho_b, in m.
+    #[must_use]
+    pub fn play_from_radii(&self) -> f64 {
+        self.outer_race_radius - self.inner_race_radius - 2.0 * self.ball_radius
+    }
+}
+
+/// How balls follow their radial motion.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BallsInertia {
+    /// With their mass.
+    #[default]
+    Dynamic,
+}
+
+/// Which equations of motion.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formulation {
+    /// Ball positions from the fixed centre: symmetric, keeps energy.
+    #[default]
+    Consistent,
+    /// The source paper's, its misprints corrected; counts a rigid motion of the ring twice. For reproduction only.
+    Printed,
+}
+
+/// The races' materials, by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RaceMaterial {
+    /// Of the inner race.
+    pub inner: String,
+    /// Of the outer race.
+    pub outer: String,
+}
+
+impl Default for RaceMaterial {
+    fn default() -> Self {
+        Self {
+            inner: bearing_steel(),
+            outer: bearing_steel(),
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InnerAndOuter<T> {
+    inner: T,
+    outer: T,
+}
+
+written_as!(RaceMaterial, Loose<InnerAndOuter<String>>);
+
+impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<InnerAndOuter<String>>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(name) => Ok(Self {
+                inner: name.clone(),
+                outer: name,
+            }),
+            Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
+            other => Err(other.mismatch("a material's name, or { inner = NAME, outer = NAME }")),
+        }
+    }
+}
+
+impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
+    fn from(races: RaceMaterial) -> Self {
+        let RaceMaterial { inner, outer } = races;
+        if inner == outer {
+            Self::Word(inner)
+        } else {
+            Self::Table(InnerAndOuter { inner, outer })
+        }
+    }
+}
+
+/// Contact stiffness k of F = k delta^1.5.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum ContactStiffness {
+    /// From the geometry and the materials.
+    #[default]
+    Hertz,
+    /// Given, in N/m^1.5, each > 0.
+    Given {
+        /// Between ball and inner race.
+        inner: f64,
+        /// Between ball and outer race.
+        outer: f64,
+    },
+}
+
+written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>);
+
+impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<InnerAndOuter<f64>>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["hertz"],
+            }),
+            Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),
+            other => Err(other.mismatch("\"hertz\", or { inner = NUMBER, outer = NUMBER }")),
+        }
+    }
+}
+
+impl From<ContactStiffness> for Loose<InnerAndOuter<f64>> {
+    fn from(stiffness: ContactStiffness) -> Self {
+        match stiffness {
+            ContactStiffness::Hertz => Self::Word("hertz".to_owned()),
+            ContactStiffness::Given { inner, outer } => Self::Table(InnerAndOuter { inner, outer }),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Bearing geometry and defects.
+
+use std::f64::consts::PI;
+
+use super::super::{Bearing, Case, ContactStiffness};
+use super::range::{above, above_zero, below, known_material, ratio, zero_or_more};
+use super::rule::{BrokenRule, Rule};
+
+pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
+    let Some(bearing) = &case.bearing else {
+        return Ok(());
+    };
+    if case.ring.is_none() {
+        return Err(Rule::Needs { other: "[ring]" }.at("bearing"));
+    }
+    if !(3..=40).contains(&bearing.balls) {
+        let (found, expected) = (bearing.balls, "3 to 40 balls");
+        return Err(Rule::Count { found, expected }.at("bearing.balls"));
+    }
+    ball(case, bearing)?;
+    races(case, bearing)?;
+    room(bearing)?;
+    zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
+    if let ContactStiffness::Given { inner, outer } = bearing.stiffness {
+        above_zero("bearing.stiffness.inner", inner)?;
+        above_zero("bearing.stiffness.outer", outer)?;
+    }
+    ratio("bearing.slip", bearing.slip)
+}
+
+fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
+    above_zero("bearing.ball_radius", bearing.ball_radius)?;
+    if let Some(mass) = bearing.ball_mass {
+        above_zero("bearing.ball_mass", mass)?;
+    }
+    if let Some(density) = bearing.density {
+        above_zero("bearing.density", density)?;
+    }
+    if bearing.ball_mass.is_some() && bearing.density.is_some() {
+        let other = "bearing.density";
+        return Err(Rule::Beside { other }.at("bearing.ball_mass"));
+    }
+    known_material(case, "bearing.ball_material", &bearing.ball_material)
+}
+
+fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
+    let races = &bearing.race_material;
+    known_material(case, "bearing.race_material", &races.inner)?;
+    known_material(case, "bearing.race_material", &races.outer)?;
+    let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
+    above_zero("bearing.inner_race_radius", inner)?;
+    above(
+        "bearing.outer_race_radius",
+        bearing.outer_race_radius,
+        "`bearing.inner_race_radius`",
+        inner,
+    )?;
+    for (key, groove) in [
+        ("bearing.inner_groove_radius", bearing.inner_groove_radius),
+        ("bearing.outer_groove_radius", bearing.outer_groove_radius),
+    ] {
+        above(key, groove, "`bearing.ball_radius`", ball)?;
+    }
+    Ok(())
+}
+
+/// The balls fit between the races and side by side.
+fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
+    let limit = 0.1 * bearing.ball_radius;
+    let play = bearing.play_from_radii();
+    if bearing.radial_play.is_none() && play.abs() > limit {
+        return Err(Rule::BallsDoNotFit { play, limit }.at("bearing.outer_race_radius"));
+    }
+    if let Some(found) = bearing.radial_play
+        && found.abs() > limit
+    {
+        let (how, what) = ("at most", "a tenth of the ball's radius either way");
+        let other = limit;
+        return Err(Rule::Beyond {
+            found,
+            how,
+            what,
+            other,
+        }
+        .at("bearing.radial_play"));
+    }
+    let pitch = 0.5 * (bearing.inner_race_radius + bearing.outer_race_radius);
+    // A ball of the pitch radius or more leaves no angle: then none fits beside it.
+    let half_angle = (bearing.ball_radius / pitch).min(1.0).asin();
+    // A small positive number.
+    let most = (PI / half_angle).floor() as usize;
+    if bearing.balls > most {
+        let found = bearing.balls;
+        return Err(Rule::BallsOverlap { found, most }.at("bearing.balls"));
+    }
+    Ok(())
+}
+
+pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
+    let Some(bearing) = &case.bearing else {
+        return Ok(());
+    };
+    let circumference = 2.0 * PI * bearing.outer_race_radius;
+    for (index, defect) in bearing.defects.iter().enumerate() {
+        let at = |key: &str| format!("bearing.defects[{index}].{key}");
+        above_zero(at("length"), defect.length)?;
+        above_zero(at("width"), defect.width)?;
+        above_zero(at("depth"), defect.depth)?;
+        above_zero(at("rim_radius"), defect.rim_radius)?;
+        below(
+            at("length"),
+            defect.length,
+            "the race's circumference",
+            circumference,
+        )?;
+        below(
+            at("depth"),
+            defect.depth,
+            "`bearing.ball_radius`",
+            bearing.ball_radius,
+        )?;
+        below(
+            at("rim_radius"),
+            defect.rim_radius,
+            "half the defect's length",
+            0.5 * defect.length,
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! The one place where values are checked against their ranges and against each other.
+
+mod contact;
+mod range;
+mod rule;
+mod structure;
+#[cfg(test)]
+mod tests;
+mod time;
+
+pub use rule::{BrokenRule, Rule};
+
+use super::{Case, SensorSpot};
+
+impl Case {
+    /// Checks every range and every relation between values that can be checked without the mesh.
+    ///
+    /// # Errors
+    /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
+    pub fn validate(&self) -> Result<(), BrokenRule> {
+        if self.housing.is_none() && self.ring.is_none() {
+            return Err(Rule::NothingToModel.at("housing"));
+        }
+        structure::materials(self)?;
+        structure::housing(self)?;
+        structure::ring(self)?;
+        contact::bearing(self)?;
+        contact::defects(self)?;
+        time::shaft(self)?;
+        time::damping(self)?;
+        time::speed(self)?;
+        time::sensors(self)?;
+        time::modes(self)?;
+        time::condense(self)?;
+        time::accuracy(self)?;
+        time::transient(self)?;
+        time::analysis(self)
+    }
+}
+
+/// Returns every mesh group that a case names, with the key that names it.
+pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
+    let mut groups = Vec::new();
+    if let Some(housing) = &case.housing {
+        for (index, part) in housing.parts.iter().enumerate() {
+            groups.push((format!("housing.parts[{index}].group"), part.group.as_str()));
+        }
+        for (index, support) in housing.supports.iter().enumerate() {
+            let key = format!("housing.supports[{index}].group");
+            groups.push((key, support.group.as_str()));
+        }
+        for (index, mass) in housing.masses.iter().enumerate() {
+            groups.push((
+                format!("housing.masses[{index}].group"),
+                mass.group.as_str(),
+            ));
+        }
+    }
+    if let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
+        groups.push(("ring.tie.group".to_owned(), tie.group.as_str()));
+    }
+    for (index, sensor) in case.sensors.iter().enumerate() {
+        if let SensorSpot::Group(group) = &sensor.spot {
+            groups.push((format!("sensors[{index}].group"), group.as_str()));
+        }
+    }
+    groups
+}

@@ -1,0 +1,149 @@
+//! Ranges that many keys share.
+
+use super::super::Case;
+use super::super::nearest::Choices;
+use super::rule::{BrokenRule, Rule};
+
+fn within(
+    holds: bool,
+    key: impl Into<String>,
+    found: f64,
+    expected: &'static str,
+) -> Result<(), BrokenRule> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Rule::Range { found, expected }.at(key))
+    }
+}
+
+pub(super) fn above_zero(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(found > 0.0, key, found, "a number above 0")
+}
+
+pub(super) fn zero_or_more(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(found >= 0.0, key, found, "a number not below 0")
+}
+
+/// Zero included, one not.
+pub(super) fn ratio(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        (0.0..1.0).contains(&found),
+        key,
+        found,
+        "a number from 0 to below 1",
+    )
+}
+
+/// Neither zero nor one.
+pub(super) fn fraction(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        found > 0.0 && found < 1.0,
+        key,
+        found,
+        "a number above 0 and below 1",
+    )
+}
+
+/// Zero not, one included.
+pub(super) fn share(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        found > 0.0 && found <= 1.0,
+        key,
+        found,
+        "a number above 0, at most 1",
+    )
+}
+
+pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        found > -1.0 && found < 0.5,
+        key,
+        found,
+        "a number above -1 and below 0.5",
+    )
+}
+
+pub(super) fn above(
+    key: impl Into<String>,
+    found: f64,
+    what: &'static str,
+    other: f64,
+) -> Result<(), BrokenRule> {
+    if found > other {
+        Ok(())
+    } else {
+        Err(Rule::NotAbove { found, what, other }.at(key))
+    }
+}
+
+pub(super) fn below(
+    key: impl Into<String>,
+    found: f64,
+    what: &'static str,
+    other: f64,
+) -> Result<(), BrokenRule> {
+    if found < other {
+        Ok(())
+    } else {
+        let how = "below";
+        Err(Rule::Beyond {
+            found,
+            how,
+            what,
+            other,
+        }
+        .at(key))
+    }
+}
+
+pub(super) fn direction(key: impl Into<String>, vector: [f64; 3]) -> Result<(), BrokenRule> {
+    if vector.iter().any(|part| part.abs() > 0.0) {
+        Ok(())
+    } else {
+        Err(Rule::NoDirection.at(key))
+    }
+}
+
+pub(super) fn not_empty(
+    key: impl Into<String>,
+    length: usize,
+    expected: &'static str,
+) -> Result<(), BrokenRule> {
+    if length > 0 {
+        Ok(())
+    } else {
+        Err(Rule::Empty { expected }.at(key))
+    }
+}
+
+/// No name twice; `key` gives the path of the item at a position.
+pub(super) fn each_once<'a>(
+    names: impl IntoIterator<Item = &'a str>,
+    key: impl Fn(usize) -> String,
+) -> Result<(), BrokenRule> {
+    let mut seen = Vec::new();
+    for (index, name) in names.into_iter().enumerate() {
+        if seen.contains(&name) {
+            let name = name.to_owned();
+            return Err(Rule::Repeated { name }.at(key(index)));
+        }
+        seen.push(name);
+    }
+    Ok(())
+}
+
+pub(super) fn known_material(
+    case: &Case,
+    key: impl Into<String>,
+    name: &str,
+) -> Result<(), BrokenRule> {
+    if case.material(name).is_some() {
+        return Ok(());
+    }
+    Err(Rule::UnknownMaterial {
+        found: name.to_owned(),
+        names: Box::new(Choices::new(name, case.materials.keys().cloned().collect())),
+    }
+    .at(key))
+}

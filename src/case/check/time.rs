@@ -1,0 +1,202 @@
+//! What moves, what is recorded, and how finely.
+
+use super::super::{
+    Case, Damping, FixedInterfaceModes, ModeExtent, ModesKept, SensorSpot, StepLength,
+};
+use super::range::{
+    above, above_zero, below, direction, each_once, fraction, not_empty, ratio, zero_or_more,
+};
+use super::rule::{BrokenRule, Rule};
+
+/// Signals that every simulation records under these names.
+const RESERVED_NAMES: [&str; 6] = [
+    "time_s",
+    "shaft_x",
+    "shaft_y",
+    "ball_radius",
+    "outer_force",
+    "inner_force",
+];
+
+pub(super) fn shaft(case: &Case) -> Result<(), BrokenRule> {
+    if let Some(shaft) = &case.shaft {
+        above_zero("shaft.mass", shaft.mass)?;
+        zero_or_more("shaft.unbalance", shaft.unbalance)?;
+    }
+    Ok(())
+}
+
+pub(super) fn damping(case: &Case) -> Result<(), BrokenRule> {
+    match &case.damping {
+        None => Ok(()),
+        Some(Damping::Modal(modal)) => ratio("damping.modal", *modal),
+        Some(Damping::Rayleigh { alpha, beta }) => {
+            zero_or_more("damping.alpha", *alpha)?;
+            zero_or_more("damping.beta", *beta)
+        }
+        Some(Damping::Ratios(points)) => {
+            for (index, point) in points.iter().enumerate() {
+                let at = |key: &str| format!("damping.ratios[{index}].{key}");
+                above_zero(at("frequency_hz"), point.frequency_hz)?;
+                ratio(at("ratio"), point.ratio)?;
+            }
+            above(
+                "damping.ratios[1].frequency_hz",
+                points[1].frequency_hz,
+                "the frequency before it",
+                points[0].frequency_hz,
+            )
+        }
+    }
+}
+
+pub(super) fn speed(case: &Case) -> Result<(), BrokenRule> {
+    let Some(speed) = &case.speed else {
+        return Ok(());
+    };
+    not_empty("speed.profile", speed.profile.len(), "at least one point")?;
+    for (index, point) in speed.profile.iter().enumerate() {
+        zero_or_more(format!("speed.profile[{index}].hz"), point.hz)?;
+    }
+    for (index, pair) in speed.profile.windows(2).enumerate() {
+        let key = format!("speed.profile[{}].time", index + 1);
+        above(key, pair[1].time, "the time before it", pair[0].time)?;
+    }
+    Ok(())
+}
+
+pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
+    for (index, sensor) in case.sensors.iter().enumerate() {
+        let at = |key: &str| format!("sensors[{index}].{key}");
+        not_empty(at("name"), sensor.name.len(), "a name")?;
+        if RESERVED_NAMES.contains(&sensor.name.as_str()) {
+            let name = sensor.name.clone();
+            return Err(Rule::ReservedName { name }.at(at("name")));
+        }
+        direction(at("direction"), sensor.direction)?;
+        let (key, other, present) = match sensor.spot {
+            SensorSpot::Group(_) => ("group", "[housing]", case.housing.is_some()),
+            SensorSpot::Point(_) => ("point", "[housing]", case.housing.is_some()),
+            SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
+        };
+        if !present {
+            return Err(Rule::Needs { other }.at(at(key)));
+        }
+    }
+    let names = case.sensors.iter().map(|sensor| sensor.name.as_str());
+    each_once(names, |index| format!("sensors[{index}].name"))
+}
+
+fn at_least_one(key: &str, found: usize) -> Result<(), BrokenRule> {
+    if found > 0 {
+        Ok(())
+    } else {
+        let expected = "at least 1";
+        Err(Rule::Count { found, expected }.at(key))
+    }
+}
+
+pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
+    match case.modes.extent {
+        ModeExtent::Count(count) => at_least_one("modes.count", count)?,
+        ModeExtent::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
+    }
+    for (index, expected) in case.modes.expected.iter().enumerate() {
+        above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
+        fraction(format!("modes.expected[{index}].within"), expected.within)?;
+    }
+    for (index, variant) in case.modes.variants.iter().enumerate() {
+        let key = format!("modes.variants[{index}].set");
+        not_empty(key, variant.set.len(), "at least one KEY=VALUE")?;
+    }
+    Ok(())
+}
+
+pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
+    match case.condense.fixed_interface_modes {
+        FixedInterfaceModes::Auto | FixedInterfaceModes::Count(_) => Ok(()),
+        FixedInterfaceModes::UpToHz(limit) => {
+            above_zero("condense.fixed_interface_modes.up_to_hz", limit)
+        }
+    }
+}
+
+pub(super) fn accuracy(case: &Case) -> Result<(), BrokenRule> {
+    let Some(accuracy) = &case.accuracy else {
+        return Ok(());
+    };
+    let [lowest, highest] = accuracy.band_hz;
+    zero_or_more("accuracy.band_hz[0]", lowest)?;
+    above(
+        "accuracy.band_hz[1]",
+        highest,
+        "the lowest frequency",
+        lowest,
+    )?;
+    fraction("accuracy.target", accuracy.target)
+}
+
+pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
+    let Some(transient) = &case.transient else {
+        return Ok(());
+    };
+    zero_or_more("transient.start", transient.start)?;
+    above(
+        "transient.end",
+        transient.end,
+        "`transient.start`",
+        transient.start,
+    )?;
+    if let StepLength::Seconds(step) = transient.step {
+        above_zero("transient.step", step)?;
+        let length = transient.end - transient.start;
+        below("transient.step", step, "the simulated time", length)?;
+    }
+    if let ModesKept::Count(count) = transient.modes {
+        at_least_one("transient.modes", count)?;
+    }
+    above_zero("transient.output_hz", transient.output_hz)?;
+    if let Some(accuracy) = &case.accuracy
+        && transient.output_hz < 2.0 * accuracy.band_hz[1]
+    {
+        return Err(Rule::Beyond {
+            found: transient.output_hz,
+            how: "at least",
+            what: "twice the highest frequency of `accuracy.band_hz`",
+            other: 2.0 * accuracy.band_hz[1],
+        }
+        .at("transient.output_hz"));
+    }
+    Ok(())
+}
+
+pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
+    if let Some(corner) = case.analysis.high_pass_hz {
+        above_zero("analysis.high_pass_hz", corner)?;
+        if let Some(transient) = &case.transient {
+            let limit = 0.5 * transient.output_hz;
+            below(
+                "analysis.high_pass_hz",
+                corner,
+                "half of `transient.output_hz`",
+                limit,
+            )?;
+        }
+    }
+    for (index, window) in case.analysis.envelope.iter().enumerate() {
+        let key = format!("analysis.envelope[{index}]");
+        above(format!("{key}.to"), window.to, "`from`", window.from)?;
+        if let Some(transient) = &case.transient
+            && (window.from < transient.start || window.to > transient.end)
+        {
+            return Err(Rule::OutsideRun {
+                from: window.from,
+                to: window.to,
+                start: transient.start,
+                end: transient.end,
+            }
+            .at(key));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! The case file: what a user writes, read into types and checked before anything is computed.
+//!
+//! [`Case::load`] goes through these stages, each of which names file and line (or `--set KEY`), key, what was found
+//! and what was expected:
+//!
+//! 1. text to a tree of values, every one with its line; `--set` arguments change single values;
+//! 2. keys and values of the format that this version cannot honour are refused, never ignored;
+//! 3. the tree becomes a [`Case`]; unknown keys and names come with the nearest valid one;
+//! 4. [`Case::validate`]: ranges, and values that contradict each other;
+//! 5. the same for each of [`Case::variants`].
+//!
+//! What a command needs is checked by [`Case::ready_for`], what the mesh must have by [`Case::check_groups`].
+//! Everything is in SI units unless a name says otherwise (`_deg`, `_hz`); x points right, y up.
+//!
+//! A [`Case`] serialises to the form of the file, all defaults filled in: the echo that results carry.
+//!
+//! **Limitations**: the first error is reported, not all of them; of several commands only those of [`Purpose`] are
+//! known here.
+
+mod bearing;
+mod check;
+mod decode;
+mod defect;
+mod document;
+mod error;
+mod fault;
+mod housing;
+mod load;
+mod material;
+mod modes;
+mod motion;
+mod nearest;
+mod path;
+mod ring;
+mod sensor;
+mod set;
+#[cfg(test)]
+mod tests;
+mod transient;
+mod tree;
+mod union;
+mod unsupported;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+pub use bearing::{
+    BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial,
+};
+pub use check::{BrokenRule, Rule};
+pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
+pub use document::Source;
+pub use error::{CaseError, Place};
+pub use housing::{
+    Axis, Hold, Housing, Integration, Part, PerNodeOrGroup, Plane, PlaneAssumption,
+    PointMass, Spring, Support,
+};
+pub use load::{Purpose, VariantCase};
+pub use material::{BUILT_IN_MATERIALS, Material};
+pub use modes::{
+    Condense, Expected, FixedInterfaceModes, Interface, Linearise, ModeExtent, Modes, Variant,
+};
+pub use motion::{Damping, Load, RatioAt, Shaft, Speed, SpeedPoint};
+pub use nearest::Choices;
+pub use ring::{
+    Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
+};
+pub use sensor::{Sensor, SensorSpot};
+pub use set::SetProblem;
+pub use transient::{Accuracy, Analysis, Method, ModesKept, StepLength, Transient, Window};
+
+/// One case: everything that a command computes from, but the mesh.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What the case is about; the file's name where the file says nothing.
+    #[serde(default)]
+    pub title: String,
+    /// Materials by name, the built-in ones included.
+    #[serde(default)]
+    pub materials: BTreeMap<String, Material>,
+    /// The housing; `None`: the ring on its springs alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub housing: Option<Housing>,
+    /// The ring; `None`: the housing alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ring: Option<Ring>,
+    /// Balls, races and contacts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bearing: Option<Bearing>,
+    /// The shaft with the inner ring.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaft: Option<Shaft>,
+    /// Damping of ring and housing; `None`: undamped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Damping>,
+    /// Shaft speed over time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<Speed>,
+    /// Accelerometers.
+    #[serde(default)]
+    pub sensors: Vec<Sensor>,
+    /// What the `modes` command computes.
+    #[serde(default)]
+    pub modes: Modes,
+    /// How the housing is condensed.
+    #[serde(default)]
+    pub condense: Condense,
+    /// What the signals must be good for; see [`Case::band_hz`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The simulation in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transient: Option<Transient>,
+    /// What is made of the signals.
+    #[serde(default)]
+    pub analysis: Analysis,
+    /// Where the case came from.
+    #[serde(skip)]
+    pub source: Source,
+}
+
+impl Case {
+    /// Returns a material by name, given or built in.
+    #[must_use]
+    pub fn material(&self, name: &str) -> Option<&Material> {
+        self.materials.get(name)
+    }
+
+    /// Returns the mass of one ball in kg: given, or that of a full sphere, m = 4/3 pi rho_b^3 times the density.
+    ///
+    /// `None` without a bearing, or when its ball material is none of the case's (which [`Case::validate`] refuses).
+    #[must_use]
+    pub fn ball_mass(&self) -> Option<f64> {
+        let bearing = self.bearing.as_ref()?;
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * bearing.ball_radius.powi(3);
+        match bearing.ball_inertia() {
+            BallInertia::Mass(mass) => Some(mass),
+            BallInertia::Density(density) => Some(density * volume),
+            BallInertia::Material => {
+                let material = self.material(&bearing.ball_material)?;
+                Some(material.density * volume)
+            }
+        }
+    }
+
+    /// Returns the frequencies of interest in Hz, lowest first: those of `[accuracy]`, else from 0 to half the sampling
+    /// rate; `None` when the case has neither.
+    #[must_use]
+    pub fn band_hz(&self) -> Option<[f64; 2]> {
+        match (&self.accuracy, &self.transient) {
+            (Some(accuracy), _) => Some(accuracy.band_hz),
+            (None, Some(transient)) => Some([0.0, 0.5 * transient.output_hz]),
+            (None, None) => None,
+        }
+    }
+
+    /// Returns the case file's name without folder and ending, or `case` if it has none.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.source.path.file_stem().map_or_else(
+            || "case".to_owned(),
+            |stem| stem.to_string_lossy().into_owned(),
+        )
+    }
+}

@@ -1,0 +1,211 @@
+//! `[modes]` and `[condense]`: which eigenfrequencies, and how many modes a reduction keeps.
+
+use serde::{Deserialize, Serialize};
+
+use super::union::{Loose, Mismatch, written_as};
+
+/// What the `modes` command computes and checks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// How many modes.
+    pub extent: ModeExtent,
+    /// Frequencies to be found among them; may be empty.
+    pub expected: Vec<Expected>,
+    /// Whether the bearing's contacts act.
+    pub linearise: Linearise,
+    /// The same case with other keys set, shown beside; may be empty.
+    pub variants: Vec<Variant>,
+}
+
+/// How many modes are computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModeExtent {
+    /// The lowest so many, at least 1.
+    Count(usize),
+    /// All below this frequency in Hz, > 0.
+    UpToHz(f64),
+}
+
+impl Default for Modes {
+    fn default() -> Self {
+        Self {
+            extent: ModeExtent::Count(20),
+            expected: Vec::new(),
+            linearise: Linearise::None,
+            variants: Vec::new(),
+        }
+    }
+}
+
+/// A frequency that must be found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// In Hz, > 0.
+    pub hz: f64,
+    /// Allowed relative difference, > 0 and < 1.
+    pub within: f64,
+    /// What moves.
+    #[serde(default)]
+    pub what: String,
+}
+
+/// Whether the bearing's contacts act on the modes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Linearise {
+    /// Housing and ring alone.
+    #[default]
+    None,
+    /// Shaft, balls and contacts at the static equilibrium included.
+    Static,
+}
+
+/// The same case with some keys set to other values.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variant {
+    /// What differs, in words.
+    pub what: String,
+    /// `KEY=VALUE`, as for the command line's `--set`; at least one.
+    pub set: Vec<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModesForm {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    count: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    up_to_hz: Option<f64>,
+    #[serde(default)]
+    expected: Vec<Expected>,
+    #[serde(default)]
+    linearise: Linearise,
+    #[serde(default)]
+    variants: Vec<Variant>,
+}
+
+written_as!(Modes, ModesForm);
+
+impl TryFrom<ModesForm> for Modes {
+    type Error = Mismatch;
+
+    fn try_from(form: ModesForm) -> Result<Self, Mismatch> {
+        let extent = match (form.count, form.up_to_hz) {
+            (Some(count), None) => ModeExtent::Count(count),
+            (None, Some(limit)) => ModeExtent::UpToHz(limit),
+            (None, None) => Self::default().extent,
+            (Some(_), Some(_)) => {
+                return Err(Mismatch::form("both", "one of `count`, `up_to_hz`"));
+            }
+        };
+        Ok(Self {
+            extent,
+            expected: form.expected,
+            linearise: form.linearise,
+            variants: form.variants,
+        })
+    }
+}
+
+impl From<Modes> for ModesForm {
+    fn from(modes: Modes) -> Self {
+        let (count, up_to_hz) = match modes.extent {
+            ModeExtent::Count(count) => (Some(count), None),
+            ModeExtent::UpToHz(limit) => (None, Some(limit)),
+        };
+        Self {
+            count,
+            up_to_hz,
+            expected: modes.expected,
+            linearise: modes.linearise,
+            variants: modes.variants,
+        }
+    }
+}
+
+/// How the housing is condensed onto the ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condense {
+    /// What the condensed housing is attached by.
+    #[serde(default)]
+    pub interface: Interface,
+    /// How many fixed-interface modes are kept.
+    #[serde(default)]
+    pub fixed_interface_modes: FixedInterfaceModes,
+    /// Whether the residual flexibility of the modes left out is kept; otherwise plain Craig-Bampton.
+    #[serde(default = "yes")]
+    pub enhanced: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Default for Condense {
+    fn default() -> Self {
+        Self {
+            interface: Interface::default(),
+            fixed_interface_modes: FixedInterfaceModes::default(),
+            enhanced: yes(),
+        }
+    }
+}
+
+/// What a condensed housing is attached by.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interface {
+    /// The ring's degrees of freedom.
+    #[default]
+    Ring,
+}
+
+/// How many fixed-interface modes are kept.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum FixedInterfaceModes {
+    /// As many as the accuracy asked for needs.
+    #[default]
+    Auto,
+    /// So many, from 0.
+    Count(usize),
+    /// All below this frequency in Hz, > 0.
+    UpToHz(f64),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UpToForm {
+    up_to_hz: f64,
+}
+
+written_as!(FixedInterfaceModes, Loose<UpToForm>);
+
+impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["auto"],
+            }),
+            Loose::Whole(count) => Ok(Self::Count(count)),
+            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
+            other => Err(other.mismatch("\"auto\", a whole number or { up_to_hz = NUMBER }")),
+        }
+    }
+}
+
+impl From<FixedInterfaceModes> for Loose<UpToForm> {
+    fn from(modes: FixedInterfaceModes) -> Self {
+        match modes {
+            FixedInterfaceModes::Auto => Self::Word("auto".to_owned()),
+            FixedInterfaceModes::Count(count) => Self::Whole(count),
+            FixedInterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
+        }
+    }
+}

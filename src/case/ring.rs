@@ -1,0 +1,171 @@
+//! `[ring]`: the outer ring as curved beam elements, its supports and its tie to the housing.
+
+use serde::{Deserialize, Serialize};
+
+use super::housing::Spring;
+
+/// The ring. Angles are counted from +x towards +y, the ring's first node stands at 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// Number of nodes and of elements, 8 to 2000.
+    #[serde(default = "default_nodes")]
+    pub nodes: usize,
+    /// The cross-sections of rings fitted into each other, in any order; at least one.
+    pub sections: Vec<Section>,
+    /// How several sections act together.
+    #[serde(default)]
+    pub bond: Bond,
+    /// On which radius each section bends; sections that slip only.
+    #[serde(default)]
+    pub radius_rule: RadiusRule,
+    /// The element's interpolation.
+    #[serde(default)]
+    pub element: RingElement,
+    /// Whether shear deformation is included.
+    #[serde(default = "yes")]
+    pub shear: bool,
+    /// Whether the sections' rotary inertia is included.
+    #[serde(default = "yes")]
+    pub rotary_inertia: bool,
+    /// Radius of the ring's outer surface in m, not below any section's radius; `None`: not stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outer_radius: Option<f64>,
+    /// Springs to the ground; may be empty.
+    #[serde(default)]
+    pub supports: Vec<RingSupport>,
+    /// The connection to the housing's bore; required if and only if there is a housing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tie: Option<Tie>,
+}
+
+fn default_nodes() -> usize {
+    // Source paper, section 4: 72 elements.
+    72
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The cross-section of one ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// Name of a material.
+    pub material: String,
+    /// Area A in m^2, > 0.
+    pub area: f64,
+    /// Second moment of area I about the bending axis in m^4, > 0.
+    pub inertia: f64,
+    /// Radius of the centroid R in m, > 0.
+    pub radius: f64,
+    /// Share of the area that carries shear, > 0 and <= 1; 5/6 for a rectangle.
+    #[serde(default = "default_shear_coefficient")]
+    pub shear_coefficient: f64,
+}
+
+fn default_shear_coefficient() -> f64 {
+    5.0 / 6.0
+}
+
+/// How rings fitted into each other act together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bond {
+    /// In radial contact, free to slide: bending stiffnesses add up.
+    #[default]
+    Slip,
+    /// One body: plane sections through both.
+    Composite,
+}
+
+/// On which radius sections that slip bend.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RadiusRule {
+    /// Each on its own.
+    #[default]
+    Own,
+    /// All on the centroid weighted by EA; slip does not justify it, the source paper's frequencies need it.
+    CommonCentroid,
+}
+
+/// The ring element's interpolation.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RingElement {
+    /// Solves the unloaded circular arc exactly.
+    #[default]
+    ExactArc,
+    /// The source paper's (Raveendranath, Singh, Pradhan 1999): polynomials.
+    Raveendranath,
+}
+
+/// Springs at the ring's nodes from one angle to another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RingSupport {
+    /// First angle in degrees; a node there has a spring.
+    pub from_deg: f64,
+    /// Last angle in degrees, above the first by at most 360; a node there has none.
+    pub to_deg: f64,
+    /// Stiffness along x and y in N/m; z must be 0.
+    pub spring: Spring,
+    /// What the stiffness belongs to.
+    #[serde(default)]
+    pub per: PerNodeOrTotal,
+    /// Distance from the node outwards to where the spring attaches, in m; may be negative.
+    #[serde(default)]
+    pub offset: f64,
+}
+
+/// Whether a stiffness stands at each node or is shared by all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PerNodeOrTotal {
+    /// Each node has a spring of this stiffness.
+    #[default]
+    Node,
+    /// The springs sum up to this stiffness.
+    Total,
+}
+
+/// The ring's connection to the housing's bore.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tie {
+    /// Name of the mesh's physical group of the bore.
+    pub group: String,
+    /// What the bore follows.
+    #[serde(default)]
+    pub fit: Fit,
+    /// Bearing centre in the mesh's frame, in m.
+    #[serde(default)]
+    pub centre: [f64; 3],
+    /// Direction of the bearing's axis in the mesh's frame, any length but zero.
+    #[serde(default = "axis_z")]
+    pub axis: [f64; 3],
+    /// Direction in the mesh's frame of the ring's angle 0, any length but zero, not along the axis.
+    #[serde(default = "axis_x")]
+    pub zero_deg: [f64; 3],
+}
+
+fn axis_z() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+fn axis_x() -> [f64; 3] {
+    [1.0, 0.0, 0.0]
+}
+
+/// What the bore follows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fit {
+    /// The ring's section, radially and tangentially.
+    #[default]
+    Bonded,
+    /// The ring's radial displacement only; the ring may turn in the bore.
+    Sliding,
+}

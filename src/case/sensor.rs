@@ -1,0 +1,79 @@
+//! `[[sensors]]`: where acceleration is recorded.
+
+use serde::{Deserialize, Serialize};
+
+use super::union::{Mismatch, written_as};
+
+/// An accelerometer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Name of its signal; unique.
+    pub name: String,
+    /// Where it stands.
+    pub spot: SensorSpot,
+    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
+    pub direction: [f64; 3],
+}
+
+/// Where a sensor stands.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SensorSpot {
+    /// The mean over a physical group of the mesh.
+    Group(String),
+    /// On the ring, at an angle in degrees.
+    RingDeg(f64),
+    /// The mesh's node nearest to this point, in m.
+    Point([f64; 3]),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SensorForm {
+    name: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    group: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ring_deg: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    point: Option<[f64; 3]>,
+    direction: [f64; 3],
+}
+
+written_as!(Sensor, SensorForm);
+
+impl TryFrom<SensorForm> for Sensor {
+    type Error = Mismatch;
+
+    fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `point`";
+        let spot = match (form.group, form.ring_deg, form.point) {
+            (Some(group), None, None) => SensorSpot::Group(group),
+            (None, Some(angle), None) => SensorSpot::RingDeg(angle),
+            (None, None, Some(point)) => SensorSpot::Point(point),
+            (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
+            _ => return Err(Mismatch::form("several", ONE)),
+        };
+        Ok(Self {
+            name: form.name,
+            spot,
+            direction: form.direction,
+        })
+    }
+}
+
+impl From<Sensor> for SensorForm {
+    fn from(sensor: Sensor) -> Self {
+        let (group, ring_deg, point) = match sensor.spot {
+            SensorSpot::Group(group) => (Some(group), None, None),
+            SensorSpot::RingDeg(angle) => (None, Some(angle), None),
+            SensorSpot::Point(point) => (None, None, Some(point)),
+        };
+        Self {
+            name: sensor.name,
+            group,
+            ring_deg,
+            point,
+            direction: sensor.direction,
+        }
+    }
+}

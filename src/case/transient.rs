@@ -1,0 +1,165 @@
+//! `[accuracy]`, `[transient]` and `[analysis]`: what is simulated, how finely, and what is made of the signals.
+
+use serde::{Deserialize, Serialize};
+
+use super::union::{Loose, Mismatch, NoTable, written_as};
+
+/// What the signals must be good for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Lowest and highest frequency of interest in Hz, 0 <= lowest < highest.
+    pub band_hz: [f64; 2],
+    /// Relative error that is good enough, > 0 and < 1.
+    #[serde(default = "one_percent")]
+    pub target: f64,
+}
+
+fn one_percent() -> f64 {
+    0.01
+}
+
+/// The simulation in time. It begins in static equilibrium at the start time's speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transient {
+    /// In s, >= 0.
+    #[serde(default)]
+    pub start: f64,
+    /// In s, after the start.
+    pub end: f64,
+    /// How time is stepped.
+    #[serde(default)]
+    pub method: Method,
+    /// Length of a step.
+    #[serde(default)]
+    pub step: StepLength,
+    /// Sampling rate of the signals in Hz, at least twice the highest frequency of interest.
+    pub output_hz: f64,
+    /// Which coupled modes of ring and housing are kept.
+    #[serde(default)]
+    pub modes: ModesKept,
+    /// Whether the static compliance of the modes left out is kept, at the contacts and at the sensors.
+    #[serde(default = "yes")]
+    pub residual: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// How time is stepped.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The program's choice.
+    #[default]
+    Auto,
+    /// The linear part exactly, the contact forces held over a step.
+    Exponential,
+    /// Explicit Newmark, the source paper's.
+    NewmarkExplicit,
+}
+
+/// Length of a time step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum StepLength {
+    /// The program's choice.
+    #[default]
+    Auto,
+    /// In s, > 0.
+    Seconds(f64),
+}
+
+written_as!(StepLength, Loose<NoTable>);
+
+impl TryFrom<Loose<NoTable>> for StepLength {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["auto"],
+            }),
+            Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
+            // Steps of whole seconds are far below 2^53.
+            Loose::Whole(seconds) => Ok(Self::Seconds(seconds as f64)),
+            other => Err(other.mismatch("\"auto\" or a number")),
+        }
+    }
+}
+
+impl From<StepLength> for Loose<NoTable> {
+    fn from(step: StepLength) -> Self {
+        match step {
+            StepLength::Auto => Self::Word("auto".to_owned()),
+            StepLength::Seconds(seconds) => Self::Number(seconds),
+        }
+    }
+}
+
+/// Which coupled modes of ring and housing are kept in the simulation.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum ModesKept {
+    /// As many as the accuracy asked for needs.
+    #[default]
+    Auto,
+    /// All of them.
+    All,
+    /// The lowest so many, at least 1.
+    Count(usize),
+}
+
+written_as!(ModesKept, Loose<NoTable>);
+
+impl TryFrom<Loose<NoTable>> for ModesKept {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+            Loose::Word(word) if word == "all" => Ok(Self::All),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["auto", "all"],
+            }),
+            Loose::Whole(count) => Ok(Self::Count(count)),
+            other => Err(other.mismatch("\"auto\", \"all\" or a whole number")),
+        }
+    }
+}
+
+impl From<ModesKept> for Loose<NoTable> {
+    fn from(modes: ModesKept) -> Self {
+        match modes {
+            ModesKept::Auto => Self::Word("auto".to_owned()),
+            ModesKept::All => Self::Word("all".to_owned()),
+            ModesKept::Count(count) => Self::Whole(count),
+        }
+    }
+}
+
+/// What is made of the signals.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Analysis {
+    /// Corner of the high-pass filter before the envelope in Hz, > 0 and below half the sampling rate; `None`: no
+    /// filter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub high_pass_hz: Option<f64>,
+    /// Windows whose envelope spectra are computed; may be empty.
+    #[serde(default)]
+    pub envelope: Vec<Window>,
+}
+
+/// A stretch of time within the simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Window {
+    /// In s.
+    pub from: f64,
+    /// In s, after `from`.
+    pub to: f64,
+}

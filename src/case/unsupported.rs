@@ -1,0 +1,282 @@
+//! Keys and values of the case-file format that this version cannot honour. They are refused by name, never ignored.
+
+use super::document::Document;
+use super::error::CaseError;
+use super::path::{Step, format_path};
+use super::tree::{Mark, Node, Value};
+
+/// What under a key is not supported.
+#[derive(Debug, Clone, Copy)]
+enum Extent {
+    /// The key at all.
+    Key,
+    /// This word.
+    Word(&'static str),
+    /// A table, or an array of tables.
+    Table,
+    /// A table or an array.
+    Compound,
+}
+
+/// A key path (`*`: every item of an array), what of it is refused, and what to write instead.
+struct Unsupported {
+    path: &'static [&'static str],
+    extent: Extent,
+    instead: &'static str,
+}
+
+const fn refused(
+    path: &'static [&'static str],
+    extent: Extent,
+    instead: &'static str,
+) -> Unsupported {
+    Unsupported {
+        path,
+        extent,
+        instead,
+    }
+}
+
+const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\"";
+const OTHER_RACE: &str = "use on = \"outer\"";
+const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
+
+const UNSUPPORTED: [Unsupported; 19] = [
+    refused(
+        &["housing", "links"],
+        Extent::Key,
+        "mesh the parts as one body",
+    ),
+    refused(
+        &["housing", "integration"],
+        Extent::Word("4-point"),
+        "use integration = \"full\"",
+    ),
+    refused(&["housing", "linear"], Extent::Key, "leave the key out"),
+    refused(
+        &["bearing", "balls_inertia"],
+        Extent::Word("quasi-static"),
+        "use balls_inertia = \"dynamic\"",
+    ),
+    refused(
+        &["bearing", "slip"],
+        Extent::Compound,
+        "give one constant number",
+    ),
+    refused(
+        &["bearing", "defects", "*", "on"],
+        Extent::Word("inner"),
+        OTHER_RACE,
+    ),
+    refused(
+        &["bearing", "defects", "*", "on"],
+        Extent::Word("ball"),
+        OTHER_RACE,
+    ),
+    refused(
+        &["bearing", "defects", "*", "profile"],
+        Extent::Word("surface"),
+        OTHER_PROFILE,
+    ),
+    refused(
+        &["bearing", "defects", "*", "profile"],
+        Extent::Compound,
+        OTHER_PROFILE,
+    ),
+    refused(
+        &["shaft", "loads", "*", "force"],
+        Extent::Table,
+        "give one constant force, [x, y] in N",
+    ),
+    refused(
+        &["sensors", "*", "node"],
+        Extent::Key,
+        "give the node's place: point = [x, y, z] in m",
+    ),
+    refused(
+        &["condense", "interface"],
+        Extent::Compound,
+        "use interface = \"ring\"",
+    ),
+    refused(&["frf"], Extent::Key, "leave the table out"),
+    refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
+    refused(
+        &["transient", "method"],
+        Extent::Word("newmark"),
+        OTHER_METHOD,
+    ),
+    refused(
+        &["transient", "method"],
+        Extent::Word("generalized-alpha"),
+        OTHER_METHOD,
+    ),
+    refused(
+        &["transient", "method"],
+        Extent::Word("splitting"),
+        OTHER_METHOD,
+    ),
+    refused(
+        &["transient", "method"],
+        Extent::Word("dop853"),
+        OTHER_METHOD,
+    ),
+    refused(&["analysis", "scalogram"], Extent::Key, "leave the key out"),
+];
+
+/// Returns an error for the first thing in the document that this version cannot honour.
+///
+/// # Errors
+/// [`CaseError::NotSupported`].
+pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
+    for entry in &UNSUPPORTED {
+        let mut walked = Vec::new();
+        if let Some(mark) = find(&document.root, entry.path, entry.extent, &mut walked) {
+            let path = format_path(&walked);
+            return Err(CaseError::NotSupported {
+                place: document.marked(Some(mark)),
+                key: match entry.extent {
+                    Extent::Word(word) => format!("{path} = \"{word}\""),
+                    Extent::Key | Extent::Table | Extent::Compound => path,
+                },
+                instead: entry.instead,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Returns the mark of the first match below `node`; `walked` is then the path to it.
+fn find(
+    node: &Node,
+    path: &'static [&'static str],
+    extent: Extent,
+    walked: &mut Vec<Step>,
+) -> Option<Mark> {
+    let Some((first, rest)) = path.split_first() else {
+        let matches = match extent {
+            Extent::Key => true,
+            Extent::Word(word) => matches!(&node.value, Value::Text(text) if text == word),
+            Extent::Table => match &node.value {
+                Value::Table(_) => true,
+                Value::List(items) => {
+                    (items.iter()).any(|item| matches!(item.value, Value::Table(_)))
+                }
+                _ => false,
+            },
+            Extent::Compound => matches!(node.value, Value::Table(_) | Value::List(_)),
+        };
+        return matches.then_some(node.mark);
+    };
+    let steps = match (&node.value, *first) {
+        (Value::List(items), "*") => (0..items.len()).map(Step::Index).collect(),
+        (_, key) => vec![Step::Key(key.to_owned())],
+    };
+    for step in steps {
+        if let Some(child) = node.child(&step) {
+            walked.push(step);
+            if let Some(mark) = find(child, rest, extent, walked) {
+                return Some(mark);
+            }
+            walked.pop();
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{FULL, read};
+    use super::UNSUPPORTED;
+
+    /// One argument for each entry of the table, and the key that the error names.
+    const SAMPLES: [(&str, &str); UNSUPPORTED.len()] = [
+        (
+            "housing.links=[{between=['lid','body'],tie=true}]",
+            "housing.links",
+        ),
+        (
+            "housing.integration=4-point",
+            "housing.integration = \"4-point\"",
+        ),
+        ("housing.linear=plain", "housing.linear"),
+        (
+            "bearing.balls_inertia=quasi-static",
+            "bearing.balls_inertia = \"quasi-static\"",
+        ),
+        ("bearing.slip={time=[0,1],slip=[0,0.1]}", "bearing.slip"),
+        (
+            "bearing.defects[0].on=inner",
+            "bearing.defects[0].on = \"inner\"",
+        ),
+        (
+            "bearing.defects[0]={on='ball',ball=1}",
+            "bearing.defects[0].on = \"ball\"",
+        ),
+        (
+            "bearing.defects[0].profile=surface",
+            "bearing.defects[0].profile = \"surface\"",
+        ),
+        (
+            "bearing.defects[0].profile={csv='profile.csv'}",
+            "bearing.defects[0].profile",
+        ),
+        (
+            "shaft.loads=[{force=[{time=0,x=1}]}]",
+            "shaft.loads[0].force",
+        ),
+        ("sensors[1].node=17", "sensors[1].node"),
+        ("condense.interface={group='bore'}", "condense.interface"),
+        ("frf={from=[],to=[]}", "frf"),
+        ("transient.ensemble={runs=64}", "transient.ensemble"),
+        ("transient.method=newmark", "transient.method = \"newmark\""),
+        (
+            "transient.method=generalized-alpha",
+            "transient.method = \"generalized-alpha\"",
+        ),
+        (
+            "transient.method=splitting",
+            "transient.method = \"splitting\"",
+        ),
+        ("transient.method=dop853", "transient.method = \"dop853\""),
+        ("analysis.scalogram={from=2.2,to=2.5}", "analysis.scalogram"),
+    ];
+
+    #[test]
+    fn every_entry_is_refused_by_name() {
+        for ((argument, key), entry) in SAMPLES.into_iter().zip(&UNSUPPORTED) {
+            let error = read(FULL, &[argument]).unwrap_err();
+            assert_eq!(
+                error.to_string(),
+                format!("--set {argument}: `{key}` is not supported yet by this version")
+            );
+            assert_eq!(error.help().as_deref(), Some(entry.instead));
+        }
+    }
+
+    #[test]
+    fn the_line_of_the_second_of_two_defects_is_found() {
+        let second = "[[bearing.defects]]\non = \"ball\"\n\n[shaft]";
+        let text = FULL.replace("[shaft]", second);
+        let line = 1 + text
+            .lines()
+            .position(|line| line == "on = \"ball\"")
+            .unwrap();
+        assert_eq!(
+            read(&text, &[]).unwrap_err().to_string(),
+            format!(
+                "folder/case.toml:{line}: `bearing.defects[1].on = \"ball\"` is not supported yet by this version"
+            )
+        );
+    }
+
+    #[test]
+    fn a_word_that_no_version_knows_is_misspelt_not_unsupported() {
+        let error = read(FULL, &["transient.method=newmrk-explicit"]).unwrap_err();
+        assert!(
+            error
+                .help()
+                .unwrap()
+                .starts_with("did you mean `newmark-explicit`?")
+        );
+    }
+}

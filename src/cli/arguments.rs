@@ -1,0 +1,178 @@
+//! What can be written on the command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use super::progress::Visibility;
+use crate::case::Case;
+
+const EXAMPLES: &str = "\
+Examples:
+  plummer run examples/tadina2011/outer-dent.toml
+  plummer modes examples/tadina2011/beam.toml --set ring.shear=true --out out/with-shear --json
+
+Exit codes:
+  0  done
+  1  it ran and the answer is bad, or could not be computed
+  2  the input is wrong: the message names file, line or key, what was found and what was expected";
+
+const RUN_EXAMPLE: &str = "\
+Example: the dented bearing with a deeper dent, in a folder of its own
+  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper";
+
+const MODES_EXAMPLE: &str = "\
+Example: the published frequencies with the consistent equations instead of the printed ones
+  plummer modes examples/tadina2011/beam.toml --set bearing.formulation=consistent --out out/consistent";
+
+/// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "plummer", version, after_help = EXAMPLES, arg_required_else_help = true)]
+pub struct Arguments {
+    /// What to compute.
+    #[command(subcommand)]
+    pub command: Command,
+    /// How, and where the results go.
+    #[command(flatten)]
+    pub options: Options,
+}
+
+/// What to compute.
+#[derive(Debug, Clone, Subcommand)]
+pub enum Command {
+    /// Static equilibrium, run-up transient, signals, analysis and report
+    #[command(after_help = RUN_EXAMPLE)]
+    Run {
+        /// Case file (TOML)
+        case: PathBuf,
+    },
+    /// Eigenfrequencies of housing, ring, or both coupled; checks the expected ones
+    #[command(after_help = MODES_EXAMPLE)]
+    Modes {
+        /// Case file (TOML)
+        case: PathBuf,
+    },
+}
+
+impl Command {
+    /// Returns the command's word, which is also its result file's name: `run` writes `run.json`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Run { .. } => "run",
+            Self::Modes { .. } => "modes",
+        }
+    }
+}
+
+/// Options that every command takes.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Options {
+    /// Folder for the results (default: out/ and the case file's name without ending)
+    #[arg(long, global = true, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How many threads to compute with (default: all cores)
+    #[arg(long, global = true, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// No progress and no summary; errors only
+    #[arg(long, global = true)]
+    pub quiet: bool,
+    /// The result as JSON on standard output, instead of the summary
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Replace an earlier result of the same command
+    #[arg(long, global = true)]
+    pub force: bool,
+    /// Set a key of the case file, e.g. bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
+    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl Options {
+    /// The command line that computes this again.
+    #[must_use]
+    pub fn command_line(&self, command: &str, case: &Case) -> String {
+        let mut words = vec![format!("plummer {command} {}", case.source.path.display())];
+        words.extend(self.set.iter().map(|set| format!("--set '{set}'")));
+        words.join(" ")
+    }
+
+    /// Returns whether progress may be shown at all.
+    #[must_use]
+    pub fn visibility(&self) -> Visibility {
+        if self.quiet || self.json {
+            Visibility::Hidden
+        } else {
+            Visibility::OnTerminal
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+
+    use super::{Arguments, Command, Visibility};
+
+    fn parse(words: &str) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from(words.split(' '))
+    }
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn options_stand_before_or_after_the_command() {
+        for words in [
+            "plummer run a.toml --out o --threads 3 --force --set a=1 --set b=2",
+            "plummer --out o --threads 3 --force --set a=1 --set b=2 run a.toml",
+        ] {
+            let Arguments { command, options } = parse(words).unwrap();
+            assert!(matches!(command, Command::Run { case } if case.as_os_str() == "a.toml"));
+            assert_eq!(options.out.unwrap().as_os_str(), "o");
+            assert_eq!(options.threads.unwrap().get(), 3);
+            assert!(options.force && !options.quiet && !options.json);
+            assert_eq!(options.set, ["a=1", "b=2"]);
+        }
+    }
+
+    #[test]
+    fn wrong_arguments_are_exit_code_2_and_help_is_0() {
+        for words in [
+            "plummer",
+            "plummer run",
+            "plummer rnu a.toml",
+            "plummer run a.toml --threads 0",
+            "plummer modes a.toml --fast",
+        ] {
+            assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
+        }
+        for words in ["plummer --help", "plummer run --help", "plummer --version"] {
+            assert_eq!(parse(words).unwrap_err().exit_code(), 0, "{words}");
+        }
+    }
+
+    #[test]
+    fn every_help_has_an_example() {
+        for words in [
+            "plummer --help",
+            "plummer run --help",
+            "plummer modes --help",
+        ] {
+            let help = parse(words).unwrap_err().to_string();
+            assert!(help.contains("Example"), "{words}");
+            assert!(help.contains("  plummer "), "{words}");
+        }
+    }
+
+    #[test]
+    fn quiet_and_json_hide_progress() {
+        let visibility = |words| parse(words).unwrap().options.visibility();
+        assert_eq!(visibility("plummer run a"), Visibility::OnTerminal);
+        assert_eq!(visibility("plummer run a --quiet"), Visibility::Hidden);
+        assert_eq!(visibility("plummer run a --json"), Visibility::Hidden);
+    }
+}

@@ -1,0 +1,164 @@
+//! Why a command did not end well: exit code, message, what to do.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::case::CaseError;
+use crate::stages::StageError;
+
+/// Why a command did not end well.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// The case file or a `--set` argument is wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// The folder holds a result of the same command.
+    #[error("{} is the result of an earlier run", path.display())]
+    ResultExists {
+        /// The result file.
+        path: PathBuf,
+    },
+    /// The folder for the results cannot be made.
+    #[error("cannot make the folder {}: {source}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A result cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Standard output cannot be written, for another reason than a closed pipe.
+    #[error("cannot write to standard output: {0}")]
+    StandardOutput(#[source] io::Error),
+    /// The computation ended and its answer is bad; its results are written.
+    #[error("{what}")]
+    BadAnswer {
+        /// What is bad, where and when.
+        what: String,
+        /// What to try.
+        help: Option<String>,
+    },
+    /// A stage of the computation failed, by its input or by itself.
+    #[error(transparent)]
+    Stage(#[from] StageError),
+}
+
+impl CliError {
+    /// Returns the program's exit code: 2 when the input is to blame, 1 otherwise.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Case(_) | Self::ResultExists { .. } | Self::Folder { .. } => 2,
+            Self::Stage(error) if error.is_input() => 2,
+            Self::Write { .. }
+            | Self::StandardOutput(_)
+            | Self::BadAnswer { .. }
+            | Self::Stage(_) => 1,
+        }
+    }
+
+    /// Returns what to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Case(error) | Self::Stage(StageError::Case(error)) => error.help(),
+            Self::ResultExists { .. } => {
+                Some("replace it with --force, or choose another folder with --out".to_owned())
+            }
+            Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
+            Self::BadAnswer { help, .. } => help.clone(),
+            Self::Write { .. } | Self::StandardOutput(_) | Self::Stage(_) => None,
+        }
+    }
+
+    /// Writes the lines `error: ...` and, if there is something to do, `help: ...`. Nothing can be done about a failure
+    /// to write them.
+    pub fn report(&self, to: &mut impl Write) {
+        let _ = writeln!(to, "error: {self}");
+        if let Some(help) = self.help() {
+            let _ = writeln!(to, "help: {help}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+    use std::path::PathBuf;
+
+    use super::CliError;
+    use crate::case::Case;
+    use crate::stages::StageError;
+
+    fn every() -> Vec<(CliError, u8, &'static str)> {
+        let path = || PathBuf::from("out/a");
+        let source = || io::Error::other("full");
+        vec![
+            (
+                CliError::Case(Case::load("no/such.toml", &[]).unwrap_err()),
+                2,
+                "error: cannot read the case file no/such.toml: No such file or directory (os error 2)\n",
+            ),
+            (
+                CliError::ResultExists { path: path() },
+                2,
+                "error: out/a is the result of an earlier run\n\
+                 help: replace it with --force, or choose another folder with --out\n",
+            ),
+            (
+                CliError::Folder {
+                    path: path(),
+                    source: source(),
+                },
+                2,
+                "error: cannot make the folder out/a: full\nhelp: choose another folder with --out\n",
+            ),
+            (
+                CliError::Write {
+                    path: path(),
+                    source: source(),
+                },
+                1,
+                "error: cannot write out/a: full\n",
+            ),
+            (
+                CliError::StandardOutput(source()),
+                1,
+                "error: cannot write to standard output: full\n",
+            ),
+            (
+                CliError::BadAnswer {
+                    what: "blew up at 0.3 s".to_owned(),
+                    help: Some("halve the step".to_owned()),
+                },
+                1,
+                "error: blew up at 0.3 s\nhelp: halve the step\n",
+            ),
+            (
+                CliError::Stage(StageError::TieFrame),
+                2,
+                "error: ring.tie: only axis = [0, 0, 1] and zero_deg = [1, 0, 0] are supported for a plane housing; turn the mesh in gmsh\n",
+            ),
+        ]
+    }
+
+    #[test]
+    fn each_has_its_exit_code_and_its_lines() {
+        for (error, code, lines) in every() {
+            assert_eq!(error.exit_code(), code, "{error}");
+            let mut written = Vec::new();
+            error.report(&mut written);
+            assert_eq!(String::from_utf8(written).unwrap(), lines);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The command line: arguments to a case, a case to a computation, its outcome to files and text.
+//!
+//! Computations return data; only this module prints. Exit codes: 0 done; 1 it ran and the answer is bad, or could not
+//! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
+
+mod arguments;
+mod failure;
+mod modes;
+mod outcome;
+mod output;
+mod progress;
+mod results;
+mod run;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+pub use arguments::{Arguments, Command, Options};
+pub use failure::CliError;
+pub use outcome::{Outcome, Verdict};
+pub use output::{OutputFolder, emit, write_atomic};
+pub use progress::{Progress, StageTime, Visibility};
+
+use crate::case::{Case, Purpose};
+
+/// Runs the program on the process's arguments and returns its exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help or version to a pipe that was closed is no failure.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match execute(&arguments, &mut io::stdout().lock()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.report(&mut io::stderr().lock());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// Carries out one command and writes its result to `to`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
+pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
+    let options = &arguments.options;
+    let (path, purpose) = match &arguments.command {
+        Command::Run { case } => (case, Purpose::Run),
+        Command::Modes { case } => (case, Purpose::Modes),
+    };
+    let case = Case::load(path, &options.set)?;
+    case.ready_for(purpose)?;
+    OutputFolder::of(&case, options).claim(arguments.command.name(), options.force)?;
+    let progress = Progress::new(options.visibility());
+    let outcome = match purpose {
+        Purpose::Run => run::run(&case, options, &progress),
+        Purpose::Modes => modes::modes(&case, options, &progress),
+    };
+    progress.finish();
+    let outcome = outcome?;
+    outcome.show(options, to)?;
+    match outcome.verdict {
+        Verdict::Good => Ok(()),
+        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
+    }
+}

@@ -1,0 +1,94 @@
+//! `plummer modes`: eigenfrequencies and their verification.
+
+use super::results::modes_json;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::case::Case;
+use crate::stages::{ModesResult, Reading, compute_modes, modes_report};
+
+/// Computes the modes of a case and writes `report.html` and, last, `modes.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let result = compute_modes(case, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let command = options.command_line("modes", case);
+    let html = modes_report(case, &result, &command)?
+        .to_html()
+        .map_err(crate::stages::StageError::from)?;
+    let report = folder.write("modes-report.html", html.as_bytes())?;
+    let json = modes_json(case, &result, progress, started.elapsed().as_secs_f64(), options);
+    let text = format!("{json:#}\n");
+    let json_path = folder.write("modes.json", text.as_bytes())?;
+    let failed = result.base.expected.iter().filter(|row| !row.ok).count();
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: vec![json_path, report],
+        verdict: if result.passes() {
+            Verdict::Good
+        } else {
+            Verdict::Bad {
+                what: format!(
+                    "{failed} of {} expected eigenfrequencies were not found within their tolerance",
+                    result.base.expected.len()
+                ),
+                help: Some(
+                    "the table names each; modes.expected in the case file holds them".to_owned(),
+                ),
+            }
+        },
+    })
+}
+
+fn summary(result: &ModesResult) -> String {
+    let mut lines = vec![format!(
+        "{} degrees of freedom, {} rigid modes, {:.6e} kg",
+        result.dof, result.rigid_modes, result.mass_kg
+    )];
+    lines.push(format!("unloaded (Hz): {}", listed(&result.base.unloaded_hz)));
+    lines.extend(reading(&result.base));
+    for variant in &result.variants {
+        lines.push(format!("-- {}", variant.what));
+        lines.extend(reading(variant));
+    }
+    lines.join("\n")
+}
+
+fn reading(reading: &Reading) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some(loaded) = &reading.loaded {
+        let own: Vec<f64> = loaded
+            .modes
+            .iter()
+            .filter(|mode| !mode.is_ball_mode())
+            .map(|mode| mode.frequency_hz)
+            .take(8)
+            .collect();
+        lines.push(format!("loaded (Hz), without the balls' own: {}", listed(&own)));
+    }
+    for expected in &reading.expected {
+        let found = expected
+            .found_hz
+            .map_or_else(|| "none".to_owned(), |hz| format!("{hz:.1}"));
+        let error = expected.relative_error.unwrap_or(f64::NAN);
+        lines.push(format!(
+            "  {:<32} expected {:>8.1}  found {found:>8}  {:+6.2} %  {}",
+            expected.what,
+            expected.hz,
+            100.0 * error,
+            if expected.ok { "ok" } else { "FAILS" }
+        ));
+    }
+    lines
+}
+
+fn listed(frequencies_hz: &[f64]) -> String {
+    frequencies_hz
+        .iter()
+        .map(|hz| format!("{hz:.2}"))
+        .collect::<Vec<_>>()
+        .join(" ")
+}

@@ -1,0 +1,204 @@
+//! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::{CliError, Options};
+use crate::case::Case;
+
+/// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
+///
+/// # Errors
+/// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
+pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
+    match writeln!(to, "{line}").and_then(|()| to.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::StandardOutput(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file under a temporary name beside it and renames it: a half-written file never carries its name.
+///
+/// # Errors
+/// [`CliError::Write`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
+/// name is as it was.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    let failed = |source| CliError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let Some(name) = path.file_name() else {
+        return Err(failed(io::ErrorKind::InvalidFilename.into()));
+    };
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(hidden);
+    let written = File::create(&temporary)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|source| {
+        // The first failure is the one to report; the file may not even exist.
+        let _ = fs::remove_file(&temporary);
+        failed(source)
+    })
+}
+
+/// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
+/// be written last, after the files that it speaks of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Returns the folder of a case: `--out`, else `out/` and the case's name. Makes nothing yet.
+    #[must_use]
+    pub fn of(case: &Case, options: &Options) -> Self {
+        let path = match &options.out {
+            Some(path) => path.clone(),
+            None => Path::new("out").join(case.name()),
+        };
+        Self { path }
+    }
+
+    /// Returns the folder's path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Makes the folder and checks that no earlier result of the command would be replaced without `force`.
+    ///
+    /// # Errors
+    /// [`CliError::ResultExists`] or [`CliError::Folder`].
+    pub fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
+        let path = self.path.join(format!("{command}.json"));
+        if !force && path.exists() {
+            return Err(CliError::ResultExists { path });
+        }
+        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder {
+            path: self.path.clone(),
+            source,
+        })
+    }
+
+    /// Writes a file of this name into the folder, whole or not at all, and returns its path.
+    ///
+    /// # Errors
+    /// [`CliError::Write`].
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+        let path = self.path.join(name);
+        write_atomic(&path, bytes)?;
+        Ok(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::io::{self, Write};
+    use std::path::{Path, PathBuf};
+
+    use super::{CliError, Options, OutputFolder, emit, write_atomic};
+    use crate::case::{Case, Source};
+
+    struct Broken(io::ErrorKind);
+
+    impl Write for Broken {
+        fn write(&mut self, _bytes: &[u8]) -> io::Result<usize> {
+            Err(self.0.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    /// An empty folder of this test's own.
+    fn folder(name: &str) -> PathBuf {
+        let path = std::env::temp_dir().join(format!("plummer-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        path
+    }
+
+    fn names(path: &Path) -> Vec<String> {
+        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let mut names: Vec<String> = fs::read_dir(path)
+            .unwrap()
+            .map(|entry| name(entry).into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_closed_pipe_is_success_and_a_full_disk_is_not() {
+        emit(&mut Broken(io::ErrorKind::BrokenPipe), "line").unwrap();
+        let error = emit(&mut Broken(io::ErrorKind::StorageFull), "line").unwrap_err();
+        assert!(matches!(error, CliError::StandardOutput(_)));
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_is_left_beside() {
+        let folder = folder("whole");
+        let path = folder.join("run.json");
+        write_atomic(&path, b"first").unwrap();
+        write_atomic(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(&folder), ["run.json"]);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_failed_write_leaves_nothing_behind() {
+        let folder = folder("failed");
+        // A folder of that name cannot be replaced by a file.
+        let path = folder.join("run.json");
+        fs::create_dir_all(path.join("inside")).unwrap();
+        let error = write_atomic(&path, b"text").unwrap_err();
+        assert!(matches!(error, CliError::Write { path: named, .. } if named == path));
+        assert_eq!(names(&folder), ["run.json"]);
+        assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
+        assert!(write_atomic(Path::new("/"), b"text").is_err());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_result_is_replaced_only_by_force() {
+        let path = folder("force");
+        let options = Options {
+            out: Some(path.join("new")),
+            ..Options::default()
+        };
+        let case = Case::from_source(Source {
+            path: PathBuf::from("folder/case.v2.toml"),
+            text: include_str!("../case/full.toml").to_owned(),
+            set: Vec::new(),
+        })
+        .unwrap();
+        let folder = OutputFolder::of(&case, &options);
+        folder.claim("run", false).unwrap();
+        let written = folder.write("run.json", b"{}").unwrap();
+        assert_eq!(written, path.join("new/run.json"));
+        let error = folder.claim("run", false).unwrap_err();
+        assert!(matches!(error, CliError::ResultExists { path } if path == written));
+        folder.claim("modes", false).unwrap();
+        folder.claim("run", true).unwrap();
+        let default = OutputFolder::of(&case, &Options::default());
+        assert_eq!(default.path(), Path::new("out/case.v2"));
+        let blocked = OutputFolder {
+            path: written.join("below a file"),
+        };
+        let error = blocked.claim("run", false).unwrap_err();
+        assert!(matches!(error, CliError::Folder { .. }));
+        fs::remove_dir_all(path).unwrap();
+    }
+}

@@ -1,0 +1,182 @@
+//! Result files: `run.json`, `modes.json`, `signals.npz`.
+
+use super::{CliError, Options, OutputFolder, Progress};
+use crate::case::Case;
+use crate::export::{NpzError, NpzWriter};
+use crate::stages::{ModesResult, Reading, RunEnd, RunResult, StageError};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// What every result carries.
+fn common(
+    command: &str,
+    case: &Case,
+    progress: &Progress,
+    wall_s: f64,
+    options: &Options,
+) -> Map<String, Value> {
+    let stages: Map<String, Value> = progress
+        .times()
+        .into_iter()
+        .map(|stage| (stage.name, json!(stage.seconds)))
+        .collect();
+    let mut map = Map::new();
+    map.insert("plummer".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+    map.insert("command".to_owned(), json!(command));
+    map.insert("case".to_owned(), json!(case.source.path));
+    map.insert("set".to_owned(), json!(options.set));
+    map.insert("wall_s".to_owned(), json!(wall_s));
+    map.insert("stages_s".to_owned(), Value::Object(stages));
+    map.insert("threads".to_owned(), json!(1));
+    map
+}
+
+/// `run.json`.
+pub(super) fn run_json(
+    case: &Case,
+    result: &RunResult,
+    progress: &Progress,
+    wall_s: f64,
+    options: &Options,
+) -> Value {
+    let mut map = common("run", case, progress, wall_s, options);
+    let equilibrium = &result.equilibrium;
+    let balls = |value: fn(&crate::system::BallLoad) -> f64| -> Vec<f64> {
+        equilibrium.balls.iter().map(value).collect()
+    };
+    let orders = result.setup.geometry.orders();
+    let fields = json!({
+        "method": result.method.name(),
+        "step_s": result.schedule.step(),
+        "steps": result.statistics.steps,
+        "rejected": 0,
+        "simulated_s": result.simulated_s,
+        "realtime_factor": result.realtime_factor(),
+        "stepping_s": result.stepping_s,
+        "status": match &result.end {
+            RunEnd::Complete => "complete".to_owned(),
+            RunEnd::BlewUp(error) => error.to_string(),
+        },
+        "model": {
+            "modes": result.modes,
+            "of_modes": result.stage.modes.count(),
+            "fixed_interface_modes": result.stage.fixed_interface_modes,
+            "balls": "dynamic",
+            "residual": result.residual,
+            "why": "modes up to three times the band; the others by their static residual",
+        },
+        "equilibrium": {
+            "shaft_m": equilibrium.shaft,
+            "ball_angle_rad": balls(|ball| ball.angle),
+            "inner_force_n": balls(|ball| ball.inner),
+            "outer_force_n": balls(|ball| ball.outer),
+            "residual_n": equilibrium.residual_n,
+            "least_curvature_n_per_m": equilibrium.least_curvature,
+            "iterations": equilibrium.iterations,
+        },
+        "defect_orders": {
+            "cage": orders.cage,
+            "outer": orders.outer,
+            "inner": orders.inner,
+            "ball": orders.ball_defect,
+        },
+        "windows": result.windows.iter().map(|window| json!({
+            "sensor": window.sensor,
+            "from": window.from,
+            "to": window.to,
+            "speed_hz": window.speed_hz,
+            "rms": window.rms,
+            "peak": window.peak,
+            "kurtosis": window.kurtosis,
+            "outer_race": window.outer.map(|(expected, found)| json!({
+                "expected_hz": expected,
+                "found_hz": found.map(|found| found.0),
+                "amplitude": found.map(|found| found.1),
+            })),
+            "envelope_peaks": window.peaks,
+        })).collect::<Vec<_>>(),
+        "not_analysed": result.not_analysed,
+    });
+    extend(&mut map, fields);
+    Value::Object(map)
+}
+
+/// `modes.json`.
+pub(super) fn modes_json(
+    case: &Case,
+    result: &ModesResult,
+    progress: &Progress,
+    wall_s: f64,
+    options: &Options,
+) -> Value {
+    let mut map = common("modes", case, progress, wall_s, options);
+    let fields = json!({
+        "dof": result.dof,
+        "free_dof": result.free_dof,
+        "mass_kg": result.mass_kg,
+        "frequencies_hz": result.base.unloaded_hz,
+        "rigid_modes": result.rigid_modes,
+        "residuals": result.residuals,
+        "loaded": loaded(&result.base),
+        "expected": result.base.expected,
+        "variants": result.variants.iter().map(|variant| json!({
+            "what": variant.what,
+            "set": variant.set,
+            "frequencies_hz": variant.unloaded_hz,
+            "loaded": loaded(variant),
+            "expected": variant.expected,
+        })).collect::<Vec<_>>(),
+    });
+    extend(&mut map, fields);
+    Value::Object(map)
+}
+
+fn loaded(reading: &Reading) -> Value {
+    reading.loaded.as_ref().map_or(Value::Null, |loaded| {
+        json!({
+            "without_stiffness": loaded.without_stiffness,
+            "unstable": loaded.unstable,
+            "modes": loaded.modes.iter().map(|mode| json!({
+                "frequency_hz": mode.frequency_hz,
+                "structure_share": mode.structure_share,
+                "shaft_share": mode.shaft_share,
+                "ball_share": mode.ball_share,
+            })).collect::<Vec<_>>(),
+        })
+    })
+}
+
+fn extend(map: &mut Map<String, Value>, fields: Value) {
+    if let Value::Object(fields) = fields {
+        map.extend(fields);
+    }
+}
+
+/// `signals.npz`.
+///
+/// # Errors
+/// [`CliError`] if it cannot be written.
+pub(super) fn write_signals(
+    folder: &OutputFolder,
+    result: &RunResult,
+) -> Result<PathBuf, CliError> {
+    let path = folder.path().join("signals.npz");
+    let record = &result.record;
+    let write = || -> Result<(), NpzError> {
+        let mut npz = NpzWriter::create(&path)?;
+        npz.array("time_s", &record.time_s)?;
+        npz.array("shaft_x", &record.shaft_x)?;
+        npz.array("shaft_y", &record.shaft_y)?;
+        for (name, values) in &record.sensors {
+            npz.array(name, values)?;
+        }
+        let rows = record.time_s.len();
+        npz.matrix("ball_radius", rows, record.balls, &record.ball_radius)?;
+        npz.matrix("outer_force", rows, record.balls, &record.outer_force)?;
+        npz.matrix("inner_force", rows, record.balls, &record.inner_force)?;
+        npz.finish()?;
+        Ok(())
+    };
+    write().map_err(StageError::from)?;
+    Ok(path)
+}

@@ -1,0 +1,84 @@
+//! `plummer run`: the simulation in time.
+
+use super::results::{run_json, write_signals};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::case::Case;
+use crate::stages::{RunEnd, RunResult, compute_run, run_report};
+
+/// Computes the run of a case and writes `signals.npz`, `report.html` and, last, `run.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let result = compute_run(case, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let signals = write_signals(&folder, &result)?;
+    let command = options.command_line("run", case);
+    let html = run_report(case, &result, &command)?
+        .to_html()
+        .map_err(crate::stages::StageError::from)?;
+    let report = folder.write("report.html", html.as_bytes())?;
+    let json = run_json(case, &result, progress, started.elapsed().as_secs_f64(), options);
+    let text = format!("{json:#}\n");
+    let json_path = folder.write("run.json", text.as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: vec![signals, json_path, report],
+        verdict: verdict(&result),
+    })
+}
+
+fn verdict(result: &RunResult) -> Verdict {
+    match &result.end {
+        RunEnd::Complete => Verdict::Good,
+        RunEnd::BlewUp(error) => Verdict::Bad {
+            what: error.to_string(),
+            help: Some(format!(
+                "the step is the likely cause: a ball between its contacts vibrates above 100 kHz; \
+                 halve it with --set transient.step={:.1e}, or leave it to the program with \
+                 --set transient.step=auto; {} instants computed until then are in signals.npz",
+                0.5 * result.schedule.step(),
+                result.record.time_s.len()
+            )),
+        },
+    }
+}
+
+fn summary(result: &RunResult) -> String {
+    let mut lines = vec![format!(
+        "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
+        crate::report::significant(result.simulated_s, 4),
+        result.stepping_s,
+        result.statistics.steps,
+        result.schedule.step(),
+        result.method.name(),
+        result.modes,
+        result.stage.modes.count(),
+        if result.residual { " with static residual" } else { "" },
+        result.realtime_factor(),
+    )];
+    for window in &result.windows {
+        lines.push(format!(
+            "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",
+            window.sensor, window.from, window.to, window.speed_hz, window.rms, window.peak
+        ));
+        for (harmonic, (expected, found)) in (1..).zip(window.outer) {
+            lines.push(match found {
+                Some((hz, amplitude)) => format!(
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} m/s^2",
+                    100.0 * (hz / expected - 1.0)
+                ),
+                None => format!(
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"
+                ),
+            });
+        }
+    }
+    for text in &result.not_analysed {
+        lines.push(format!("warning: not analysed: {text}"));
+    }
+    lines.join("\n")
+}

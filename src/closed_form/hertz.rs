@@ -1,0 +1,270 @@
+//! Hertz stiffness of an elliptical point contact from geometry and material.
+//!
+//! Two bodies touch in one point; each has two principal curvatures in common planes, convex
+//! positive (the paper's (21), (22) with the sign of the second bracket put right):
+//!
+//! ```text
+//! Σρ   = ρ_I1 + ρ_I2 + ρ_II1 + ρ_II2                                          [1/m]
+//! F(ρ) = |(ρ_I1 − ρ_I2) + (ρ_II1 − ρ_II2)| / Σρ                               [-]
+//! F(ρ) = ((κ² + 1) E − 2 K) / ((κ² − 1) E),   K, E at m = 1 − 1/κ²            -> κ = a/b ≥ 1
+//! δ*   = (2 K / π) (π / (2 κ² E))^{1/3}
+//! Q    = k δ^{3/2},   k = (4 √2 / 3) E* / (δ*^{3/2} Σρ^{1/2})                 [N/m^{3/2}]
+//! ```
+//!
+//! Source: T. A. Harris, *Rolling Bearing Analysis*, 4th edition, chapter 6, (6.23) to (6.41).
+//! Physical sense: the closer the surfaces conform, the larger the patch and the stiffer the contact.
+
+use thiserror::Error;
+
+use super::elliptic::{self, CompleteElliptic};
+
+/// Upper end of the search for `ln κ`: the smallest `1 − F` that doubles can hold needs about 20.
+const LOG_ELLIPTICITY_MAX: f64 = 36.0;
+
+/// Halvings of the search interval: 36 · 2⁻⁵⁵ is 1e-15 in `ln κ`.
+const HALVINGS: usize = 55;
+
+/// Why a Hertz stiffness cannot be given.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum HertzError {
+    /// A curvature or material value is NaN or infinite.
+    #[error("{name} = {value} is not a finite number")]
+    NotFinite {
+        /// What the value is.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+    },
+    /// The curvature sum is zero or negative: the surfaces do not touch in one point.
+    #[error(
+        "curvature sum {sum} 1/m must be positive: the concave surface is tighter than the convex one"
+    )]
+    CurvatureSum {
+        /// Σρ, 1/m.
+        sum: f64,
+    },
+    /// F(ρ) is one or more: in one plane the concave surface is as tight as the convex one.
+    #[error(
+        "curvature difference F = {difference} must be below 1: the surfaces conform in one plane"
+    )]
+    CurvatureDifference {
+        /// F(ρ), dimensionless.
+        difference: f64,
+    },
+    /// Young's modulus is not positive.
+    #[error("Young's modulus {young} Pa must be positive")]
+    Young {
+        /// Young's modulus, Pa.
+        young: f64,
+    },
+    /// Poisson's ratio is outside what an isotropic solid allows.
+    #[error("Poisson's ratio {poisson} must be above -1 and at most 0.5")]
+    Poisson {
+        /// Poisson's ratio.
+        poisson: f64,
+    },
+}
+
+/// Principal curvatures of one body at the contact, 1/m, convex positive.
+///
+/// The planes are the same two for both bodies; on a race, plane 1 holds the bearing's axis (the
+/// groove) and plane 2 is the rolling plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalCurvatures {
+    /// Curvature in plane 1, 1/m.
+    pub plane_1: f64,
+    /// Curvature in plane 2, 1/m.
+    pub plane_2: f64,
+}
+
+impl PrincipalCurvatures {
+    /// A sphere of the given radius (m): the same curvature in both planes.
+    #[must_use]
+    pub fn sphere(radius: f64) -> Self {
+        Self {
+            plane_1: 1.0 / radius,
+            plane_2: 1.0 / radius,
+        }
+    }
+
+    /// A flat surface: no curvature.
+    #[must_use]
+    pub fn flat() -> Self {
+        Self {
+            plane_1: 0.0,
+            plane_2: 0.0,
+        }
+    }
+}
+
+/// Stiffness of one point contact and what it was computed from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzStiffness {
+    /// k in `Q = k δ^{3/2}`, N/m^{3/2}.
+    pub stiffness: f64,
+    /// Effective modulus E*, Pa.
+    pub effective_modulus: f64,
+    /// Σρ, 1/m.
+    pub curvature_sum: f64,
+    /// F(ρ), 0 (circular patch) up to 1 (line contact).
+    pub curvature_difference: f64,
+    /// κ = a/b, ratio of the patch's axes, 1 or more.
+    pub ellipticity: f64,
+    /// δ*, dimensionless approach; 1 for a circular patch.
+    pub approach: f64,
+}
+
+/// Effective modulus E* of two bodies, Pa: `1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂`.
+///
+/// `young` in Pa, positive; `poisson` above −1 and at most 0.5; one entry a body.
+///
+/// # Errors
+/// [`HertzError::NotFinite`], [`HertzError::Young`], [`HertzError::Poisson`].
+pub fn effective_modulus(young: [f64; 2], poisson: [f64; 2]) -> Result<f64, HertzError> {
+    let mut compliance = 0.0;
+    for (young, poisson) in young.into_iter().zip(poisson) {
+        finite("Young's modulus", young)?;
+        finite("Poisson's ratio", poisson)?;
+        if young <= 0.0 {
+            return Err(HertzError::Young { young });
+        }
+        if poisson <= -1.0 || poisson > 0.5 {
+            return Err(HertzError::Poisson { poisson });
+        }
+        compliance += (1.0 - poisson * poisson) / young;
+    }
+    Ok(1.0 / compliance)
+}
+
+/// Hertz stiffness of two bodies with the given curvatures and effective modulus (Pa).
+///
+/// # Errors
+/// [`HertzError::NotFinite`] for NaN or infinite input, [`HertzError::CurvatureSum`] for Σρ ≤ 0,
+/// [`HertzError::CurvatureDifference`] for F(ρ) ≥ 1, [`HertzError::Young`] for a modulus ≤ 0.
+pub fn stiffness(
+    first: PrincipalCurvatures,
+    second: PrincipalCurvatures,
+    effective_modulus: f64,
+) -> Result<HertzStiffness, HertzError> {
+    for (name, value) in [
+        ("curvature of the first body in plane 1", first.plane_1),
+        ("curvature of the first body in plane 2", first.plane_2),
+        ("curvature of the second body in plane 1", second.plane_1),
+        ("curvature of the second body in plane 2", second.plane_2),
+        ("effective modulus", effective_modulus),
+    ] {
+        finite(name, value)?;
+    }
+    if effective_modulus <= 0.0 {
+        return Err(HertzError::Young {
+            young: effective_modulus,
+        });
+    }
+    let relative_1 = first.plane_1 + second.plane_1;
+    let relative_2 = first.plane_2 + second.plane_2;
+    let curvature_sum = relative_1 + relative_2;
+    if curvature_sum <= 0.0 {
+        return Err(HertzError::CurvatureSum { sum: curvature_sum });
+    }
+    let curvature_difference = (relative_1 - relative_2).abs() / curvature_sum;
+    // 1 − F without cancellation: twice the smaller relative curvature over the sum.
+    let complement = 2.0 * relative_1.min(relative_2) / curvature_sum;
+    if complement <= 0.0 {
+        return Err(HertzError::CurvatureDifference {
+            difference: curvature_difference,
+        });
+    }
+    let patch = solve_patch(curvature_difference, complement);
+    let approach = patch.approach();
+    let factor = 4.0 * std::f64::consts::SQRT_2 / 3.0;
+    let stiffness =
+        factor * effective_modulus / (approach * approach.sqrt() * curvature_sum.sqrt());
+    Ok(HertzStiffness {
+        stiffness,
+        effective_modulus,
+        curvature_sum,
+        curvature_difference,
+        ellipticity: patch.ellipticity,
+        approach,
+    })
+}
+
+/// Stiffness of a sphere (radius in m) on a flat, N/m^{3/2}: `k = (4/3) E* √R`.
+///
+/// # Errors
+/// As [`stiffness`]; a radius ≤ 0 gives [`HertzError::CurvatureSum`], a zero one [`HertzError::NotFinite`].
+pub fn sphere_on_flat(radius: f64, effective_modulus: f64) -> Result<HertzStiffness, HertzError> {
+    stiffness(
+        PrincipalCurvatures::sphere(radius),
+        PrincipalCurvatures::flat(),
+        effective_modulus,
+    )
+}
+
+/// The elliptical patch: its axis ratio and the integrals that belong to it.
+struct Patch {
+    ellipticity: f64,
+    integrals: CompleteElliptic,
+}
+
+impl Patch {
+    fn at(log_ellipticity: f64) -> Self {
+        let complement = (-2.0 * log_ellipticity).exp();
+        let parameter = -(-2.0 * log_ellipticity).exp_m1();
+        Self {
+            ellipticity: log_ellipticity.exp(),
+            integrals: elliptic::from_complement(parameter, complement),
+        }
+    }
+
+    /// F and 1 − F, each without cancellation:
+    /// `F = m K second_difference / E`, `1 − F = 2 (1 − m) K difference / E`.
+    fn difference_and_complement(&self) -> (f64, f64) {
+        let complement = 1.0 / (self.ellipticity * self.ellipticity);
+        let ratio = self.integrals.first / self.integrals.second;
+        (
+            (1.0 - complement) * ratio * self.integrals.second_difference,
+            2.0 * complement * ratio * self.integrals.difference,
+        )
+    }
+
+    fn approach(&self) -> f64 {
+        use std::f64::consts::PI;
+        let CompleteElliptic { first, second, .. } = self.integrals;
+        let cube = PI / (2.0 * self.ellipticity * self.ellipticity * second);
+        2.0 * first / PI * cube.cbrt()
+    }
+}
+
+/// Halves `ln κ` until F is met: F grows with κ. Works on 1 − F where F is near one.
+fn solve_patch(difference: f64, complement: f64) -> Patch {
+    let (mut low, mut high) = (0.0, LOG_ELLIPTICITY_MAX);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        let (at_difference, at_complement) = Patch::at(middle).difference_and_complement();
+        let too_round = if difference < 0.5 {
+            at_difference < difference
+        } else {
+            at_complement > complement
+        };
+        if too_round {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    // The lower end, so that F = 0 gives κ = 1 exactly.
+    Patch::at(low)
+}
+
+fn finite(name: &'static str, value: f64) -> Result<(), HertzError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(HertzError::NotFinite { name, value })
+    }
+}
+
+#[cfg(test)]
+#[path = "hertz_tests.rs"]
+mod tests;

@@ -1,0 +1,181 @@
+//! Kinematics of balls rolling between two races: how often each part passes, per shaft turn.
+//!
+//! Outer race at rest, inner race turning with the shaft, no slip; `γ = D_b cos α / D_p`:
+//!
+//! ```text
+//! cage        (1 − γ) / 2            outer pass   N (1 − γ) / 2       inner pass   N (1 + γ) / 2
+//! ball spin   D_p / (2 D_b) · (1 − γ²)                                ball defect  2 × spin
+//! ```
+//!
+//! Source: T. A. Harris, *Rolling Bearing Analysis*, chapter 8; the orders of the source paper's Table 2.
+//! Convention: a defect on a ball meets a race twice a spin; "ball defect" counts both.
+
+use std::f64::consts::FRAC_PI_2;
+
+use thiserror::Error;
+
+/// Why the kinematics cannot be formed.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum RaceError {
+    /// No balls.
+    #[error("balls = {balls} must be at least 1")]
+    Balls {
+        /// Number of balls that was given.
+        balls: u32,
+    },
+    /// The ball is not smaller than the pitch circle, or a diameter is not positive and finite.
+    #[error(
+        "ball diameter {ball_diameter} m must be positive and below the pitch diameter {pitch_diameter} m"
+    )]
+    Diameters {
+        /// Ball diameter, m.
+        ball_diameter: f64,
+        /// Pitch diameter, m.
+        pitch_diameter: f64,
+    },
+    /// The contact angle is not between zero and a right angle.
+    #[error("contact angle {contact_angle} rad must be at least 0 and below a right angle")]
+    ContactAngle {
+        /// Contact angle, rad.
+        contact_angle: f64,
+    },
+}
+
+/// A row of balls: count, diameters and contact angle, checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallRow {
+    balls: f64,
+    diameter_ratio: f64,
+    projected_ratio: f64,
+}
+
+/// Events per shaft turn; multiply by the shaft's frequency to get Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefectOrders {
+    /// Turns of the cage.
+    pub cage: f64,
+    /// Balls that pass a point of the outer race.
+    pub outer: f64,
+    /// Balls that pass a point of the inner race.
+    pub inner: f64,
+    /// Turns of a ball about its own axis, relative to the cage.
+    pub ball_spin: f64,
+    /// Meetings of a point on a ball with either race: twice the spin.
+    pub ball_defect: f64,
+}
+
+impl BallRow {
+    /// A row of `balls` (1 or more) of `ball_diameter` (m) on a pitch circle of `pitch_diameter` (m)
+    /// with `contact_angle` (rad, 0 for a radial bearing, below π/2).
+    ///
+    /// # Errors
+    /// [`RaceError`], with the value that breaks its rule.
+    pub fn new(
+        balls: u32,
+        ball_diameter: f64,
+        pitch_diameter: f64,
+        contact_angle: f64,
+    ) -> Result<Self, RaceError> {
+        if balls == 0 {
+            return Err(RaceError::Balls { balls });
+        }
+        let ordered = ball_diameter > 0.0 && ball_diameter < pitch_diameter;
+        if !(ordered && pitch_diameter.is_finite()) {
+            return Err(RaceError::Diameters {
+                ball_diameter,
+                pitch_diameter,
+            });
+        }
+        if !(0.0..FRAC_PI_2).contains(&contact_angle) {
+            return Err(RaceError::ContactAngle { contact_angle });
+        }
+        let diameter_ratio = ball_diameter / pitch_diameter;
+        Ok(Self {
+            balls: f64::from(balls),
+            diameter_ratio,
+            projected_ratio: diameter_ratio * contact_angle.cos(),
+        })
+    }
+
+    /// Turns of the cage per turn of the shaft, `(1 − γ) / 2`; between 0 and 1/2.
+    #[must_use]
+    pub fn cage_order(&self) -> f64 {
+        0.5 * (1.0 - self.projected_ratio)
+    }
+
+    /// All defect orders.
+    #[must_use]
+    pub fn orders(&self) -> DefectOrders {
+        let cage = self.cage_order();
+        let gamma = self.projected_ratio;
+        let ball_spin = 0.5 / self.diameter_ratio * (1.0 - gamma * gamma);
+        DefectOrders {
+            cage,
+            outer: self.balls * cage,
+            inner: self.balls * (1.0 - cage),
+            ball_spin,
+            ball_defect: 2.0 * ball_spin,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn source_bearing_has_the_orders_of_its_table() {
+        // Pitch diameter R_0 + r, ball diameter 2 mm.
+        let orders = BallRow::new(7, 2e-3, 4.7565e-3 + 2.754e-3, 0.0)
+            .unwrap()
+            .orders();
+        assert_relative_eq!(orders.outer, 2.568, epsilon = 5e-4);
+        assert_relative_eq!(orders.inner, 4.432, epsilon = 5e-4);
+        assert_relative_eq!(orders.ball_defect, 3.489, epsilon = 5e-4);
+    }
+
+    #[test]
+    fn eight_balls_on_120_mm_at_25_hz() {
+        let orders = BallRow::new(8, 20e-3, 120e-3, 0.0).unwrap().orders();
+        assert_relative_eq!(25.0 * orders.cage, 10.416_7, epsilon = 5e-5);
+        assert_relative_eq!(25.0 * orders.outer, 83.333_3, epsilon = 5e-5);
+        assert_relative_eq!(25.0 * orders.inner, 116.666_7, epsilon = 5e-5);
+        assert_relative_eq!(25.0 * orders.ball_spin, 72.916_7, epsilon = 5e-5);
+    }
+
+    /// Rolling without slip: the ball's surface speed equals each race's, seen from the cage.
+    #[test]
+    fn contact_points_roll_without_slip() {
+        let (ball, pitch, angle) = (0.3_f64, 1.7_f64, 0.4_f64);
+        let orders = BallRow::new(9, ball, pitch, angle).unwrap().orders();
+        let outer_radius = 0.5 * (pitch + ball * angle.cos());
+        let inner_radius = 0.5 * (pitch - ball * angle.cos());
+        let surface = orders.ball_spin * 0.5 * ball;
+        assert_relative_eq!(surface, orders.cage * outer_radius, max_relative = 1e-14);
+        assert_relative_eq!(
+            surface,
+            (1.0 - orders.cage) * inner_radius,
+            max_relative = 1e-14
+        );
+        assert_relative_eq!(orders.outer + orders.inner, 9.0, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn every_rule_fires() {
+        assert_eq!(
+            BallRow::new(0, 1.0, 2.0, 0.0).unwrap_err().to_string(),
+            "balls = 0 must be at least 1"
+        );
+        assert_eq!(
+            BallRow::new(7, 2.0, 2.0, 0.0).unwrap_err().to_string(),
+            "ball diameter 2 m must be positive and below the pitch diameter 2 m"
+        );
+        assert!(BallRow::new(7, f64::NAN, 2.0, 0.0).is_err());
+        assert!(BallRow::new(7, 1.0, f64::INFINITY, 0.0).is_err());
+        assert_eq!(
+            BallRow::new(7, 1.0, 2.0, 2.0).unwrap_err().to_string(),
+            "contact angle 2 rad must be at least 0 and below a right angle"
+        );
+    }
+}

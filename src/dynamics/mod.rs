@@ -1,0 +1,104 @@
+//! What a second-order system shows to a time integrator, and what a record taker shows to both.
+//!
+//! All coordinates are scaled to unit mass. The linear part is diagonal and constant,
+//!
+//! ```text
+//! y_i'' + damping_i y_i' + squared_frequency_i y_i = g_i(t, y, y')
+//! ```
+//!
+//! and `g` (contact, gravity, unbalance) is what has to be evaluated step by step.
+
+use thiserror::Error;
+
+/// Linear part of one coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearCoordinate {
+    /// omega^2, 1/s^2, >= 0; zero for a coordinate that only `g` holds.
+    pub squared_frequency: f64,
+    /// 2 zeta omega, 1/s, >= 0.
+    pub damping: f64,
+}
+
+/// A system of second order with a diagonal linear part and everything else in `g`.
+pub trait SecondOrderSystem {
+    /// The linear part, one entry a coordinate.
+    fn linear(&self) -> &[LinearCoordinate];
+
+    /// Sets `g = g(t, y, v)`; all slices have one entry a coordinate, `t` in s.
+    ///
+    /// Called once or a few times a step: no allocation.
+    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]);
+
+    /// Whether the state is still one that the model can mean.
+    ///
+    /// # Errors
+    /// [`Divergence`], which ends the run.
+    fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        if finite(y) && finite(v) {
+            Ok(())
+        } else {
+            Err(Divergence::NotFinite)
+        }
+    }
+}
+
+/// Why a state means nothing any more.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Divergence {
+    /// A value is infinite or not a number.
+    #[error("a value is infinite or not a number")]
+    NotFinite,
+    /// A coordinate left the range that the model holds for.
+    #[error("{what} is {value:.3e} {unit}, beyond {limit:.3e} {unit}")]
+    OutOfRange {
+        /// Which quantity.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// The largest magnitude that the model can mean.
+        limit: f64,
+        /// Unit of both.
+        unit: &'static str,
+    },
+}
+
+/// Position, velocity and acceleration at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    /// Number of the step that ends here; 0 is the start.
+    pub step: u64,
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub y: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+    /// Accelerations of the whole equation, `g - damping v - squared_frequency y`.
+    pub a: &'a [f64],
+}
+
+/// Sees every step of a run, the start included.
+pub trait Observer<S> {
+    /// Called after each step with the system as it evaluated that step's force.
+    fn observe(&mut self, system: &S, now: Instant<'_>);
+}
+
+/// Takes no record.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoRecord;
+
+impl<S> Observer<S> for NoRecord {
+    fn observe(&mut self, _system: &S, _now: Instant<'_>) {}
+}
+
+/// Coordinates and velocities at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub y: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+}

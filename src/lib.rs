@@ -1,0 +1,22 @@
+//! plummer
+pub mod assembly;
+pub mod bearing;
+pub mod case;
+pub mod cli;
+pub mod closed_form;
+pub mod dynamics;
+pub mod element;
+pub mod export;
+pub mod linalg;
+pub mod material;
+pub mod mesh;
+pub mod modal;
+pub mod model;
+pub mod reduction;
+pub mod report;
+pub mod series;
+pub mod signal;
+pub mod stages;
+pub mod system;
+pub mod transient;
+pub mod units;

@@ -1,0 +1,254 @@
+//! Debian's ARPACK behind one safe function: the only `unsafe` code of the program.
+//!
+//! **Life cycle.** `dsaupd_c` is called again and again with the same buffers until it sets
+//! `ido = 99`; between calls it asks for a product with `(K - sigma M)^-1` or with `M` on a part of
+//! `workd` that `ipntr` names. `dseupd_c` then forms the eigenvectors from the same, untouched
+//! buffers. All buffers live in [`Workspace`] from the first call to the last, so no pointer
+//! outlives what it points to, and their lengths are those that the ARPACK users' guide (Lehoucq,
+//! Sorensen, Yang 1998, section 2) asks for.
+//!
+//! **State.** ARPACK keeps Fortran `SAVE` variables between calls: it is not re-entrant. One lock
+//! covers a whole iteration, first call to last.
+//!
+//! **Reproducibility.** The start vector is ours (`info = 1`), not ARPACK's random one: the same
+//! problem gives the same bits.
+
+use super::LinalgError;
+use std::ffi::{c_char, c_double, c_int};
+use std::sync::{Mutex, PoisonError};
+
+unsafe extern "C" {
+    fn dsaupd_c(
+        ido: *mut c_int,
+        bmat: *const c_char,
+        n: c_int,
+        which: *const c_char,
+        nev: c_int,
+        tol: c_double,
+        resid: *mut c_double,
+        ncv: c_int,
+        v: *mut c_double,
+        ldv: c_int,
+        iparam: *mut c_int,
+        ipntr: *mut c_int,
+        workd: *mut c_double,
+        workl: *mut c_double,
+        lworkl: c_int,
+        info: *mut c_int,
+    );
+    fn dseupd_c(
+        rvec: c_int,
+        howmny: *const c_char,
+        select: *const c_int,
+        d: *mut c_double,
+        z: *mut c_double,
+        ldz: c_int,
+        sigma: c_double,
+        bmat: *const c_char,
+        n: c_int,
+        which: *const c_char,
+        nev: c_int,
+        tol: c_double,
+        resid: *mut c_double,
+        ncv: c_int,
+        v: *mut c_double,
+        ldv: c_int,
+        iparam: *mut c_int,
+        ipntr: *mut c_int,
+        workd: *mut c_double,
+        workl: *mut c_double,
+        lworkl: c_int,
+        info: *mut c_int,
+    );
+}
+
+static ONE_ITERATION_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// What ARPACK is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Request {
+    /// Order n of the problem.
+    pub order: usize,
+    /// Number of eigenpairs, `1 <= count < basis`.
+    pub count: usize,
+    /// Size of the Lanczos basis, `count < basis <= order`.
+    pub basis: usize,
+    /// Shift sigma of the spectral transformation, 1/s^2.
+    pub shift: f64,
+    /// Relative accuracy of the Ritz values.
+    pub tolerance: f64,
+    /// Restarts before it gives up.
+    pub max_restarts: usize,
+}
+
+/// Eigenpairs as ARPACK leaves them: values ascending, vectors M-normalised.
+#[derive(Debug, Clone)]
+pub(super) struct RitzPairs {
+    /// Eigenvalues lambda, 1/s^2, ascending.
+    pub values: Vec<f64>,
+    /// Eigenvectors, column after column, `order` entries each.
+    pub vectors: Vec<f64>,
+}
+
+struct Workspace {
+    residual: Vec<f64>,
+    basis_vectors: Vec<f64>,
+    workd: Vec<f64>,
+    workl: Vec<f64>,
+    iparam: [c_int; 11],
+    ipntr: [c_int; 11],
+}
+
+/// Shift-invert Lanczos (ARPACK mode 3) for `K x = lambda M x` near `request.shift`.
+///
+/// `solve(b, y)` sets `y = (K - sigma M)^-1 b`, `mass(x, y)` sets `y = M x`; both on slices of
+/// length n.
+///
+/// # Errors
+/// [`LinalgError::TooManyModes`] if the sizes do not fit, [`LinalgError::NotConverged`],
+/// [`LinalgError::Arpack`], or what `solve` returns.
+pub(super) fn shift_invert(
+    request: Request,
+    mut solve: impl FnMut(&[f64], &mut [f64]) -> Result<(), LinalgError>,
+    mut mass: impl FnMut(&[f64], &mut [f64]),
+) -> Result<RitzPairs, LinalgError> {
+    let Request {
+        order: n,
+        count,
+        basis,
+        ..
+    } = request;
+    let too_large = n > i32::MAX as usize / 4 || basis * (basis + 8) > i32::MAX as usize;
+    if count == 0 || count >= basis || basis > n || too_large {
+        return Err(LinalgError::TooManyModes {
+            asked: count,
+            available: n,
+        });
+    }
+    let _guard = ONE_ITERATION_AT_A_TIME
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    let mut space = Workspace {
+        residual: start_vector(n),
+        basis_vectors: vec![0.0; n * basis],
+        workd: vec![0.0; 3 * n],
+        workl: vec![0.0; basis * (basis + 8)],
+        iparam: [0; 11],
+        ipntr: [0; 11],
+    };
+    space.iparam[0] = 1; // exact shifts
+    space.iparam[2] = request.max_restarts as c_int;
+    space.iparam[6] = 3; // shift-invert
+    let (bmat, which) = (c"G", c"LM");
+    let mut ido: c_int = 0;
+    let mut info: c_int = 1;
+    let mut scratch = vec![0.0; n];
+    loop {
+        // SAFETY: every buffer has the length that ARPACK asks for (n, n*ncv, 3n, ncv*(ncv+8), 11,
+        // 11), belongs to `space`, and is not touched through another reference during the call.
+        unsafe {
+            dsaupd_c(
+                &mut ido,
+                bmat.as_ptr(),
+                n as c_int,
+                which.as_ptr(),
+                count as c_int,
+                request.tolerance,
+                space.residual.as_mut_ptr(),
+                basis as c_int,
+                space.basis_vectors.as_mut_ptr(),
+                n as c_int,
+                space.iparam.as_mut_ptr(),
+                space.ipntr.as_mut_ptr(),
+                space.workd.as_mut_ptr(),
+                space.workl.as_mut_ptr(),
+                space.workl.len() as c_int,
+                &mut info,
+            );
+        }
+        let part = |pointer: c_int| pointer as usize - 1..pointer as usize - 1 + n;
+        match ido {
+            -1 => {
+                mass(&space.workd[part(space.ipntr[0])], &mut scratch);
+                solve(&scratch, &mut space.workd[part(space.ipntr[1])])?;
+            }
+            1 => {
+                scratch.copy_from_slice(&space.workd[part(space.ipntr[2])]);
+                solve(&scratch, &mut space.workd[part(space.ipntr[1])])?;
+            }
+            2 => {
+                scratch.copy_from_slice(&space.workd[part(space.ipntr[0])]);
+                mass(&scratch, &mut space.workd[part(space.ipntr[1])]);
+            }
+            _ => break,
+        }
+    }
+    if info == 1 || (info == 0 && (space.iparam[4] as usize) < count) {
+        return Err(LinalgError::NotConverged {
+            asked: count,
+            converged: space.iparam[4].max(0) as usize,
+            restarts: space.iparam[2].max(0) as usize,
+        });
+    }
+    if info != 0 {
+        return Err(LinalgError::Arpack {
+            routine: "dsaupd",
+            info,
+        });
+    }
+    extract(request, &mut space)
+}
+
+/// Eigenvectors from a converged iteration.
+fn extract(request: Request, space: &mut Workspace) -> Result<RitzPairs, LinalgError> {
+    let (n, count, basis) = (request.order, request.count, request.basis);
+    let mut values = vec![0.0; count];
+    let mut vectors = vec![0.0; n * count];
+    let select = vec![0 as c_int; basis];
+    let mut info: c_int = 0;
+    // SAFETY: `space` is what the last `dsaupd_c` left; `values`, `vectors` and `select` have the
+    // lengths nev, n*nev and ncv that `dseupd_c` asks for.
+    unsafe {
+        dseupd_c(
+            1,
+            c"A".as_ptr(),
+            select.as_ptr(),
+            values.as_mut_ptr(),
+            vectors.as_mut_ptr(),
+            n as c_int,
+            request.shift,
+            c"G".as_ptr(),
+            n as c_int,
+            c"LM".as_ptr(),
+            count as c_int,
+            request.tolerance,
+            space.residual.as_mut_ptr(),
+            basis as c_int,
+            space.basis_vectors.as_mut_ptr(),
+            n as c_int,
+            space.iparam.as_mut_ptr(),
+            space.ipntr.as_mut_ptr(),
+            space.workd.as_mut_ptr(),
+            space.workl.as_mut_ptr(),
+            space.workl.len() as c_int,
+            &mut info,
+        );
+    }
+    if info == 0 {
+        Ok(RitzPairs { values, vectors })
+    } else {
+        Err(LinalgError::Arpack {
+            routine: "dseupd",
+            info,
+        })
+    }
+}
+
+/// A fixed start vector without symmetry, so that no mode is orthogonal to it by accident: the
+/// fractional parts of multiples of the golden ratio, in (-1/2, 1/2).
+fn start_vector(n: usize) -> Vec<f64> {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    (1..=n)
+        .map(|index| (index as f64 * golden).fract() - 0.5)
+        .collect()
+}

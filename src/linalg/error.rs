@@ -1,0 +1,68 @@
+//! What can go wrong in a factorisation or an eigenvalue computation.
+
+use thiserror::Error;
+
+/// Failure of a numerical linear algebra step.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LinalgError {
+    /// A Cholesky factorisation met a pivot that is not positive.
+    #[error("the {order} x {order} matrix is not positive definite (pivot {pivot} is not positive)")]
+    NotPositiveDefinite {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Index of the pivot, in the factorisation's own order.
+        pivot: usize,
+    },
+    /// A factorisation ran out of memory or met an internal limit.
+    #[error("the sparse factorisation of a {order} x {order} matrix failed: {reason}")]
+    Factorisation {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// What the library said.
+        reason: &'static str,
+    },
+    /// Matrices that should fit together do not.
+    #[error("{what}: expected {expected} rows, found {found}")]
+    Shape {
+        /// Which operand.
+        what: &'static str,
+        /// Rows expected.
+        expected: usize,
+        /// Rows found.
+        found: usize,
+    },
+    /// More eigenvalues asked for than the problem has.
+    #[error("{asked} modes asked for, but the model has only {available} degrees of freedom")]
+    TooManyModes {
+        /// Number asked for.
+        asked: usize,
+        /// Order of the matrix.
+        available: usize,
+    },
+    /// ARPACK did not converge.
+    #[error(
+        "the eigenvalue iteration found {converged} of {asked} modes in {restarts} restarts; ask for more modes or fewer"
+    )]
+    NotConverged {
+        /// Number asked for.
+        asked: usize,
+        /// Number that converged.
+        converged: usize,
+        /// Restarts made.
+        restarts: usize,
+    },
+    /// ARPACK refused its input; an error of this program.
+    #[error("ARPACK routine {routine} returned info = {info}")]
+    Arpack {
+        /// Name of the routine.
+        routine: &'static str,
+        /// Its error code.
+        info: i32,
+    },
+    /// A dense eigenvalue computation failed or met values that are not finite.
+    #[error("the dense eigenvalue computation of a {order} x {order} matrix failed")]
+    DenseEigen {
+        /// Number of rows of the matrix.
+        order: usize,
+    },
+}

@@ -1,0 +1,7 @@
+//! The `plummer` program; everything it does is in the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    plummer::cli::main()
+}

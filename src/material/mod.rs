@@ -1,0 +1,116 @@
+//! Linear elastic, isotropic materials, and the sections of rings.
+
+mod section;
+
+pub use section::{BeamSection, Bond, RadiusRule, RingLayer, SectionError};
+
+use thiserror::Error;
+
+/// A linear elastic, isotropic material.
+///
+/// Built by [`Material::new`] alone, so its numbers are in range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Material {
+    /// Young's modulus E, Pa, > 0.
+    pub young: f64,
+    /// Poisson's ratio nu, in (-1, 0.5).
+    pub poisson: f64,
+    /// Density rho, kg/m^3, > 0.
+    pub density: f64,
+}
+
+/// A material that cannot exist, or that the elements cannot use.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MaterialError {
+    /// A quantity out of its range, infinite or not a number.
+    #[error("{quantity} must be {rule}, found {value}")]
+    OutOfRange {
+        /// Name and unit of the quantity.
+        quantity: &'static str,
+        /// What it must be.
+        rule: &'static str,
+        /// The value found.
+        value: f64,
+    },
+}
+
+impl Material {
+    /// A material from Young's modulus (Pa, > 0), Poisson's ratio (-1 < nu < 0.5) and density
+    /// (kg/m^3, > 0), all finite.
+    ///
+    /// The bounds on nu are those of a positive shear and a positive, finite bulk modulus
+    /// (Timoshenko and Goodier, Theory of Elasticity, section 6).
+    ///
+    /// # Errors
+    /// [`MaterialError::OutOfRange`] for the first quantity out of its range.
+    pub fn new(young: f64, poisson: f64, density: f64) -> Result<Self, MaterialError> {
+        let positive = "positive and finite";
+        check(young > 0.0, "Young's modulus (Pa)", positive, young)?;
+        let stable = poisson > -1.0 && poisson < 0.5;
+        check(stable, "Poisson's ratio", "between -1 and 0.5", poisson)?;
+        check(density > 0.0, "density (kg/m^3)", positive, density)?;
+        Ok(Self {
+            young,
+            poisson,
+            density,
+        })
+    }
+
+    /// Shear modulus `G = E / (2 (1 + nu))`, Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
+}
+
+fn check(
+    in_range: bool,
+    quantity: &'static str,
+    rule: &'static str,
+    value: f64,
+) -> Result<(), MaterialError> {
+    if in_range && value.is_finite() {
+        Ok(())
+    } else {
+        Err(MaterialError::OutOfRange {
+            quantity,
+            rule,
+            value,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(young: f64, poisson: f64, density: f64) -> String {
+        match Material::new(young, poisson, density) {
+            Ok(material) => format!("accepted {material:?}"),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    #[test]
+    fn shear_modulus_of_steel() -> Result<(), MaterialError> {
+        let steel = Material::new(208e9, 0.3, 7800.0)?;
+        assert!((steel.shear_modulus() - 80e9).abs() < 1e-3);
+        Ok(())
+    }
+
+    #[test]
+    fn every_rule_fires_with_its_message() {
+        let rule = "Young's modulus (Pa) must be positive and finite, found";
+        assert_eq!(message(0.0, 0.3, 1.0), format!("{rule} 0"));
+        assert_eq!(message(-1.0, 0.3, 1.0), format!("{rule} -1"));
+        assert_eq!(message(f64::NAN, 0.3, 1.0), format!("{rule} NaN"));
+        assert_eq!(message(f64::INFINITY, 0.3, 1.0), format!("{rule} inf"));
+        let rule = "Poisson's ratio must be between -1 and 0.5, found";
+        assert_eq!(message(1.0, 0.5, 1.0), format!("{rule} 0.5"));
+        assert_eq!(message(1.0, -1.0, 1.0), format!("{rule} -1"));
+        assert_eq!(message(1.0, f64::NAN, 1.0), format!("{rule} NaN"));
+        let rule = "density (kg/m^3) must be positive and finite, found";
+        assert_eq!(message(1.0, 0.3, 0.0), format!("{rule} 0"));
+        assert_eq!(message(1.0, 0.3, f64::INFINITY), format!("{rule} inf"));
+    }
+}

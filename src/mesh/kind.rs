@@ -1,0 +1,147 @@
+//! Element kinds: what gmsh calls them and what they are made of.
+
+/// Kind of a mesh element. Nodes are in gmsh's order.
+///
+/// A further kind is a variant here and a row in the table of this file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ElementKind {
+    /// One node.
+    Point,
+    /// Straight line, two nodes.
+    Line2,
+    /// Second-order line: two ends, middle.
+    Line3,
+    /// Triangle, three nodes.
+    Tri3,
+    /// Second-order triangle: three corners, three edge middles.
+    Tri6,
+    /// Quadrilateral, four nodes.
+    Quad4,
+    /// Second-order quadrilateral without a centre node: four corners, four edge middles.
+    Quad8,
+}
+
+/// One row of the table: gmsh's element type number, name, dimension, order, nodes.
+struct Row {
+    kind: ElementKind,
+    gmsh_type: i32,
+    name: &'static str,
+    dimension: usize,
+    order: usize,
+    nodes: usize,
+}
+
+const fn row(
+    kind: ElementKind,
+    gmsh_type: i32,
+    name: &'static str,
+    [dimension, order, nodes]: [usize; 3],
+) -> Row {
+    Row {
+        kind,
+        gmsh_type,
+        name,
+        dimension,
+        order,
+        nodes,
+    }
+}
+
+/// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
+static TABLE: [Row; 7] = [
+    row(ElementKind::Point, 15, "Point", [0, 1, 1]),
+    row(ElementKind::Line2, 1, "Line2", [1, 1, 2]),
+    row(ElementKind::Line3, 8, "Line3", [1, 2, 3]),
+    row(ElementKind::Tri3, 2, "Tri3", [2, 1, 3]),
+    row(ElementKind::Tri6, 9, "Tri6", [2, 2, 6]),
+    row(ElementKind::Quad4, 3, "Quad4", [2, 1, 4]),
+    row(ElementKind::Quad8, 16, "Quad8", [2, 2, 8]),
+];
+
+impl ElementKind {
+    fn row(self) -> &'static Row {
+        &TABLE[self as usize]
+    }
+
+    /// Every kind, in the order of the enum.
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.kind)
+    }
+
+    /// The kind with gmsh's element type number, if the program knows it.
+    pub fn from_gmsh_type(gmsh_type: i32) -> Option<Self> {
+        TABLE
+            .iter()
+            .find(|row| row.gmsh_type == gmsh_type)
+            .map(|row| row.kind)
+    }
+
+    /// gmsh's element type number.
+    pub fn gmsh_type(self) -> i32 {
+        self.row().gmsh_type
+    }
+
+    /// Name as in reports and errors.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// 0 point, 1 line, 2 surface.
+    pub fn dimension(self) -> usize {
+        self.row().dimension
+    }
+
+    /// 1 linear, 2 quadratic.
+    pub fn order(self) -> usize {
+        self.row().order
+    }
+
+    /// Number of nodes.
+    pub fn nodes(self) -> usize {
+        self.row().nodes
+    }
+}
+
+/// Name of a gmsh element type that the program does not read, and what to do about it.
+pub(super) struct Unsupported {
+    pub(super) name: &'static str,
+    pub(super) advice: &'static str,
+}
+
+/// What is known of an element type outside of the table.
+pub(super) fn unsupported(gmsh_type: i32) -> Unsupported {
+    let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
+    let solid = "only plane elements are read";
+    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
+    let (name, advice) = match gmsh_type {
+        4 => ("Tet4", solid),
+        5 => ("Hex8", solid),
+        6 => ("Wedge6", solid),
+        7 => ("Pyramid5", solid),
+        10 => ("Quad9", complete),
+        11 => ("Tet10", solid),
+        12 => ("Hex27", complete),
+        13 => ("Wedge18", complete),
+        14 => ("Pyramid14", complete),
+        17 => ("Hex20", solid),
+        18 => ("Wedge15", solid),
+        19 => ("Pyramid13", solid),
+        _ => ("of higher order or special purpose", order),
+    };
+    Unsupported { name, advice }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_follows_the_enum_and_gmsh_numbers_read_back() {
+        for (position, kind) in ElementKind::all().enumerate() {
+            assert_eq!(kind as usize, position, "{kind:?}");
+            assert_eq!(ElementKind::from_gmsh_type(kind.gmsh_type()), Some(kind));
+            assert_eq!(kind.name(), format!("{kind:?}"));
+        }
+        assert_eq!(ElementKind::from_gmsh_type(10), None);
+    }
+}

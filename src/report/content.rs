@@ -1,0 +1,241 @@
+//! What a report consists of, as plain data.
+
+use serde::Serialize;
+
+use super::{Drawing, Plot, Table};
+
+/// Whether something came out as it should. Shown by a mark as well as by colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// As it should be.
+    Ok,
+    /// Not as it should be.
+    Bad,
+    /// Not judged.
+    #[default]
+    None,
+}
+
+impl Verdict {
+    /// `Ok` if the condition holds, `Bad` if not.
+    pub fn of(good: bool) -> Self {
+        if good { Self::Ok } else { Self::Bad }
+    }
+}
+
+/// A whole report, built step by step:
+///
+/// ```
+/// use plummer::report::{Report, Section};
+/// let html = Report::new("Housing A", "plummer run a.toml", "0.1.0")
+///     .section(Section::new("Model").paragraph("Ring on 36 springs."))
+///     .assumption("Rolling without slip.")
+///     .to_html()?;
+/// assert!(html.contains("Ring on 36 springs."));
+/// # Ok::<(), plummer::report::ReportError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// Title of the page.
+    pub title: String,
+    /// A line under the title, such as what the case is.
+    pub subtitle: Option<String>,
+    /// Command line that makes the report's results again.
+    pub command: String,
+    /// Version of the program.
+    pub version: String,
+    /// When the results were computed, as it is to be printed.
+    pub date: Option<String>,
+    /// The results in a few figures, on top.
+    pub headlines: Vec<Headline>,
+    /// The body.
+    pub sections: Vec<Section>,
+    /// What was assumed, a sentence each.
+    pub assumptions: Vec<String>,
+    /// What the reader must know before trusting the results, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// One of the figures on top of a report.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Headline {
+    /// What it is.
+    pub label: String,
+    /// The figure, with its unit.
+    pub value: String,
+    /// Whether it is as it should be.
+    pub verdict: Verdict,
+}
+
+/// A numbered part of a report.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Title of the section.
+    pub title: String,
+    /// What it holds, in order.
+    pub blocks: Vec<Block>,
+}
+
+/// A piece of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Block {
+    /// Free text.
+    Paragraph(String),
+    /// Properties in two columns.
+    Facts(Vec<Fact>),
+    /// A table.
+    Table(Table),
+    /// A plot of curves.
+    Plot(Plot),
+    /// A drawing of the model.
+    Drawing(Drawing),
+}
+
+/// A property of the model: name, value, and where it comes from or what it means.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fact {
+    /// What it is.
+    pub name: String,
+    /// Its value, with its unit.
+    pub value: String,
+    /// Remark or source.
+    pub note: Option<String>,
+}
+
+impl Fact {
+    /// A property without a remark.
+    pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            value: value.into(),
+            note: None,
+        }
+    }
+
+    /// The property with a remark or a source.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = Some(note.into());
+        self
+    }
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            blocks: Vec::new(),
+        }
+    }
+
+    /// The section with a piece more.
+    #[must_use]
+    pub fn block(mut self, block: Block) -> Self {
+        self.blocks.push(block);
+        self
+    }
+
+    /// The section with a paragraph more.
+    #[must_use]
+    pub fn paragraph(self, text: impl Into<String>) -> Self {
+        self.block(Block::Paragraph(text.into()))
+    }
+
+    /// The section with a list of properties more.
+    #[must_use]
+    pub fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
+        self.block(Block::Facts(facts.into_iter().collect()))
+    }
+
+    /// The section with a table more.
+    #[must_use]
+    pub fn table(self, table: Table) -> Self {
+        self.block(Block::Table(table))
+    }
+
+    /// The section with a plot more.
+    #[must_use]
+    pub fn plot(self, plot: Plot) -> Self {
+        self.block(Block::Plot(plot))
+    }
+
+    /// The section with a drawing more.
+    #[must_use]
+    pub fn drawing(self, drawing: Drawing) -> Self {
+        self.block(Block::Drawing(drawing))
+    }
+}
+
+impl Report {
+    /// A report without contents.
+    pub fn new(
+        title: impl Into<String>,
+        command: impl Into<String>,
+        version: impl Into<String>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            subtitle: None,
+            command: command.into(),
+            version: version.into(),
+            date: None,
+            headlines: Vec::new(),
+            sections: Vec::new(),
+            assumptions: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The report with a line under its title.
+    #[must_use]
+    pub fn subtitle(mut self, text: impl Into<String>) -> Self {
+        self.subtitle = Some(text.into());
+        self
+    }
+
+    /// The report with its date, as it is to be printed.
+    #[must_use]
+    pub fn date(mut self, text: impl Into<String>) -> Self {
+        self.date = Some(text.into());
+        self
+    }
+
+    /// The report with a figure more on top.
+    #[must_use]
+    pub fn headline(
+        mut self,
+        label: impl Into<String>,
+        value: impl Into<String>,
+        verdict: Verdict,
+    ) -> Self {
+        self.headlines.push(Headline {
+            label: label.into(),
+            value: value.into(),
+            verdict,
+        });
+        self
+    }
+
+    /// The report with a section more.
+    #[must_use]
+    pub fn section(mut self, section: Section) -> Self {
+        self.sections.push(section);
+        self
+    }
+
+    /// The report with an assumption more.
+    #[must_use]
+    pub fn assumption(mut self, text: impl Into<String>) -> Self {
+        self.assumptions.push(text.into());
+        self
+    }
+
+    /// The report with a warning more.
+    #[must_use]
+    pub fn warning(mut self, text: impl Into<String>) -> Self {
+        self.warnings.push(text.into());
+        self
+    }
+}

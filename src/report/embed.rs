@@ -1,0 +1,241 @@
+//! The data of the plots, for the script of the page: JSON with the numbers as base64 of little-endian floats.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+
+use super::ReportError;
+use super::decimate;
+use super::layout::{Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
+use super::plot::{Abscissa, Curve, CurveStyle, Plot};
+use super::svg_plot::COLOURS;
+
+/// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
+pub(super) const BUDGET: usize = 2_800_000;
+
+#[derive(Debug, Serialize)]
+struct PlotData<'a> {
+    width: f64,
+    height: f64,
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    ticks: [usize; 2],
+    rows: usize,
+    row: f64,
+    character: f64,
+    x: AxisData,
+    y: AxisData,
+    curves: Vec<CurveData<'a>>,
+    markers: Vec<MarkerData<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct AxisData {
+    log: bool,
+    low: f64,
+    high: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct CurveData<'a> {
+    name: &'a str,
+    colour: usize,
+    style: &'static str,
+    #[serde(flatten)]
+    x: AbscissaData,
+    /// f32, in shown units.
+    y: String,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum AbscissaData {
+    Even {
+        start: f64,
+        step: f64,
+    },
+    /// f64, in shown units.
+    Points {
+        x: String,
+    },
+}
+
+#[derive(Debug, Serialize)]
+struct MarkerData<'a> {
+    at: f64,
+    label: &'a str,
+    colour: usize,
+}
+
+/// Bytes a curve needs in full.
+fn size(curve: &Curve) -> usize {
+    curve.y.len() * bytes_a_point(curve)
+}
+
+fn bytes_a_point(curve: &Curve) -> usize {
+    match curve.x {
+        Abscissa::Even { .. } => 4,
+        Abscissa::Points(_) => 12,
+    }
+}
+
+/// Bytes that each curve may take such that all together stay within [`BUDGET`]: short curves whole, the rest of the
+/// budget shared evenly among the long ones.
+pub(super) fn share<'a>(plots: impl Iterator<Item = &'a Plot>) -> usize {
+    let mut sizes: Vec<usize> = plots.flat_map(|p| p.curves.iter().map(size)).collect();
+    sizes.sort_unstable();
+    let mut left = BUDGET;
+    for (k, size) in sizes.iter().enumerate() {
+        let even = left / (sizes.len() - k);
+        if *size > even {
+            return even;
+        }
+        left -= size;
+    }
+    BUDGET
+}
+
+/// The data of one plot as JSON that may stand inside a script element; each curve takes at most `share` bytes.
+pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String, ReportError> {
+    let axis = |view: &super::layout::AxisView| AxisData {
+        log: view.log,
+        low: view.low,
+        high: view.high,
+    };
+    let curves = plot.curves.iter().enumerate();
+    let markers = plot.markers.iter().filter(|m| m.at.is_finite());
+    let data = PlotData {
+        width: WIDTH,
+        height: layout.height,
+        left: layout.left,
+        right: layout.right,
+        top: layout.top,
+        bottom: layout.bottom,
+        ticks: TICKS,
+        rows: layout.rows,
+        row: MARKER_ROW,
+        character: MARKER_CHARACTER,
+        x: axis(&layout.x),
+        y: axis(&layout.y),
+        curves: curves
+            .map(|(k, c)| curve_data(c, layout, k, share))
+            .collect(),
+        markers: markers
+            .map(|marker| MarkerData {
+                at: marker.at / layout.x.factor,
+                label: &marker.label,
+                colour: marker.family % COLOURS,
+            })
+            .collect(),
+    };
+    let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
+        plot: plot.title.clone(),
+        source,
+    })?;
+    // "</script" or "<!--" in a name would end the element.
+    Ok(json.replace('<', "\\u003c"))
+}
+
+fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
+    let most = share / bytes_a_point(curve);
+    let (x, y) = match &curve.x {
+        Abscissa::Even { start, step } => {
+            let thinned = decimate::even(&curve.y, most);
+            let x = AbscissaData::Even {
+                start: start / layout.x.factor,
+                step: step * thinned.stride / layout.x.factor,
+            };
+            (x, thinned.values)
+        }
+        Abscissa::Points(x) => {
+            let kept = decimate::indices(&curve.y, most);
+            let shown = kept.iter().map(|k| x[*k] / layout.x.factor);
+            let x = AbscissaData::Points {
+                x: base64(shown.flat_map(f64::to_le_bytes)),
+            };
+            (x, kept.iter().map(|k| curve.y[*k]).collect())
+        }
+    };
+    let shown = y.iter().map(|v| (v / layout.y.factor) as f32);
+    CurveData {
+        name: &curve.name,
+        colour: number % COLOURS,
+        style: match curve.style {
+            CurveStyle::Line => "line",
+            CurveStyle::Dashed => "dashed",
+            CurveStyle::Points => "points",
+        },
+        x,
+        y: base64(shown.flat_map(f32::to_le_bytes)),
+    }
+}
+
+fn base64(bytes: impl Iterator<Item = u8>) -> String {
+    STANDARD.encode(bytes.collect::<Vec<u8>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plot::{Axis, Marker};
+    use super::*;
+
+    fn plot(points: usize) -> Plot {
+        let even = Abscissa::Even {
+            start: 2.0,
+            step: 1e-5,
+        };
+        let y = (0..points).map(|k| (k as f64 * 0.3).sin()).collect();
+        Plot::new("t", Axis::new("Time", "s"), Axis::new("a", "m/s^2"))
+            .curve(Curve::new("P1", even, y))
+    }
+
+    fn embedded(plot: &Plot, share: usize) -> serde_json::Value {
+        let layout = Layout::of(plot).expect("a valid plot");
+        let json = json(plot, &layout, share).expect("json");
+        serde_json::from_str(&json).expect("valid JSON")
+    }
+
+    fn numbers(value: &serde_json::Value) -> Vec<f32> {
+        let bytes = STANDARD
+            .decode(value.as_str().expect("text"))
+            .expect("base64");
+        bytes
+            .chunks_exact(4)
+            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+            .collect()
+    }
+
+    #[test]
+    fn short_curves_are_whole_and_long_ones_thinned() {
+        let data = embedded(&plot(1000), BUDGET);
+        let y = numbers(&data["curves"][0]["y"]);
+        assert_eq!(y.len(), 1000);
+        assert!((f64::from(y[7]) - 2.1_f64.sin()).abs() < 1e-6);
+        assert_eq!(data["curves"][0]["step"], 1e-5);
+        let data = embedded(&plot(100_000), 40_000);
+        assert_eq!(numbers(&data["curves"][0]["y"]).len(), 10_000);
+        assert!((data["curves"][0]["step"].as_f64().expect("step") - 1e-4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_budget_is_shared() {
+        let (short, long) = (plot(1000), plot(800_000));
+        assert_eq!(share([&short].into_iter()), BUDGET);
+        let each = share([&long, &short, &long].into_iter());
+        assert_eq!(each, (BUDGET - 4000) / 2);
+        assert_eq!(share(std::iter::empty()), BUDGET);
+    }
+
+    #[test]
+    fn names_cannot_end_the_script() {
+        let mut plot = plot(3).marker(Marker::new(2.0, "<!-- x"));
+        plot.curves[0].name = "</script><b>".to_owned();
+        let layout = Layout::of(&plot).expect("a valid plot");
+        let json = json(&plot, &layout, BUDGET).expect("json");
+        assert!(!json.contains('<'));
+        let data: serde_json::Value = serde_json::from_str(&json).expect("valid JSON");
+        assert_eq!(data["curves"][0]["name"], "</script><b>");
+    }
+}

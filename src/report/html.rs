@@ -1,0 +1,370 @@
+//! Puts the page together: checks the contents, draws, fills the template.
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
+use minijinja::{Environment, UndefinedBehavior};
+use serde::Serialize;
+
+use super::content::{Block, Fact, Headline, Report, Section};
+use super::embed;
+use super::layout::Layout;
+use super::plot::{CurveStyle, Plot};
+use super::svg_plot::COLOURS;
+use super::table::{Cell, Column};
+use super::{ReportError, svg_drawing, svg_plot};
+
+const TEMPLATE: &str = include_str!("templates/report.html");
+const STYLE: &str = include_str!("templates/report.css");
+const SCRIPT: &str = include_str!("templates/plot.js");
+
+#[derive(Debug, Serialize)]
+struct Page<'a> {
+    title: &'a str,
+    subtitle: Option<&'a str>,
+    command: &'a str,
+    version: &'a str,
+    date: Option<&'a str>,
+    headlines: &'a [Headline],
+    sections: Vec<SectionView<'a>>,
+    assumptions: &'a [String],
+    warnings: &'a [String],
+    style: &'a str,
+    script: &'a str,
+}
+
+#[derive(Debug, Serialize)]
+struct SectionView<'a> {
+    title: &'a str,
+    blocks: Vec<BlockView<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum BlockView<'a> {
+    Paragraph {
+        text: &'a str,
+    },
+    Facts {
+        facts: &'a [Fact],
+    },
+    Table {
+        number: usize,
+        caption: &'a str,
+        columns: &'a [Column],
+        rows: &'a [Vec<Cell>],
+        footnotes: &'a [String],
+    },
+    Plot {
+        number: usize,
+        title: &'a str,
+        caption: Option<&'a str>,
+        svg: String,
+        data: String,
+        legend: Vec<Entry<'a>>,
+    },
+    Drawing {
+        number: usize,
+        title: &'a str,
+        caption: Option<&'a str>,
+        svg: String,
+    },
+}
+
+/// A curve in the legend.
+#[derive(Debug, Serialize)]
+struct Entry<'a> {
+    name: &'a str,
+    colour: usize,
+    style: &'static str,
+}
+
+/// Numbers that figures and tables have had so far.
+#[derive(Debug, Default)]
+struct Numbers {
+    figure: usize,
+    table: usize,
+}
+
+impl Report {
+    /// The report as one HTML file, complete in itself: styles, drawings, data and script are inside, nothing is
+    /// fetched. The plots' data take at most 3.8 MB together; longer curves are thinned such that spikes survive.
+    ///
+    /// # Errors
+    /// [`ReportError`] for contents that do not fit together; nothing that depends on the machine.
+    pub fn to_html(&self) -> Result<String, ReportError> {
+        let blocks = self.sections.iter().flat_map(|s| &s.blocks);
+        let share = embed::share(blocks.filter_map(|block| match block {
+            Block::Plot(plot) => Some(plot),
+            _ => None,
+        }));
+        let mut numbers = Numbers::default();
+        let sections = self
+            .sections
+            .iter()
+            .map(|section| section_view(section, share, &mut numbers))
+            .collect::<Result<_, _>>()?;
+        let page = Page {
+            title: &self.title,
+            subtitle: self.subtitle.as_deref(),
+            command: &self.command,
+            version: &self.version,
+            date: self.date.as_deref(),
+            headlines: &self.headlines,
+            sections,
+            assumptions: &self.assumptions,
+            warnings: &self.warnings,
+            style: STYLE,
+            script: SCRIPT,
+        };
+        let mut environment = Environment::new();
+        environment.set_undefined_behavior(UndefinedBehavior::Strict);
+        let syntax = SyntaxConfig::builder().trim_blocks(true).build()?;
+        environment.set_syntax(syntax);
+        // The name's ending turns escaping on.
+        environment.add_template("report.html", TEMPLATE)?;
+        Ok(environment
+            .get_template("report.html")?
+            .render(Serde(page))?)
+    }
+}
+
+fn section_view<'a>(
+    section: &'a Section,
+    share: usize,
+    numbers: &mut Numbers,
+) -> Result<SectionView<'a>, ReportError> {
+    let blocks = section
+        .blocks
+        .iter()
+        .map(|block| block_view(block, share, numbers))
+        .collect::<Result<_, _>>()?;
+    Ok(SectionView {
+        title: &section.title,
+        blocks,
+    })
+}
+
+fn block_view<'a>(
+    block: &'a Block,
+    share: usize,
+    numbers: &mut Numbers,
+) -> Result<BlockView<'a>, ReportError> {
+    Ok(match block {
+        Block::Paragraph(text) => BlockView::Paragraph { text },
+        Block::Facts(facts) => BlockView::Facts { facts },
+        Block::Table(table) => {
+            table.check()?;
+            numbers.table += 1;
+            BlockView::Table {
+                number: numbers.table,
+                caption: &table.caption,
+                columns: &table.columns,
+                rows: &table.rows,
+                footnotes: &table.footnotes,
+            }
+        }
+        Block::Plot(plot) => {
+            numbers.figure += 1;
+            plot_view(plot, share, numbers.figure)?
+        }
+        Block::Drawing(drawing) => {
+            numbers.figure += 1;
+            BlockView::Drawing {
+                number: numbers.figure,
+                title: &drawing.title,
+                caption: drawing.caption.as_deref(),
+                svg: svg_drawing::draw(drawing)?,
+            }
+        }
+    })
+}
+
+fn plot_view(plot: &Plot, share: usize, number: usize) -> Result<BlockView<'_>, ReportError> {
+    let layout = Layout::of(plot)?;
+    let legend = plot.curves.iter().enumerate().map(|(k, curve)| Entry {
+        name: &curve.name,
+        colour: k % COLOURS,
+        style: match curve.style {
+            CurveStyle::Line => "line",
+            CurveStyle::Dashed => "dashed",
+            CurveStyle::Points => "points",
+        },
+    });
+    Ok(BlockView::Plot {
+        number,
+        title: &plot.title,
+        caption: plot.caption.as_deref(),
+        svg: svg_plot::draw(plot, &layout, &format!("figure-{number}")),
+        data: embed::json(plot, &layout, share)?,
+        legend: legend.collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::report::{
+        Abscissa, Axis, Cell, Circle, Column, Curve, Drawing, Fact, Marker, Plot, Point, Report,
+        Section, Table, Verdict,
+    };
+
+    fn plot(points: usize) -> Plot {
+        let even = Abscissa::Even {
+            start: 0.0,
+            step: 1e-5,
+        };
+        let y = (0..points)
+            .map(|k| (k as f64 * 0.37).sin() * 1234.5)
+            .collect();
+        Plot::new(
+            "Acceleration <P1>",
+            Axis::new("Time", "s"),
+            Axis::new("Acceleration", "m/s^2"),
+        )
+        .curve(Curve::new("P1 & P2", even, y))
+        .marker(Marker::new(1e-5, "\"1×\""))
+    }
+
+    fn table() -> Table {
+        Table::new(
+            "Lines",
+            [Column::text("Line"), Column::number("Found", "Hz")],
+        )
+        .row([
+            Cell::text("outer <1>"),
+            Cell::number(55.02, 4).judged(Verdict::Ok).footnote(1),
+        ])
+        .row([
+            Cell::text("inner"),
+            Cell::number(95.3, 4).judged(Verdict::Bad),
+        ])
+        .footnote("5 < 6")
+    }
+
+    fn report() -> Report {
+        let ball = Circle {
+            centre: Point { x: 0.0, y: 0.0 },
+            radius: 1e-3,
+        };
+        let drawing = Drawing {
+            title: "Bearing".to_owned(),
+            balls: vec![ball],
+            ..Drawing::default()
+        };
+        Report::new("Dent & run-up", "plummer run \"a<b>.toml\"", "0.1.0")
+            .subtitle("O'Neill")
+            .headline("Kurtosis", "38", Verdict::Bad)
+            .section(
+                Section::new("Model")
+                    .paragraph("a < b")
+                    .facts([Fact::new("Balls", "7").note("R & r")])
+                    .drawing(drawing),
+            )
+            .section(
+                Section::new("Signal")
+                    .plot(plot(100))
+                    .table(table())
+                    .plot(plot(50)),
+            )
+            .assumption("No slip <script>alert(1)</script>.")
+            .warning("k > 1")
+    }
+
+    #[test]
+    fn structure_and_numbering() {
+        let html = report().to_html().expect("a valid report");
+        let count = |what: &str| html.matches(what).count();
+        assert!(html.starts_with("<!DOCTYPE html>"));
+        assert_eq!(count("<section id=\"section-"), 2);
+        assert_eq!(count("<figure class=\"plot\">"), 2);
+        assert_eq!(count("<figure class=\"drawing\">"), 1);
+        assert_eq!(count("<script type=\"application/json\">"), 2);
+        assert_eq!(count("class=\"curve c0\""), 2);
+        for text in [
+            "<b>Figure 1.</b> Bearing",
+            "<b>Figure 2.</b> Acceleration &lt;P1&gt;",
+            "<b>Figure 3.</b>",
+            "<b>Table 1.</b> Lines",
+            "<td class=\"right ok\">55.02<sup>1</sup></td>",
+            "<td class=\"right bad\">95.30</td>",
+            "<li>5 &lt; 6</li>",
+            "<th class=\"right\">Found<span class=\"unit\">Hz</span></th>",
+            "<dt>Balls</dt><dd>7<span class=\"note\">R &amp; r</span></dd>",
+            "<h2>Assumptions</h2>",
+            "<h2>Warnings</h2>",
+            "<div class=\"headline bad\">",
+            "id=\"figure-3-clip\"",
+        ] {
+            assert!(html.contains(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn all_text_is_escaped() {
+        let html = report().to_html().expect("a valid report");
+        for raw in [
+            "a < b",
+            "<P1>",
+            "outer <1>",
+            "R & r",
+            "<script>alert",
+            "a<b>.toml",
+            "P1 & P2</button>",
+            "O'Neill",
+        ] {
+            assert!(!html.contains(raw), "{raw}");
+        }
+        assert!(html.contains("Dent &amp; run-up") && html.contains("No slip &lt;script&gt;"));
+    }
+
+    #[test]
+    fn nothing_is_fetched() {
+        let html = report().to_html().expect("a valid report");
+        for fetch in [
+            " src=",
+            "<link",
+            "@import",
+            "url(http",
+            "href=\"http",
+            "fetch(",
+            "XMLHttpRequest",
+            "import(",
+        ] {
+            assert!(!html.contains(fetch), "{fetch}");
+        }
+        // The one address is a name: the SVG namespace.
+        let addresses = html.matches("http").count();
+        assert_eq!(
+            addresses,
+            html.matches("http://www.w3.org/2000/svg").count()
+        );
+    }
+
+    #[test]
+    fn long_signals_stay_below_five_megabytes() {
+        let section = (0..4).fold(Section::new("Signals"), |s, _| s.plot(plot(300_000)));
+        let html = Report::new("t", "c", "0")
+            .section(section)
+            .to_html()
+            .expect("a valid report");
+        assert!(html.len() < 5_000_000, "{} bytes", html.len());
+        assert!(
+            html.len() > 3_000_000,
+            "the budget is used: {} bytes",
+            html.len()
+        );
+        let again = Report::new("t", "c", "0").section(Section::new("S").plot(plot(300_000)));
+        assert!(
+            again.to_html().expect("a valid report").len() > 1_600_000,
+            "one signal stays whole"
+        );
+    }
+
+    #[test]
+    fn errors_come_through() {
+        let html = |section| Report::new("t", "c", "0").section(section).to_html();
+        let bad_table = table().row([Cell::text("one cell")]);
+        assert!(html(Section::new("S").table(bad_table)).is_err());
+        assert!(html(Section::new("S").plot(plot(0))).is_err());
+        assert!(html(Section::new("S").drawing(Drawing::default())).is_err());
+    }
+}

@@ -1,0 +1,202 @@
+//! Numbers and units as an engineer reads them.
+
+/// Space between groups of three digits: narrow and not broken over lines (ISO 80000-1, 7.3.1).
+const GROUP: char = '\u{202f}';
+
+/// The number with so many significant digits (1 to 17; others are moved there), groups of three digits from 10 000
+/// on, and a power of ten outside 0.001 .. 1 000 000. A true minus sign; "–" for what is not a number.
+///
+/// ```
+/// use plummer::report::significant;
+/// assert_eq!(significant(0.012345, 3), "0.0123");
+/// assert_eq!(significant(-4.2137e9, 3), "−4.21·10⁹");
+/// ```
+pub fn significant(value: f64, digits: usize) -> String {
+    if value.is_nan() {
+        return "–".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "∞" } else { "−∞" }.to_owned();
+    }
+    let digits = digits.clamp(1, 17);
+    // Rounding first: 9.996 with three digits is 10.0, one decimal less than 9.99.
+    let rounded = format!("{:.*e}", digits - 1, value);
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-3..6).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        fixed(rounded.parse().unwrap_or(value), decimals)
+    } else {
+        format!("{}·10{}", mantissa.replace('-', "−"), superscript(exponent))
+    }
+}
+
+/// The number with so many decimals, in groups of three digits from 10 000 on, with a true minus sign; never "−0".
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{:.decimals$}", value.abs());
+    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+    let mut out = String::with_capacity(text.len() + 8);
+    if value < 0.0 && text.bytes().any(|b| (b'1'..=b'9').contains(&b)) {
+        out.push('−');
+    }
+    for (k, digit) in whole.chars().enumerate() {
+        if k > 0 && whole.len() > 4 && (whole.len() - k).is_multiple_of(3) {
+            out.push(GROUP);
+        }
+        out.push(digit);
+    }
+    if !fraction.is_empty() {
+        out.push('.');
+        out.push_str(fraction);
+    }
+    out
+}
+
+/// A whole number in superscript digits.
+pub(super) fn superscript(n: i32) -> String {
+    n.to_string().chars().map(raised).collect()
+}
+
+fn raised(c: char) -> char {
+    match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        other => other,
+    }
+}
+
+/// A unit as it is printed: "m/s^2" becomes "m/s²", "kg*m" becomes "kg·m"; powers with a decimal point stay
+/// ("N/m^1.5").
+pub fn pretty_unit(unit: &str) -> String {
+    let mut parts = unit.split('^');
+    let mut out = parts.next().unwrap_or("").to_owned();
+    for part in parts {
+        let end = part
+            .find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '.'))
+            .unwrap_or(part.len());
+        let (power, rest) = part.split_at(end);
+        if power.is_empty() || power.contains('.') {
+            out.push('^');
+            out.push_str(power);
+        } else {
+            out.extend(power.chars().map(raised));
+        }
+        out.push_str(rest);
+    }
+    out.replace('*', "·")
+}
+
+/// By what an axis' values are divided, and how its unit is written then.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DisplayUnit {
+    /// Shown value = value / factor.
+    pub(super) factor: f64,
+    /// The unit with its prefix or power of ten.
+    pub(super) text: String,
+}
+
+/// Chooses a prefix such that a largest absolute value reads from 0.1 to below 10 000; for units that take no prefix a
+/// power of ten outside 0.001 .. 1 000 000.
+pub(super) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
+    const PREFIXES: [(i32, &str); 8] = [
+        (-12, "p"),
+        (-9, "n"),
+        (-6, "µ"),
+        (-3, "m"),
+        (3, "k"),
+        (6, "M"),
+        (9, "G"),
+        (12, "T"),
+    ];
+    let takes_prefix = matches!(
+        unit,
+        "Hz" | "s" | "m" | "N" | "Pa" | "W" | "J" | "V" | "N/m"
+    );
+    let plain = DisplayUnit {
+        factor: 1.0,
+        text: pretty_unit(unit),
+    };
+    if !(largest.is_finite() && largest > 0.0) {
+        return plain;
+    }
+    let exponent = 3 * (largest.log10() / 3.0 + 1e-9).floor() as i32;
+    if takes_prefix {
+        let wanted = !(0.1..1e4).contains(&largest) && (unit != "s" || exponent < 0);
+        let prefix = PREFIXES.iter().find(|(e, _)| *e == exponent);
+        if let (true, Some((e, prefix))) = (wanted, prefix) {
+            return DisplayUnit {
+                factor: 10_f64.powi(*e),
+                text: format!("{prefix}{unit}"),
+            };
+        }
+    } else if !(1e-3..1e6).contains(&largest) {
+        let power = format!("10{}", superscript(exponent));
+        let unit = pretty_unit(unit);
+        let text = format!("{power} {unit}").trim_end().to_owned();
+        return DisplayUnit {
+            factor: 10_f64.powi(exponent),
+            text,
+        };
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn significant_digits() {
+        for (value, digits, text) in [
+            (9.996, 3, "10.0"),
+            (0.0, 3, "0.00"),
+            (55.02, 4, "55.02"),
+            (-0.001_234, 2, "−0.0012"),
+            (8159.6, 4, "8160"),
+            (12_345.0, 5, "12\u{202f}345"),
+            (999_999.6, 6, "1.00000·10⁶"),
+            (123_456.7, 2, "120\u{202f}000"),
+            (3.828e9, 4, "3.828·10⁹"),
+            (-1.0e-7, 2, "−1.0·10⁻⁷"),
+            (f64::NAN, 2, "–"),
+            (f64::NEG_INFINITY, 2, "−∞"),
+        ] {
+            assert_eq!(significant(value, digits), text);
+        }
+    }
+
+    #[test]
+    fn fixed_decimals_never_show_minus_zero() {
+        assert_eq!(fixed(-0.001, 2), "0.00");
+        assert_eq!(fixed(-1_234_567.0, 1), "−1\u{202f}234\u{202f}567.0");
+        assert_eq!(fixed(1234.0, 0), "1234");
+    }
+
+    #[test]
+    fn units_are_raised_and_prefixed() {
+        assert_eq!(pretty_unit("m/s^2"), "m/s²");
+        assert_eq!(pretty_unit("kg*m^-2 x"), "kg·m⁻² x");
+        assert_eq!(pretty_unit("N/m^1.5"), "N/m^1.5");
+        let shown = |unit, largest| {
+            let d = display_unit(unit, largest);
+            format!("{} {:e}", d.text, d.factor)
+        };
+        assert_eq!(shown("Hz", 40e3), "kHz 1e3");
+        assert_eq!(shown("Hz", 300.0), "Hz 1e0");
+        assert_eq!(shown("m", 2.5e-6), "µm 1e-6");
+        assert_eq!(shown("s", 2e4), "s 1e0");
+        assert_eq!(shown("m/s^2", 1500.0), "m/s² 1e0");
+        assert_eq!(shown("m/s^2", 3e-6), "10⁻⁶ m/s² 1e-6");
+        assert_eq!(shown("", 1e9), "10⁹ 1e9");
+        assert_eq!(shown("Hz", 0.0), "Hz 1e0");
+    }
+}

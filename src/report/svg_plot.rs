@@ -1,0 +1,281 @@
+//! Draws a plot as SVG. The script of the page draws the same picture again when the reader zooms.
+
+use std::fmt::Write;
+
+use super::decimate;
+use super::layout::{Layout, MARKER_ROW, PlacedMarker, TICKS, WIDTH};
+use super::plot::{Curve, CurveStyle, Plot};
+use super::svg::{Path, escape};
+use super::ticks::{self, Tick};
+
+/// Colours in the style sheet; the next curve begins again.
+pub(super) const COLOURS: usize = 6;
+
+/// Most points of a curve in the picture: two a pixel column.
+const MOST_POINTS: usize = 2 * WIDTH as usize;
+
+/// The SVG element of a plot; `id` must be unique on the page.
+pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
+    let mut out = format!(
+        "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {}\" role=\"img\" tabindex=\"0\" aria-label=\"{}\">",
+        layout.height,
+        escape(&plot.title)
+    );
+    let (left, top) = (layout.left, layout.top);
+    let (width, height) = (layout.right - left, layout.bottom - top);
+    let area = format!("x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"");
+    // Writing to a string cannot fail.
+    let _ = write!(out, "<clipPath id=\"{id}-clip\"><rect {area}/></clipPath>");
+    let _ = write!(out, "<rect class=\"area\" {area}/><g class=\"view\">");
+    grid(&mut out, layout);
+    markers(&mut out, layout);
+    let _ = write!(out, "<g clip-path=\"url(#{id}-clip)\">");
+    for (k, curve) in plot.curves.iter().enumerate() {
+        draw_curve(&mut out, curve, layout, k);
+    }
+    out.push_str("</g></g>");
+    let _ = write!(out, "<rect class=\"frame\" {area}/>");
+    let _ = write!(
+        out,
+        "<text class=\"title\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
+        left + 0.5 * width,
+        layout.height - 8.0,
+        escape(&layout.x.title)
+    );
+    let middle = top + 0.5 * height;
+    let _ = write!(
+        out,
+        "<text class=\"title\" transform=\"translate(16 {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        escape(&layout.y.title)
+    );
+    out.push_str("</svg>");
+    out
+}
+
+fn grid(out: &mut String, layout: &Layout) {
+    let choose = |log: bool, low, high, wanted| -> Vec<Tick> {
+        if log {
+            ticks::log(low, high, wanted)
+        } else {
+            ticks::linear(low, high, wanted)
+        }
+    };
+    let (left, right, top, bottom) = (layout.left, layout.right, layout.top, layout.bottom);
+    for tick in choose(layout.x.log, layout.x.low, layout.x.high, TICKS[0]) {
+        let x = tenth(layout.x_px(tick.at));
+        line(out, &tick, [x, top, x, bottom]);
+        if let Some(label) = tick.label {
+            let y = bottom + 16.0;
+            let _ = write!(
+                out,
+                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{label}</text>"
+            );
+        }
+    }
+    for tick in choose(layout.y.log, layout.y.low, layout.y.high, TICKS[1]) {
+        let y = tenth(layout.y_px(tick.at));
+        line(out, &tick, [left, y, right, y]);
+        if let Some(label) = tick.label {
+            let (x, y) = (left - 7.0, y + 4.0);
+            let _ = write!(
+                out,
+                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"end\">{label}</text>"
+            );
+        }
+    }
+}
+
+fn line(out: &mut String, tick: &Tick, [x1, y1, x2, y2]: [f64; 4]) {
+    let class = if tick.label.is_some() { "grid" } else { "fine" };
+    let _ = write!(
+        out,
+        "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
+    );
+}
+
+/// Lines first, labels after: a label covers the lines behind it.
+fn markers(out: &mut String, layout: &Layout) {
+    let top = |placed: &PlacedMarker| {
+        layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64
+    };
+    for placed in &layout.markers {
+        let x = tenth(placed.x);
+        let (family, name) = (placed.marker.family % COLOURS, escape(&placed.marker.label));
+        let (top, bottom) = (top(placed), layout.bottom);
+        let _ = write!(
+            out,
+            "<g class=\"marker m{family}\"><title>{name}</title><line x1=\"{x}\" y1=\"{top}\" x2=\"{x}\" y2=\"{bottom}\"/></g>"
+        );
+    }
+    for placed in &layout.markers {
+        if let Some((_, centre)) = placed.label {
+            let (x, y) = (tenth(centre), top(placed) - 4.0);
+            let (family, name) = (placed.marker.family % COLOURS, escape(&placed.marker.label));
+            let _ = write!(
+                out,
+                "<g class=\"marker m{family}\"><text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{name}</text></g>"
+            );
+        }
+    }
+}
+
+fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
+    let class = number % COLOURS;
+    let shown = |k: usize| {
+        (
+            layout.x_px(curve.x_at(k) / layout.x.factor),
+            layout.y_px(curve.y[k] / layout.y.factor),
+        )
+    };
+    // Far outside is as good as at the edge of the page, and keeps the numbers short.
+    let near = |(x, y): (f64, f64)| (x, y.clamp(-2000.0, 3000.0));
+    let points = in_view(curve, layout);
+    if curve.style == CurveStyle::Points {
+        let _ = write!(out, "<g class=\"dots c{class}\">");
+        for (x, y) in points.into_iter().flatten().map(shown).map(near) {
+            if x.is_finite() && y.is_finite() {
+                let (x, y) = (tenth(x), tenth(y));
+                let _ = write!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"3.5\"/>");
+            }
+        }
+        out.push_str("</g>");
+        return;
+    }
+    let mut path = Path::default();
+    for point in points {
+        match point.map(shown).map(near) {
+            Some((x, y)) if x.is_finite() && y.is_finite() => path.to(x, y),
+            _ => path.gap(),
+        }
+    }
+    let dashed = if curve.style == CurveStyle::Dashed {
+        " dashed"
+    } else {
+        ""
+    };
+    let data = path.data();
+    let _ = write!(out, "<path class=\"curve c{class}{dashed}\" d=\"{data}\"/>");
+}
+
+/// Points of a curve to draw, thinned to what a pixel column can show; `None` for a gap. Of curves with rising
+/// abscissas only what is in view, and one point more on each side.
+fn in_view(curve: &Curve, layout: &Layout) -> Vec<Option<usize>> {
+    let rising = (1..curve.y.len()).all(|k| curve.x_at(k - 1) <= curve.x_at(k));
+    let range = if rising {
+        let shown = |k: usize| curve.x_at(k) / layout.x.factor;
+        let first = partition(curve.y.len(), |k| shown(k) < layout.x.low);
+        let end = partition(curve.y.len(), |k| shown(k) <= layout.x.high);
+        first.saturating_sub(1)..(end + 1).min(curve.y.len())
+    } else {
+        0..curve.y.len()
+    };
+    let start = range.start;
+    let values = &curve.y[range];
+    let kept = if curve.style == CurveStyle::Points {
+        (0..values.len()).collect()
+    } else {
+        decimate::indices(values, MOST_POINTS)
+    };
+    let mut points = Vec::with_capacity(kept.len());
+    let mut last = None;
+    for k in kept {
+        // A gap that fell between two points that stayed.
+        if last.is_some_and(|l: usize| values[l..k].iter().any(|v| !v.is_finite())) {
+            points.push(None);
+        }
+        points.push(Some(start + k));
+        last = Some(k);
+    }
+    points
+}
+
+/// First index for which `before` does not hold, as `slice::partition_point` finds it.
+fn partition(length: usize, before: impl Fn(usize) -> bool) -> usize {
+    let (mut low, mut high) = (0, length);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if before(middle) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+fn tenth(pixels: f64) -> f64 {
+    (pixels * 10.0).round() / 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plot::{Abscissa, Axis, Marker};
+    use super::*;
+
+    fn svg(plot: &Plot) -> String {
+        draw(plot, &Layout::of(plot).expect("a valid plot"), "p1")
+    }
+
+    fn plot(y: Vec<f64>) -> Plot {
+        let even = Abscissa::Even {
+            start: 0.0,
+            step: 1e-5,
+        };
+        Plot::new(
+            "P1 <top>",
+            Axis::new("Time", "s"),
+            Axis::new("Acceleration", "m/s^2"),
+        )
+        .curve(Curve::new("P1", even, y))
+    }
+
+    #[test]
+    fn a_long_signal_is_thinned_and_its_spike_stays() {
+        let mut y: Vec<f64> = (0..300_000).map(|k| (f64::from(k) * 0.1).sin()).collect();
+        y[123_456] = 40.0;
+        let svg = svg(&plot(y));
+        assert!(svg.len() < 60_000, "{}", svg.len());
+        // The spike reaches to the headroom below the top of the area: y = 14 + 250 x 0.06 / 1.12 to a tenth.
+        assert!(svg.contains(" 27.4L") || svg.contains(" 27.4\""), "spike");
+        assert!(svg.contains("aria-label=\"P1 &lt;top&gt;\""));
+        assert!(svg.contains(">Time [s]</text>") && svg.contains(">Acceleration [m/s²]</text>"));
+    }
+
+    #[test]
+    fn gaps_break_the_line() {
+        let svg = svg(&plot(vec![1.0, 2.0, f64::NAN, 3.0, 1.0]));
+        let path = svg
+            .split("<path class=\"curve c0\" d=\"")
+            .nth(1)
+            .expect("a path");
+        let data = path.split('"').next().expect("its data");
+        assert_eq!(data.matches('M').count(), 2, "{data}");
+        assert_eq!(data.matches('L').count(), 2, "{data}");
+    }
+
+    #[test]
+    fn markers_and_points_are_drawn() {
+        let mut marked = plot(vec![1.0, 2.0, 3.0]).marker(Marker::new(1e-5, "a & b").family(2));
+        marked.curves[0].style = CurveStyle::Points;
+        let svg = svg(&marked);
+        assert_eq!(svg.matches("<circle").count(), 3);
+        assert!(svg.contains("<g class=\"marker m2\"><title>a &amp; b</title>"));
+    }
+
+    #[test]
+    fn only_what_is_in_view_is_drawn() {
+        let mut part = plot((0..1000).map(f64::from).collect());
+        part.x = part.x.range(0.002, 0.003);
+        let svg = svg(&part);
+        let path = svg
+            .split(" d=\"M")
+            .nth(1)
+            .and_then(|s| s.split('"').next())
+            .expect("a path");
+        assert!(
+            (100..105).contains(&path.matches('L').count()),
+            "{}",
+            path.matches('L').count()
+        );
+    }
+}

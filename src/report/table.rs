@@ -1,0 +1,187 @@
+//! Tables with a verdict per cell.
+
+use serde::Serialize;
+
+use super::number::significant;
+use super::{ReportError, Verdict};
+
+/// On which side a column's cells stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Align {
+    /// Text.
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// Head of a column.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Column {
+    /// What the column holds.
+    pub title: String,
+    /// Unit of its numbers, printed under the title.
+    pub unit: Option<String>,
+    /// Side on which its cells stand.
+    pub align: Align,
+}
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// What it says.
+    pub text: String,
+    /// Whether it is as it should be.
+    pub verdict: Verdict,
+    /// Footnote that belongs to it, counted from 1.
+    pub footnote: Option<usize>,
+}
+
+/// A table. Every row has one cell a column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What the table shows.
+    pub caption: String,
+    /// Heads of its columns.
+    pub columns: Vec<Column>,
+    /// Its rows.
+    pub rows: Vec<Vec<Cell>>,
+    /// Remarks under it, numbered from 1.
+    pub footnotes: Vec<String>,
+}
+
+impl Column {
+    /// A column of text.
+    pub fn text(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            unit: None,
+            align: Align::Left,
+        }
+    }
+
+    /// A column of numbers in a unit ("" for none).
+    pub fn number(title: impl Into<String>, unit: &str) -> Self {
+        Self {
+            title: title.into(),
+            unit: (!unit.is_empty()).then(|| unit.to_owned()),
+            align: Align::Right,
+        }
+    }
+}
+
+impl Cell {
+    /// A cell with text, not judged.
+    pub fn text(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            verdict: Verdict::None,
+            footnote: None,
+        }
+    }
+
+    /// A cell with a number, written with so many significant digits (1 to 17), not judged.
+    pub fn number(value: f64, digits: usize) -> Self {
+        Self::text(significant(value, digits))
+    }
+
+    /// The cell with a verdict.
+    #[must_use]
+    pub fn judged(mut self, verdict: Verdict) -> Self {
+        self.verdict = verdict;
+        self
+    }
+
+    /// The cell with a reference to footnote `number`, counted from 1.
+    #[must_use]
+    pub fn footnote(mut self, number: usize) -> Self {
+        self.footnote = Some(number);
+        self
+    }
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new(caption: impl Into<String>, columns: impl IntoIterator<Item = Column>) -> Self {
+        Self {
+            caption: caption.into(),
+            columns: columns.into_iter().collect(),
+            rows: Vec::new(),
+            footnotes: Vec::new(),
+        }
+    }
+
+    /// The table with a row more.
+    #[must_use]
+    pub fn row(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
+        self.rows.push(cells.into_iter().collect());
+        self
+    }
+
+    /// The table with a footnote more.
+    #[must_use]
+    pub fn footnote(mut self, text: impl Into<String>) -> Self {
+        self.footnotes.push(text.into());
+        self
+    }
+
+    /// Whether each row fits the columns and each reference its footnote.
+    pub(super) fn check(&self) -> Result<(), ReportError> {
+        for (row, cells) in (1..).zip(&self.rows) {
+            if cells.len() != self.columns.len() {
+                return Err(ReportError::RowLength {
+                    table: self.caption.clone(),
+                    row,
+                    found: cells.len(),
+                    expected: self.columns.len(),
+                });
+            }
+            let missing = |footnote: &usize| *footnote == 0 || *footnote > self.footnotes.len();
+            if let Some(footnote) = cells.iter().filter_map(|c| c.footnote).find(missing) {
+                return Err(ReportError::Footnote {
+                    table: self.caption.clone(),
+                    row,
+                    footnote,
+                    footnotes: self.footnotes.len(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_and_footnotes_are_checked() {
+        let table = Table::new(
+            "Lines",
+            [Column::text("Line"), Column::number("Found", "Hz")],
+        );
+        let row = |n: usize| vec![Cell::text("outer"); n];
+        assert!(table.clone().row(row(2)).check().is_ok());
+        let error = table
+            .clone()
+            .row(row(2))
+            .row(row(3))
+            .check()
+            .expect_err("must fail");
+        assert_eq!(
+            error.to_string(),
+            "table \"Lines\": row 2 has 3 cells, the table has 2 columns"
+        );
+        let noted = table.row([Cell::text("outer"), Cell::number(55.0, 3).footnote(2)]);
+        let error = noted
+            .clone()
+            .footnote("one")
+            .check()
+            .expect_err("must fail");
+        assert_eq!(
+            error.to_string(),
+            "table \"Lines\": row 1 points to footnote 2, the table has 1"
+        );
+        assert!(noted.footnote("one").footnote("two").check().is_ok());
+    }
+}

@@ -1,0 +1,16 @@
+//! Evenly sampled signals with a unit, their statistics, and the decimator that records them during a simulation.
+//!
+//! Everything here stands on the lowest row of the crate: the transient integrators record through it, the signal
+//! analysis starts from it.
+
+mod decimator;
+mod error;
+mod kaiser;
+mod statistics;
+mod time_series;
+
+pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS};
+pub use error::SeriesError;
+pub use kaiser::KaiserLowPass;
+pub(crate) use statistics::root_mean_square;
+pub use time_series::{TimeSeries, TimeWindow};

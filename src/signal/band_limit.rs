@@ -1,0 +1,172 @@
+//! Cuts a signal to the band in which two methods are compared.
+
+use super::SignalError;
+use super::fourier::{fast_length, forward, inverse};
+use crate::series::{KaiserLowPass, TimeSeries};
+
+/// Stop-band level and pass-band ripple, dB.
+const ATTENUATION_DB: f64 = 80.0;
+
+/// Begin of the stop band over the end of the pass band.
+const STOP_OVER_PASS: f64 = 1.1;
+
+/// The series (unit and instants unchanged) without what lies above `up_to_hz`: a symmetric Kaiser low-pass, so no
+/// phase shift; gain 1 within 1e-4 up to `up_to_hz`, below -80 dB from 1.1 `up_to_hz` (or half the sampling rate, if
+/// that is lower) on. 0 < `up_to_hz` < 1 / (2 step).
+///
+/// Edges: the series is extended by its odd reflection, 2 x_0 - x_k; the first and last [`band_limit_edge_s`] seconds
+/// depend on that. The same input gives the same output bit by bit on one machine.
+///
+/// # Errors
+/// [`SignalError::CutOff`]; [`SignalError::TooShort`] if the series is not longer than the filter reaches to one side.
+pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
+    let filter = filter(series.step_s(), up_to_hz)?;
+    let (x, half) = (series.values(), filter.half_length());
+    let samples = x.len();
+    if samples <= half {
+        return Err(SignalError::TooShort {
+            samples,
+            needed: half + 1,
+        });
+    }
+    let (first, last) = (x[0], x[samples - 1]);
+    let before = x[1..=half].iter().rev().map(|v| 2.0 * first - v);
+    let after = x[samples - 1 - half..samples - 1]
+        .iter()
+        .rev()
+        .map(|v| 2.0 * last - v);
+    let extended: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();
+    // Circular convolution: the middle part reaches `half` to each side, never round the end.
+    let points = fast_length(extended.len());
+    let mut taps = vec![0.0; points];
+    for m in -(half as isize)..=half as isize {
+        taps[m.rem_euclid(points as isize) as usize] = filter.tap(m);
+    }
+    let mut bins = forward(&extended, points)?;
+    for (bin, gain) in bins.iter_mut().zip(forward(&taps, points)?) {
+        *bin *= gain.re;
+    }
+    let filtered = inverse(bins, points)?;
+    Ok(series.with_values(filtered[half..half + samples].to_vec())?)
+}
+
+/// Length of the stretch at each end of a band-limited series that depends on the extension beyond the ends, s: the
+/// reach of the filter, about 25 / `up_to_hz` seconds for `up_to_hz` well below half the sampling rate.
+///
+/// # Errors
+/// [`SignalError::CutOff`].
+pub fn band_limit_edge_s(step_s: f64, up_to_hz: f64) -> Result<f64, SignalError> {
+    Ok(filter(step_s, up_to_hz)?.half_length() as f64 * step_s)
+}
+
+fn filter(step_s: f64, up_to_hz: f64) -> Result<KaiserLowPass, SignalError> {
+    let nyquist_hz = 0.5 / step_s;
+    if !(up_to_hz > 0.0 && up_to_hz < nyquist_hz) {
+        return Err(SignalError::CutOff {
+            cut_off_hz: up_to_hz,
+            nyquist_hz,
+        });
+    }
+    let stop_hz = f64::min(STOP_OVER_PASS * up_to_hz, nyquist_hz);
+    Ok(KaiserLowPass::new(
+        step_s,
+        up_to_hz,
+        stop_hz,
+        ATTENUATION_DB,
+    )?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn tone(f: f64, samples: usize) -> TimeSeries {
+        let values = (0..samples)
+            .map(|k| (2.0 * PI * f * k as f64 * 1e-5 + 0.3).sin())
+            .collect();
+        TimeSeries::new(0.0, 1e-5, "m/s^2", values).expect("a valid series")
+    }
+
+    /// Largest |a - b| away from the edges.
+    fn worst(a: &TimeSeries, b: &[f64], edge_s: f64) -> f64 {
+        let edge = (edge_s / a.step_s()).round() as usize;
+        let inside = edge..a.values().len() - edge;
+        let pairs = a.values()[inside.clone()].iter().zip(&b[inside]);
+        pairs.fold(0.0, |w, (a, b)| w.max((a - b).abs()))
+    }
+
+    #[test]
+    fn passes_below_and_stops_above() {
+        for (up_to, samples) in [(40e3, 4001), (1e3, 20_000), (48e3, 4000)] {
+            let edge = band_limit_edge_s(1e-5, up_to).expect("a valid band");
+            for part in [0.01, 0.5, 0.9, 1.0] {
+                let x = tone(part * up_to, samples);
+                let y = band_limit(&x, up_to).expect("filter");
+                assert!(worst(&y, x.values(), edge) < 1.1e-4, "{up_to} Hz, {part}");
+            }
+            let stop = f64::min(1.1 * up_to, 50e3);
+            for f in [stop, 0.5 * (stop + 50e3)] {
+                let y = band_limit(&tone(f, samples), up_to).expect("filter");
+                assert!(
+                    worst(&y, &vec![0.0; samples], edge) < 1.1e-4,
+                    "{f} Hz of {up_to}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn agrees_with_direct_convolution() {
+        let values: Vec<f64> = (0..300_u64)
+            .map(|k| ((k * k * 31) % 97) as f64 - 48.0)
+            .collect();
+        let x = TimeSeries::new(0.0, 1e-5, "N", values.clone()).expect("a valid series");
+        let y = band_limit(&x, 30e3).expect("filter");
+        let filter = filter(1e-5, 30e3).expect("filter");
+        let half = filter.half_length();
+        let at = |k: isize| {
+            let last = values.len() as isize - 1;
+            if k < 0 {
+                2.0 * values[0] - values[(-k) as usize]
+            } else if k > last {
+                2.0 * values[last as usize] - values[(2 * last - k) as usize]
+            } else {
+                values[k as usize]
+            }
+        };
+        for n in [0, 1, 17, 150, 298, 299] {
+            let direct: f64 = (-(half as isize)..=half as isize)
+                .map(|m| filter.tap(m) * at(n - m))
+                .sum();
+            assert!(
+                (y.values()[n as usize] - direct).abs() < 1e-11,
+                "sample {n}"
+            );
+        }
+        assert_eq!(y, band_limit(&x, 30e3).expect("filter"));
+    }
+
+    #[test]
+    fn a_straight_line_passes_up_to_its_ends() {
+        let values = (0..500).map(|k| 3.0 + 0.01 * f64::from(k)).collect();
+        let x = TimeSeries::new(0.0, 1e-5, "m", values).expect("a valid series");
+        let y = band_limit(&x, 20e3).expect("filter");
+        assert!(worst(&y, x.values(), 0.0) < 1e-12);
+    }
+
+    #[test]
+    fn errors_fire_with_their_exact_messages() {
+        let message =
+            |series: &TimeSeries, f| band_limit(series, f).expect_err("must fail").to_string();
+        let series = TimeSeries::new(0.0, 0.25, "m", vec![0.0; 30]).expect("a valid series");
+        assert_eq!(
+            message(&series, 2.0),
+            "cut-off must lie between 0 and 2 Hz (half the sampling rate), found 2 Hz"
+        );
+        assert_eq!(
+            message(&series, 0.5),
+            "series has 30 samples, the filter or transform needs at least 202"
+        );
+    }
+}

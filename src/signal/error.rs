@@ -1,0 +1,109 @@
+//! What can be wrong with an analysis of a signal.
+
+use thiserror::Error;
+
+use crate::series::SeriesError;
+
+/// Why a signal cannot be filtered, transformed, searched or compared.
+#[derive(Debug, Error)]
+pub enum SignalError {
+    /// The series or a window of it is not valid.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    /// A cut-off that does not lie between zero and half the sampling rate.
+    #[error(
+        "cut-off must lie between 0 and {nyquist_hz} Hz (half the sampling rate), found {cut_off_hz} Hz"
+    )]
+    CutOff {
+        /// Cut-off as given, Hz.
+        cut_off_hz: f64,
+        /// Half the sampling rate, Hz.
+        nyquist_hz: f64,
+    },
+    /// A filter order that is not offered.
+    #[error("filter order must be 1 to {largest}, found {order}")]
+    Order {
+        /// Order as given.
+        order: usize,
+        /// Largest order offered.
+        largest: usize,
+    },
+    /// The filter library did not give second-order sections.
+    #[error(
+        "Butterworth design of order {order} at {cut_off_hz} Hz did not give second-order sections"
+    )]
+    Design {
+        /// Order of the filter.
+        order: usize,
+        /// Its cut-off, Hz.
+        cut_off_hz: f64,
+    },
+    /// Too few samples for the edge extension of the filter, or for a spectrum.
+    #[error("series has {samples} samples, the filter or transform needs at least {needed}")]
+    TooShort {
+        /// Samples found.
+        samples: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// A frequency resolution that is not positive, or needs more than 2^28 points.
+    #[error(
+        "frequency resolution must be positive and at least {finest_hz} Hz for this sampling rate, found {resolution_hz} Hz"
+    )]
+    Resolution {
+        /// Resolution as given, Hz.
+        resolution_hz: f64,
+        /// Finest resolution offered, Hz.
+        finest_hz: f64,
+    },
+    /// The Fourier transform refused its buffers.
+    #[error("Fourier transform over {points} points failed: {source}")]
+    Transform {
+        /// Length of the transform.
+        points: usize,
+        /// What the library found.
+        source: realfft::FftError,
+    },
+    /// A named line without a positive frequency or without harmonics.
+    #[error(
+        "line \"{name}\" must have a positive frequency and at least one harmonic, found {frequency_hz} Hz and {harmonics}"
+    )]
+    Line {
+        /// Name of the line.
+        name: String,
+        /// Its fundamental, Hz.
+        frequency_hz: f64,
+        /// Its number of harmonics.
+        harmonics: u32,
+    },
+    /// Two series that are compared differ in their instants.
+    #[error(
+        "series are not sampled at the same instants: {first_samples} samples from {first_start_s} s every {first_step_s} s against \
+         {second_samples} from {second_start_s} s every {second_step_s} s"
+    )]
+    Instants {
+        /// Samples of the first series.
+        first_samples: usize,
+        /// Start of the first series, s.
+        first_start_s: f64,
+        /// Step of the first series, s.
+        first_step_s: f64,
+        /// Samples of the second series.
+        second_samples: usize,
+        /// Start of the second series, s.
+        second_start_s: f64,
+        /// Step of the second series, s.
+        second_step_s: f64,
+    },
+    /// Two series that are compared differ in their unit.
+    #[error("series have different units: \"{first}\" against \"{second}\"")]
+    Units {
+        /// Unit of the first series.
+        first: String,
+        /// Unit of the second series.
+        second: String,
+    },
+    /// The reference of a relative difference is zero throughout.
+    #[error("relative difference needs a reference that is not zero throughout")]
+    ZeroReference,
+}

@@ -1,0 +1,29 @@
+//! Diagnosis of a vibration signal: high-pass, envelope, spectrum, peaks and the defect lines they lie on.
+//!
+//! The way of a signal: [`high_pass`] takes the low-frequency vibration off, [`envelope`] follows the amplitude of
+//! what is left, [`envelope_spectrum`] shows how often that amplitude comes back, and [`envelope_peaks`] names the
+//! lines. [`EnvelopeAnalysis`] does all of it over one window. [`band_limit`] and [`relative_difference`] compare the
+//! signals of two methods in the band that matters.
+//!
+//! Nothing here knows of simulations: a measured signal goes the same way.
+
+mod band_limit;
+mod butterworth;
+mod compare;
+mod envelope;
+mod envelope_analysis;
+mod error;
+mod fourier;
+mod lines;
+mod peaks;
+mod spectrum;
+
+pub use band_limit::{band_limit, band_limit_edge_s};
+pub use butterworth::{DEFAULT_ORDER, high_pass, high_pass_of_order};
+pub use compare::relative_difference;
+pub use envelope::envelope;
+pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};
+pub use error::SignalError;
+pub use lines::{EnvelopePeak, LineMatch, NamedLine, PeakSearch, envelope_peaks, match_line};
+pub use peaks::{Peak, local_maxima, peak_near};
+pub use spectrum::{AmplitudeSpectrum, DEFAULT_RESOLUTION_HZ, amplitude_spectrum};

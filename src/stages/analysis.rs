@@ -1,0 +1,125 @@
+//! Envelope analysis of a run's signal in the windows that the case names.
+
+use super::StageError;
+use crate::bearing::SpeedProfile;
+use crate::case::Case;
+use crate::closed_form::race::DefectOrders;
+use crate::series::TimeSeries;
+use crate::signal::{
+    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, envelope_peaks,
+};
+use std::f64::consts::TAU;
+
+/// Harmonics of each fault line that peaks are matched to.
+const HARMONICS: u32 = 3;
+
+/// Highest frequency of the envelope spectrum that is looked at, in shaft orders; the third
+/// harmonic of the highest fault order of usual bearings lies below.
+const HIGHEST_ORDER: f64 = 25.0;
+
+/// How far a peak may be from the line that it is said to belong to.
+const LINE_TOLERANCE: f64 = 0.03;
+
+/// A window of the signal, analysed.
+#[derive(Debug, Clone)]
+pub struct WindowAnalysis {
+    /// Sensor that it belongs to.
+    pub sensor: String,
+    /// Start, s.
+    pub from: f64,
+    /// End, s.
+    pub to: f64,
+    /// Mean shaft speed in the window, Hz.
+    pub speed_hz: f64,
+    /// Root mean square of the signal, m/s^2.
+    pub rms: f64,
+    /// Largest magnitude, m/s^2.
+    pub peak: f64,
+    /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
+    pub kurtosis: Option<f64>,
+    /// Envelope spectrum.
+    pub spectrum: EnvelopeSpectrum,
+    /// Fault lines and the shaft's.
+    pub lines: Vec<NamedLine>,
+    /// Strongest peaks.
+    pub peaks: Vec<EnvelopePeak>,
+    /// For the outer race's line and its second harmonic: expected frequency, peak found within
+    /// three percent (Hz, amplitude).
+    pub outer: [(f64, Option<(f64, f64)>); 2],
+}
+
+/// Analyses one sensor's acceleration in every window of the case.
+///
+/// # Errors
+/// [`StageError::Signal`] or [`StageError::Series`] for a window outside the signal or a filter
+/// that does not fit the sampling.
+pub fn analyse(
+    case: &Case,
+    sensor: &str,
+    signal: &TimeSeries,
+    speed: &SpeedProfile,
+    orders: &DefectOrders,
+) -> Result<Vec<WindowAnalysis>, StageError> {
+    if case.analysis.envelope.is_empty() {
+        return Ok(Vec::new());
+    }
+    let settings = EnvelopeAnalysis {
+        high_pass_hz: case.analysis.high_pass_hz,
+        ..EnvelopeAnalysis::default()
+    };
+    let envelope = settings.envelope(signal)?;
+    case.analysis
+        .envelope
+        .iter()
+        .map(|window| {
+            let (from, to) = (window.from, window.to);
+            let part = signal.window(from, to)?;
+            let turned = speed.angle(to) - speed.angle(from);
+            let speed_hz = (turned / (to - from) / TAU).abs();
+            let spectrum = settings.window_of(&envelope, from, to)?;
+            let lines = lines(speed_hz, orders)?;
+            let search = PeakSearch {
+                to_hz: Some(HIGHEST_ORDER * speed_hz),
+                ..PeakSearch::default()
+            };
+            let peaks = if speed_hz > 0.0 {
+                envelope_peaks(&spectrum, &lines, &search)
+            } else {
+                Vec::new()
+            };
+            let near = |expected: f64| {
+                let found = spectrum.peak_near(expected, LINE_TOLERANCE);
+                (expected, found.map(|peak| (peak.frequency_hz, peak.amplitude)))
+            };
+            Ok(WindowAnalysis {
+                sensor: sensor.to_owned(),
+                from,
+                to,
+                speed_hz,
+                rms: part.rms(),
+                peak: part.peak(),
+                kurtosis: part.kurtosis(),
+                outer: [1.0, 2.0].map(|harmonic| near(harmonic * orders.outer * speed_hz)),
+                spectrum,
+                lines,
+                peaks,
+            })
+        })
+        .collect()
+}
+
+fn lines(speed_hz: f64, orders: &DefectOrders) -> Result<Vec<NamedLine>, StageError> {
+    if speed_hz <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let named = [
+        ("shaft", 1.0, HARMONICS),
+        ("outer race", orders.outer, HARMONICS),
+        ("inner race", orders.inner, HARMONICS),
+        ("ball", orders.ball_defect, HARMONICS),
+    ];
+    named
+        .into_iter()
+        .map(|(name, order, harmonics)| Ok(NamedLine::new(name, order * speed_hz, harmonics)?))
+        .collect()
+}

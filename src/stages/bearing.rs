@@ -1,0 +1,128 @@
+//! The bearing of a case.
+
+use super::StageError;
+use crate::bearing::dent::{DentCurvature, DentShape, OuterDent};
+use crate::bearing::{
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
+    SpeedKnot, SpeedProfile,
+};
+use crate::case::{self, Case};
+use crate::system::{BearingSetup, Formulation, Shaft};
+
+/// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
+    let (Some(asked), Some(shaft)) = (&case.bearing, &case.shaft) else {
+        return Ok(None);
+    };
+    let geometry = geometry(case, asked)?;
+    let stiffness = match asked.stiffness {
+        case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
+        case::ContactStiffness::Given { inner, outer } => ContactStiffness::given(inner, outer)?,
+    };
+    let dents = asked
+        .defects
+        .iter()
+        .enumerate()
+        .map(|(index, defect)| {
+            let shape = DentShape {
+                angle: defect.angle_deg.to_radians(),
+                length: defect.length,
+                depth: defect.depth,
+                rim_radius: defect.rim_radius,
+                curvature: match defect.curvature {
+                    case::DefectCurvature::Profile => DentCurvature::Total,
+                    case::DefectCurvature::Paper => DentCurvature::Paper,
+                },
+            };
+            OuterDent::new(&geometry, shape, stiffness)
+                .map_err(|source| StageError::Dent { index, source })
+        })
+        .collect::<Result<_, _>>()?;
+    let speed = match &case.speed {
+        Some(speed) => {
+            let knots: Vec<SpeedKnot> = speed
+                .profile
+                .iter()
+                .map(|point| SpeedKnot {
+                    time: point.time,
+                    frequency_hz: point.hz,
+                })
+                .collect();
+            SpeedProfile::new(&knots)?
+        }
+        None => SpeedProfile::constant(0.0)?,
+    };
+    let force = shaft.loads.iter().fold([0.0; 2], |sum, load| {
+        [sum[0] + load.force[0], sum[1] + load.force[1]]
+    });
+    Ok(Some(BearingSetup {
+        cage: Cage::new(&geometry, asked.slip, asked.first_ball_deg.to_radians())?,
+        geometry,
+        stiffness,
+        contact_damping: asked.contact_damping,
+        formulation: match asked.formulation {
+            case::Formulation::Consistent => Formulation::Consistent,
+            case::Formulation::Printed => Formulation::Printed,
+        },
+        speed,
+        dents,
+        shaft: Shaft {
+            mass: shaft.mass,
+            unbalance: shaft.unbalance,
+            force,
+        },
+        gravity: shaft.gravity,
+    }))
+}
+
+/// The stiffness of both contacts from geometry, whichever the case uses.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn contact_table(case: &Case) -> Result<Option<RaceContacts>, StageError> {
+    let Some(asked) = &case.bearing else {
+        return Ok(None);
+    };
+    let geometry = geometry(case, asked)?;
+    Ok(Some(hertz(case, asked, &geometry)?))
+}
+
+fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, StageError> {
+    let geometry = BearingGeometry::new(BearingDimensions {
+        balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
+        ball_radius: asked.ball_radius,
+        // a ball material that is missing was refused with the case
+        ball_mass: case.ball_mass().unwrap_or(f64::NAN),
+        inner_race_radius: asked.inner_race_radius,
+        outer_race_radius: asked.outer_race_radius,
+        inner_groove_radius: asked.inner_groove_radius,
+        outer_groove_radius: asked.outer_groove_radius,
+    })?;
+    match asked.radial_play {
+        Some(play) => Ok(geometry.with_radial_play(play)?),
+        None => Ok(geometry),
+    }
+}
+
+fn hertz(
+    case: &Case,
+    asked: &case::Bearing,
+    geometry: &BearingGeometry,
+) -> Result<RaceContacts, StageError> {
+    let contact = |name: &str| -> Result<ContactMaterial, StageError> {
+        let material = super::housing::material(case, name)?;
+        Ok(ContactMaterial {
+            young: material.young,
+            poisson: material.poisson,
+        })
+    };
+    Ok(RaceContacts::new(
+        geometry,
+        contact(&asked.ball_material)?,
+        contact(&asked.race_material.inner)?,
+        contact(&asked.race_material.outer)?,
+    )?)
+}

@@ -1,0 +1,141 @@
+//! What can go wrong on the way from a case to a result, and whose fault it is.
+
+use crate::bearing::dent::DentError;
+use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
+use crate::case::CaseError;
+use crate::element::ElementError;
+use crate::export::NpzError;
+use crate::linalg::LinalgError;
+use crate::material::{MaterialError, SectionError};
+use crate::mesh::MeshError;
+use crate::model::{ModelError, RingError};
+use crate::reduction::ReductionError;
+use crate::report::ReportError;
+use crate::series::SeriesError;
+use crate::signal::SignalError;
+use crate::system::SystemError;
+use crate::transient::TransientError;
+use thiserror::Error;
+
+/// Failure of a stage.
+#[derive(Debug, Error)]
+pub enum StageError {
+    /// The case file.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// The mesh file.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Mesh and case do not fit.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A material out of range.
+    #[error("materials.{name}: {source}")]
+    Material {
+        /// Name in the case file.
+        name: String,
+        /// What is wrong with it.
+        source: MaterialError,
+    },
+    /// Plane properties out of range.
+    #[error("housing.plane: {0}")]
+    Plane(#[from] ElementError),
+    /// A ring section out of range.
+    #[error("ring.sections: {0}")]
+    Section(#[from] SectionError),
+    /// The ring.
+    #[error("ring: {0}")]
+    Ring(#[from] RingError),
+    /// Bearing geometry.
+    #[error("bearing: {0}")]
+    Geometry(#[from] GeometryError),
+    /// Contact stiffness.
+    #[error("bearing.stiffness: {0}")]
+    Stiffness(#[from] StiffnessError),
+    /// A defect that cannot be.
+    #[error("bearing.defects[{index}]: {source}")]
+    Dent {
+        /// Which one, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: DentError,
+    },
+    /// Speed profile.
+    #[error("speed.profile: {0}")]
+    Speed(#[from] SpeedError),
+    /// Cage.
+    #[error("bearing: {0}")]
+    Cage(#[from] CageError),
+    /// A sensor that is nowhere.
+    #[error(
+        "sensor \"{name}\": the nearest node of the housing to ({x:e}, {y:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
+        x = point[0], y = point[1]
+    )]
+    SensorPlace {
+        /// Name of the sensor.
+        name: String,
+        /// Where it should be, m.
+        point: [f64; 2],
+        /// Distance of the nearest node, m.
+        distance: f64,
+    },
+    /// A sensor on a group without a housing.
+    #[error(
+        "sensor \"{name}\" stands on {place}, but the case has no housing: use ring_deg for a place on the ring"
+    )]
+    SensorNeedsHousing {
+        /// Name of the sensor.
+        name: String,
+        /// What it stands on.
+        place: String,
+    },
+    /// A frame of the tie that this version cannot take.
+    #[error(
+        "ring.tie: only axis = [0, 0, 1] and zero_deg = [1, 0, 0] are supported for a plane housing; turn the mesh in gmsh"
+    )]
+    TieFrame,
+    /// Craig-Bampton.
+    #[error(transparent)]
+    Reduction(#[from] ReductionError),
+    /// Coupling, equilibrium, linearisation.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// Linear algebra.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+    /// Time integration.
+    #[error(transparent)]
+    Transient(#[from] TransientError),
+    /// Records.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    /// Signal analysis.
+    #[error("analysis: {0}")]
+    Signal(#[from] SignalError),
+    /// Signals on disk.
+    #[error(transparent)]
+    Npz(#[from] NpzError),
+    /// The report.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+}
+
+impl StageError {
+    /// Whether the input is wrong, rather than the computation failed.
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Reduction(error) => !matches!(error, ReductionError::Linalg(_)),
+            Self::System(error) => matches!(
+                error,
+                SystemError::NotSupported
+                    | SystemError::NothingHoldsTheShaft
+                    | SystemError::PrintedNeedsAllModes
+            ),
+            Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),
+            Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),
+            Self::Signal(_) => true,
+            Self::Series(_) | Self::Npz(_) | Self::Report(_) => false,
+            _ => true,
+        }
+    }
+}

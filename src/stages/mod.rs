@@ -1,0 +1,44 @@
+//! From a case to results: each command's computation in stages, and its report.
+//!
+//! [`HousingStage`] and [`StructureStage`] build the linear model, [`bearing_setup`] the bearing;
+//! [`compute_modes`] and [`compute_run`] carry a command out. Nothing here prints; progress goes through
+//! [`Watch`].
+
+mod analysis;
+mod bearing;
+mod drawing;
+mod error;
+mod housing;
+mod modes;
+mod modes_report;
+mod run;
+mod run_report;
+mod structure;
+mod tables;
+
+pub use analysis::{WindowAnalysis, analyse};
+pub use bearing::{bearing_setup, contact_table};
+pub use error::StageError;
+pub use housing::HousingStage;
+pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
+pub use modes_report::modes_report;
+pub use run::{RunEnd, RunResult, compute_run};
+pub use run_report::run_report;
+pub use structure::StructureStage;
+
+/// Where a computation tells how far it is.
+pub trait Watch {
+    /// A stage begins.
+    fn stage(&self, name: &str);
+    /// Part of the stage that is done, 0 to 1.
+    fn fraction(&self, done: f64);
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn stage(&self, _name: &str) {}
+    fn fraction(&self, _done: f64) {}
+}

@@ -1,0 +1,253 @@
+//! `plummer run`: equilibrium, transient, signals, analysis.
+
+use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
+use crate::case::{self, Case, ModesKept, StepLength};
+use crate::series::TimeSeries;
+use crate::system::{
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeDamping, ModeSelection,
+    Recorder, RunRecord,
+};
+use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
+use std::time::Instant;
+
+/// Modes kept by `auto`: those up to so many times the band. The static residual stands for the
+/// rest.
+const AUTO_MODES: f64 = 3.0;
+
+/// `auto` step of the exponential method: phase of the stiffest ball vibration in one step, rad.
+const AUTO_PHASE: f64 = 0.1;
+
+/// Largest ball force that `auto` prepares for, in units of the largest static one: impacts in a
+/// dent of the source's size reach five to ten times.
+const AUTO_FORCE: f64 = 10.0;
+
+/// The source's step for explicit Newmark, s (section 4.1).
+const NEWMARK_STEP: f64 = 1.5e-8;
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum RunEnd {
+    /// At the end of its time.
+    Complete,
+    /// The solution blew up; what was recorded before is there.
+    BlewUp(TransientError),
+}
+
+/// Result of a run.
+#[derive(Debug)]
+pub struct RunResult {
+    /// The linear model.
+    pub stage: StructureStage,
+    /// The bearing.
+    pub setup: BearingSetup,
+    /// Where it started.
+    pub equilibrium: Equilibrium,
+    /// Modes linearised there.
+    pub loaded: LoadedModes,
+    /// Method used.
+    pub method: Method,
+    /// How the time was cut.
+    pub schedule: Schedule,
+    /// Kept modes of the structure.
+    pub modes: usize,
+    /// Whether the static residual of the others was in use.
+    pub residual: bool,
+    /// Steps and evaluations.
+    pub statistics: Statistics,
+    /// Simulated time, s.
+    pub simulated_s: f64,
+    /// Wall time of the stepping alone, s.
+    pub stepping_s: f64,
+    /// Signals.
+    pub record: RunRecord,
+    /// Analysed windows of all sensors.
+    pub windows: Vec<WindowAnalysis>,
+    /// Windows or sensors that could not be analysed, and why.
+    pub not_analysed: Vec<String>,
+    /// How it ended.
+    pub end: RunEnd,
+}
+
+impl RunResult {
+    /// Simulated time over wall time of the stepping.
+    pub fn realtime_factor(&self) -> f64 {
+        self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+
+    /// A sensor's acceleration as a series, m/s^2.
+    ///
+    /// # Errors
+    /// [`StageError::Series`] if nothing was recorded.
+    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
+        let start = self.record.time_s.first().copied().unwrap_or(0.0);
+        let values = self.record.sensors[sensor].1.clone();
+        Ok(TimeSeries::new(start, self.schedule.interval, "m/s^2", values)?)
+    }
+}
+
+/// Carries the command out.
+///
+/// # Errors
+/// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
+pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
+    let stage = StructureStage::build(case, watch)?;
+    // a run without ring, bearing, shaft or transient was refused with the case
+    let (Some(stage), Some(setup), Some(asked)) =
+        (stage, bearing_setup(case)?, case.transient.as_ref())
+    else {
+        return Err(crate::system::SystemError::NotSupported.into());
+    };
+    watch.stage("equilibrium");
+    let equilibrium = Equilibrium::find(&stage.structure, &setup, asked.start)?;
+    watch.stage("linearise");
+    let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
+    let method = match asked.method {
+        case::Method::Auto | case::Method::Exponential => Method::Exponential,
+        case::Method::NewmarkExplicit => Method::NewmarkExplicit,
+    };
+    let mut system = CoupledSystem::new(
+        &stage.structure,
+        &stage.modes,
+        setup.clone(),
+        selection(case, &setup, method),
+        damping(case),
+        asked.residual,
+    )?;
+    let step = match asked.step {
+        StepLength::Seconds(step) => step,
+        StepLength::Auto => auto_step(method, &setup, &equilibrium, &system),
+    };
+    let interval = 1.0 / asked.output_hz;
+    let mut schedule = Schedule::covering(asked.end - asked.start, interval, step)?;
+    let wanted = usize::try_from(schedule.intervals).unwrap_or(usize::MAX).saturating_add(1);
+    let mut recorder = Recorder::new(&system, schedule.steps_per_interval, schedule.step(), wanted)?;
+    schedule.intervals += recorder.intervals_past_the_end();
+    let mut state = system.state_at(asked.start, &equilibrium, &stage.modes);
+    watch.stage("step");
+    let clock = Instant::now();
+    let report_every = (schedule.intervals / 1000).max(1);
+    let stepped = integrate(
+        &mut system,
+        method,
+        &schedule,
+        &mut state,
+        &mut recorder,
+        |done, total| {
+            if done % report_every == 0 {
+                watch.fraction(done as f64 / total as f64);
+            }
+            Stepping::Continue
+        },
+    );
+    let stepping_s = clock.elapsed().as_secs_f64();
+    let simulated_s = state.t - asked.start;
+    let (statistics, end) = match stepped {
+        Ok(statistics) => (statistics, RunEnd::Complete),
+        Err(error @ TransientError::BlewUp { step, .. }) => {
+            let statistics = Statistics {
+                steps: step,
+                evaluations: step + 1,
+            };
+            (statistics, RunEnd::BlewUp(error))
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let mut result = RunResult {
+        modes: system.modes(),
+        residual: system.has_residual(),
+        stage,
+        setup,
+        equilibrium,
+        loaded,
+        method,
+        schedule,
+        statistics,
+        simulated_s,
+        stepping_s,
+        record: recorder.finish(),
+        windows: Vec::new(),
+        not_analysed: Vec::new(),
+        end,
+    };
+    watch.stage("analyse");
+    result.analyse(case);
+    Ok(result)
+}
+
+impl RunResult {
+    /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
+    fn analyse(&mut self, case: &Case) {
+        let orders = self.setup.geometry.orders();
+        for (index, (name, _)) in self.record.sensors.clone().iter().enumerate() {
+            let analysed = self
+                .signal(index)
+                .and_then(|signal| analyse(case, name, &signal, &self.setup.speed, &orders));
+            match analysed {
+                Ok(windows) => self.windows.extend(windows),
+                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
+            }
+        }
+    }
+}
+
+fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection {
+    let top = case.band_hz().map_or(40e3, |band| band[1]);
+    let kept = case
+        .transient
+        .as_ref()
+        .map_or(ModesKept::Auto, |transient| transient.modes);
+    match kept {
+        ModesKept::All => ModeSelection::All,
+        ModesKept::Count(count) => ModeSelection::Count(count),
+        // the source's method steps all ring displacements, and its equations need them
+        ModesKept::Auto
+            if method == Method::NewmarkExplicit
+                || setup.formulation == Formulation::Printed =>
+        {
+            ModeSelection::All
+        }
+        ModesKept::Auto => ModeSelection::UpTo(AUTO_MODES * top),
+    }
+}
+
+fn damping(case: &Case) -> ModeDamping {
+    match &case.damping {
+        None => ModeDamping::Modal(0.0),
+        Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
+        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh {
+            alpha: *alpha,
+            beta: *beta,
+        },
+        Some(case::Damping::Ratios([first, second])) => ModeDamping::rayleigh_through(
+            (first.frequency_hz, first.ratio),
+            (second.frequency_hz, second.ratio),
+        ),
+    }
+}
+
+/// Step that resolves a ball between its two contacts at [`AUTO_FORCE`] times the largest static
+/// force: `h = AUTO_PHASE / sqrt((k_i' + k_o') / m_b)` with `k' = 3/2 k^(2/3) F^(1/3)`.
+fn auto_step(
+    method: Method,
+    setup: &BearingSetup,
+    equilibrium: &Equilibrium,
+    system: &CoupledSystem,
+) -> f64 {
+    let largest = equilibrium
+        .balls
+        .iter()
+        .map(|ball| ball.inner.max(ball.outer))
+        .fold(setup.geometry.ball_mass() * 9.81, f64::max);
+    let tangent =
+        |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (AUTO_FORCE * largest).cbrt();
+    let sum = tangent(setup.stiffness.inner()) + tangent(setup.stiffness.outer());
+    let resolved = AUTO_PHASE / (sum / setup.geometry.ball_mass()).sqrt();
+    match method {
+        Method::Exponential => resolved,
+        Method::NewmarkExplicit => {
+            let highest = system.highest_squared_frequency().sqrt();
+            // half the stability limit, and never above the source's own step
+            NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE))
+        }
+    }
+}

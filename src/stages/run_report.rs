@@ -1,0 +1,232 @@
+//! The report of `plummer run`.
+
+use super::drawing::draw;
+use super::tables::{
+    assumptions, bearing_table, equilibrium_table, expected_table, mode_table, model_facts,
+};
+use super::{ExpectedMode, RunEnd, RunResult, StageError, WindowAnalysis, contact_table};
+use crate::case::Case;
+use crate::report::{
+    Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
+    significant,
+};
+
+/// Unloaded modes listed beside the loaded ones.
+const LISTED_MODES: usize = 20;
+
+/// Composes the report; `command` is the line that made it.
+///
+/// # Errors
+/// [`StageError`] if a signal cannot be shown.
+pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Report, StageError> {
+    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Run-up transient of a ball bearing in its housing");
+    report = headlines(report, result);
+    if let RunEnd::BlewUp(error) = &result.end {
+        report = report.warning(format!("{error} The signals end there."));
+    }
+    for text in &result.not_analysed {
+        report = report.warning(format!("Not analysed: {text}"));
+    }
+    report = report.section(signals(result)?);
+    for window in &result.windows {
+        report = report.section(envelope(window));
+    }
+    report = report.section(frequencies(case, result));
+    report = report.section(
+        Section::new("Model")
+            .drawing(draw(case, &result.stage, Some(&result.setup)))
+            .facts(model_facts(case, &result.stage)),
+    );
+    report = report.section(
+        Section::new("Bearing")
+            .table(bearing_table(&result.setup, contact_table(case)?.as_ref()))
+            .table(equilibrium_table(&result.equilibrium)),
+    );
+    report = report.section(Section::new("Computation").facts(computation(result)));
+    for text in assumptions(case, Some(&result.setup)) {
+        report = report.assumption(text);
+    }
+    report = report.assumption(
+        "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
+    );
+    Ok(report)
+}
+
+fn headlines(mut report: Report, result: &RunResult) -> Report {
+    report = report.headline(
+        "Simulated",
+        format!("{} s", significant(result.simulated_s, 4)),
+        Verdict::of(matches!(result.end, RunEnd::Complete)),
+    );
+    report = report.headline(
+        "Real-time factor",
+        significant(result.realtime_factor(), 3),
+        Verdict::None,
+    );
+    if let Some(window) = result.windows.first() {
+        report = report.headline(
+            format!("{} peak, {}-{} s", window.sensor, window.from, window.to),
+            format!("{} m/s^2", significant(window.peak, 3)),
+            Verdict::None,
+        );
+        for (harmonic, (expected, found)) in (1..).zip(window.outer) {
+            if let (Some((hz, _)), false) = (found, result.setup.dents.is_empty()) {
+                report = report.headline(
+                    format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
+                    format!("{} Hz", significant(hz, 4)),
+                    Verdict::of((hz / expected - 1.0).abs() <= 0.03),
+                );
+            }
+        }
+    }
+    report
+}
+
+fn signals(result: &RunResult) -> Result<Section, StageError> {
+    let mut section = Section::new("Signals");
+    for (index, (name, _)) in result.record.sensors.iter().enumerate() {
+        let signal = result.signal(index)?;
+        section = section.plot(
+            Plot::new(
+                format!("Acceleration at {name}"),
+                Axis::new("Time", "s"),
+                Axis::new("Acceleration", "m/s^2"),
+            )
+            .curve(Curve::of_series(name, &signal))
+            .caption("Drag to zoom, double click to reset."),
+        );
+    }
+    Ok(section)
+}
+
+fn envelope(window: &WindowAnalysis) -> Section {
+    let top = 14.0 * window.speed_hz;
+    let mut plot = Plot::new(
+        format!("Envelope spectrum of {}, {}-{} s", window.sensor, window.from, window.to),
+        Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
+        Axis::new("Amplitude", "m/s^2"),
+    )
+    .curve(
+        Curve::of_envelope_spectrum("envelope", &window.spectrum)
+            .within(0.0, top.max(1.0))
+            .style(CurveStyle::Line),
+    );
+    for (family, line) in window.lines.iter().enumerate() {
+        for harmonic in 1..=line.harmonics() {
+            let at = f64::from(harmonic) * line.frequency_hz();
+            if at < top {
+                let label = if harmonic == 1 {
+                    line.name().to_owned()
+                } else {
+                    format!("{harmonic}x {}", line.name())
+                };
+                plot = plot.marker(Marker::new(at, label).family(family));
+            }
+        }
+    }
+    let mut peaks = Table::new(
+        "Strongest peaks",
+        [
+            Column::number("Frequency", "Hz"),
+            Column::number("Amplitude", "m/s^2"),
+            Column::text("Nearest line"),
+            Column::number("Expected", "Hz"),
+            Column::number("Deviation", "%"),
+        ],
+    );
+    for peak in &window.peaks {
+        let (name, expected, deviation) = match &peak.line {
+            Some(line) => (
+                format!("{} x {}", line.harmonic, line.nearest),
+                significant(line.expected_hz, 4),
+                format!("{:+.1}", 100.0 * line.deviation),
+            ),
+            None => Default::default(),
+        };
+        peaks = peaks.row([
+            Cell::number(peak.frequency_hz, 4),
+            Cell::number(peak.amplitude, 3),
+            Cell::text(name),
+            Cell::text(expected),
+            Cell::text(deviation),
+        ]);
+    }
+    Section::new(format!("Envelope analysis of {}", window.sensor))
+        .plot(plot)
+        .facts([
+            Fact::new("Mean shaft speed", format!("{} Hz", significant(window.speed_hz, 4))),
+            Fact::new("RMS", format!("{} m/s^2", significant(window.rms, 4))),
+            Fact::new("Peak", format!("{} m/s^2", significant(window.peak, 4))),
+            Fact::new(
+                "Kurtosis",
+                window.kurtosis.map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
+            )
+            .note("3 for a normal distribution"),
+            Fact::new(
+                "High-pass",
+                window.spectrum.high_pass_hz.map_or_else(
+                    || "none".to_owned(),
+                    |hz| format!("{} Hz, Butterworth, zero phase", significant(hz, 4)),
+                ),
+            ),
+            Fact::new("Window", format!("{} s, zero-padded {} times", significant(window.to - window.from, 3), significant(window.spectrum.zero_padding, 3))),
+        ])
+        .table(peaks)
+}
+
+fn frequencies(case: &Case, result: &RunResult) -> Section {
+    let modes = &result.stage.modes;
+    let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES))
+        .map(|mode| modes.frequency_hz(mode))
+        .collect();
+    let expected: Vec<ExpectedMode> = case
+        .modes
+        .expected
+        .iter()
+        .map(|expected| {
+            let found_hz = result.loaded.nearest(expected.hz).map(|mode| mode.frequency_hz);
+            let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
+            ExpectedMode {
+                hz: expected.hz,
+                what: expected.what.clone(),
+                found_hz,
+                relative_error,
+                within: expected.within,
+                ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
+            }
+        })
+        .collect();
+    let mut section = Section::new("Eigenfrequencies");
+    if !expected.is_empty() {
+        section = section.table(expected_table(&expected));
+    }
+    section.table(mode_table(&unloaded, Some(&result.loaded)))
+}
+
+fn computation(result: &RunResult) -> Vec<Fact> {
+    vec![
+        Fact::new("Method", result.method.name()),
+        Fact::new("Step", format!("{} s", significant(result.schedule.step(), 4))),
+        Fact::new("Steps", result.statistics.steps.to_string()),
+        Fact::new(
+            "Kept modes",
+            format!("{} of {}", result.modes, result.stage.modes.count()),
+        )
+        .note(if result.residual {
+            "the others by their static residual"
+        } else {
+            "without static residual"
+        }),
+        Fact::new("Wall time of the stepping", format!("{} s", significant(result.stepping_s, 3))),
+        Fact::new("Real-time factor", significant(result.realtime_factor(), 3))
+            .note("simulated time over wall time"),
+        Fact::new(
+            "Time per step",
+            format!(
+                "{} \u{b5}s",
+                significant(1e6 * result.stepping_s / result.statistics.steps.max(1) as f64, 3)
+            ),
+        ),
+    ]
+}

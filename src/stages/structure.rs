@@ -1,0 +1,218 @@
+//! Ring and condensed housing of a case in one structure, with its sensors and modes.
+
+use super::housing::material;
+use super::{HousingStage, StageError, Watch};
+use crate::case::{self, Case, FixedInterfaceModes, SensorSpot};
+use crate::element::curved_beam::RingInterpolation;
+use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
+use crate::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
+use crate::reduction::{FixedModeSelection, Superelement, craig_bampton};
+use crate::system::{Sensor, Structure, StructureModes};
+
+/// Fixed-interface modes kept by `auto`: those below so many times the band. On the source's
+/// aluminium ring ten times the 40 kHz band keep the first ten elastic frequencies within 1e-4.
+const AUTO_CUT_OFF: f64 = 10.0;
+
+/// Farthest that a node may be from a sensor's point, relative to the housing's size.
+const SENSOR_TOLERANCE: f64 = 0.02;
+
+/// The linear model of a case.
+#[derive(Debug, Clone)]
+pub struct StructureStage {
+    /// The housing, if the case has one.
+    pub housing: Option<HousingStage>,
+    /// Number of fixed-interface modes of the condensed housing.
+    pub fixed_interface_modes: usize,
+    /// Ring and housing with the case's sensors.
+    pub structure: Structure,
+    /// All its modes.
+    pub modes: StructureModes,
+}
+
+impl StructureStage {
+    /// Builds ring and housing of a case; `None` without a ring.
+    ///
+    /// # Errors
+    /// [`StageError`] of the stages that it goes through.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+        let Some(asked) = &case.ring else {
+            return Ok(None);
+        };
+        let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
+        let ring = ring(case, asked)?;
+        let housing = HousingStage::build(case, watch)?;
+        let (structure, fixed_interface_modes) = match (&housing, &asked.tie) {
+            (Some(housing), Some(tie)) => {
+                let fit = match tie.fit {
+                    case::Fit::Bonded => Fit::Bonded,
+                    case::Fit::Sliding => Fit::Sliding,
+                };
+                // a tie without an outer radius was refused with the case
+                let outer = asked.outer_radius.unwrap_or(f64::NAN);
+                let tie = RingTie::new(
+                    &housing.mesh,
+                    &housing.model,
+                    &tie.group,
+                    &ring,
+                    outer,
+                    fit,
+                )?;
+                watch.stage("condense");
+                let matrices = housing.matrices.clone().for_tie(&tie);
+                let condensed = craig_bampton(&matrices, tie.partition(), selection(case))?;
+                let mut structure = Structure::with_housing(ring, &condensed, gravity)?;
+                for sensor in &case.sensors {
+                    let sensor = housing_sensor(&structure, housing, &tie, &condensed, sensor)?;
+                    structure.add_sensor(sensor)?;
+                }
+                (structure, condensed.fixed_interface_modes())
+            }
+            _ => {
+                let mut structure = Structure::ring_alone(ring, gravity);
+                for sensor in &case.sensors {
+                    let sensor = ring_sensor(&structure, sensor)?;
+                    structure.add_sensor(sensor)?;
+                }
+                (structure, 0)
+            }
+        };
+        watch.stage("eigen");
+        let modes = structure.modes()?;
+        Ok(Some(Self {
+            housing,
+            fixed_interface_modes,
+            structure,
+            modes,
+        }))
+    }
+}
+
+fn selection(case: &Case) -> FixedModeSelection {
+    match case.condense.fixed_interface_modes {
+        FixedInterfaceModes::Count(count) => FixedModeSelection::Count(count),
+        FixedInterfaceModes::UpToHz(hz) => FixedModeSelection::UpTo(hz),
+        FixedInterfaceModes::Auto => {
+            let top = case.band_hz().map_or(40e3, |band| band[1]);
+            FixedModeSelection::UpTo(AUTO_CUT_OFF * top)
+        }
+    }
+}
+
+/// The ring of a case with its supports.
+fn ring(case: &Case, asked: &case::Ring) -> Result<Ring, StageError> {
+    let layers = asked
+        .sections
+        .iter()
+        .map(|section| {
+            Ok(RingLayer {
+                material: material(case, &section.material)?,
+                area: section.area,
+                inertia: section.inertia,
+                radius: section.radius,
+                shear_coefficient: section.shear_coefficient,
+            })
+        })
+        .collect::<Result<Vec<_>, StageError>>()?;
+    let bond = match (asked.bond, asked.radius_rule) {
+        (case::Bond::Composite, _) => Bond::Composite,
+        (case::Bond::Slip, case::RadiusRule::Own) => Bond::Slip(RadiusRule::Own),
+        (case::Bond::Slip, case::RadiusRule::CommonCentroid) => {
+            Bond::Slip(RadiusRule::CommonCentroid)
+        }
+    };
+    let mut section = BeamSection::combine(&layers, bond)?;
+    if !asked.shear {
+        section = section.without_shear();
+    }
+    if !asked.rotary_inertia {
+        section = section.without_rotary_inertia();
+    }
+    let interpolation = match asked.element {
+        case::RingElement::ExactArc => RingInterpolation::ExactArc,
+        case::RingElement::Raveendranath => RingInterpolation::Raveendranath,
+    };
+    let mut ring = Ring::new(asked.nodes, section, interpolation)?;
+    for support in &asked.supports {
+        ring.add_support(&RingSupport {
+            from: support.from_deg.to_radians(),
+            to: support.to_deg.to_radians(),
+            spring: [support.spring.x, support.spring.y],
+            share: match support.per {
+                case::PerNodeOrTotal::Node => SpringShare::PerNode,
+                case::PerNodeOrTotal::Total => SpringShare::Total,
+            },
+            offset: support.offset,
+        })?;
+    }
+    Ok(ring)
+}
+
+fn ring_sensor(structure: &Structure, sensor: &case::Sensor) -> Result<Sensor, StageError> {
+    let direction = [sensor.direction[0], sensor.direction[1]];
+    match &sensor.spot {
+        SensorSpot::RingDeg(degrees) => {
+            Ok(structure.ring_sensor(&sensor.name, degrees.to_radians(), direction))
+        }
+        SensorSpot::Group(group) => Err(StageError::SensorNeedsHousing {
+            name: sensor.name.clone(),
+            place: format!("group \"{group}\""),
+        }),
+        SensorSpot::Point(_) => Err(StageError::SensorNeedsHousing {
+            name: sensor.name.clone(),
+            place: "a point of the mesh".to_owned(),
+        }),
+    }
+}
+
+/// A sensor on housing nodes: the mean of a group, or the node nearest to a point.
+fn housing_sensor(
+    structure: &Structure,
+    housing: &HousingStage,
+    tie: &RingTie,
+    condensed: &Superelement,
+    sensor: &case::Sensor,
+) -> Result<Sensor, StageError> {
+    let nodes = match &sensor.spot {
+        SensorSpot::RingDeg(_) => return ring_sensor(structure, sensor),
+        SensorSpot::Group(group) => {
+            housing
+                .model
+                .group_on_housing(&housing.mesh, group, "the sensor")?
+                .nodes
+                .clone()
+        }
+        SensorSpot::Point(point) => vec![nearest_node(housing, &sensor.name, point)?],
+    };
+    let direction = [sensor.direction[0], sensor.direction[1]];
+    let mut row = vec![0.0; structure.dof()];
+    for &node in &nodes {
+        for (dof, factor) in tie.displacement_row(node, direction) {
+            // a fixed degree of freedom does not move: no row
+            for (place, part) in condensed.recovery_row(dof).into_iter().flatten().enumerate() {
+                row[place] += factor * part / nodes.len() as f64;
+            }
+        }
+    }
+    Ok(Sensor {
+        name: sensor.name.clone(),
+        row,
+    })
+}
+
+fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<usize, StageError> {
+    let distance = |node: &[f64; 3]| (node[0] - point[0]).hypot(node[1] - point[1]);
+    let bounds = housing.mesh.inventory().bounding_box.extent();
+    let nodes = housing.mesh.nodes.iter().enumerate();
+    let found = nodes.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    let missed = |distance| StageError::SensorPlace {
+        name: name.to_owned(),
+        point: [point[0], point[1]],
+        distance,
+    };
+    let (index, node) = found.ok_or_else(|| missed(f64::INFINITY))?;
+    if distance(node) <= SENSOR_TOLERANCE * bounds[0].hypot(bounds[1]) {
+        Ok(index)
+    } else {
+        Err(missed(distance(node)))
+    }
+}

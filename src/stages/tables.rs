@@ -1,0 +1,248 @@
+//! Tables and texts that both reports show.
+
+use super::{ExpectedMode, StructureStage};
+use crate::bearing::{BearingGeometry, RaceContacts};
+use crate::case::Case;
+use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
+use crate::system::{BearingSetup, Equilibrium, Formulation, LoadedModes};
+
+/// Loaded modes listed in a report.
+const LISTED_MODES: usize = 20;
+
+/// The linear model in facts.
+pub(super) fn model_facts(case: &Case, stage: &StructureStage) -> Vec<Fact> {
+    let ring = stage.structure.ring();
+    let section = ring.section();
+    let mut facts = vec![
+        Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
+        Fact::new("Node radius", format!("{} mm", significant(section.radius * 1e3, 5))),
+        Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
+        Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
+    ];
+    if let Some(asked) = &case.ring {
+        facts.push(Fact::new(
+            "Element",
+            format!("{:?}, shear {}, rotary inertia {}", asked.element, on(asked.shear), on(asked.rotary_inertia)),
+        ));
+    }
+    if let (Some(housing), Some(asked)) = (&stage.housing, &case.housing) {
+        facts.extend([
+            Fact::new("Housing mesh", asked.mesh.display().to_string()),
+            Fact::new(
+                "Housing",
+                format!(
+                    "{} nodes, {} elements, {} kg",
+                    housing.model.dof() / 2,
+                    housing.model.elements().len(),
+                    significant(housing.matrices.total_mass(), 5)
+                ),
+            ),
+            Fact::new(
+                "Condensed to",
+                format!(
+                    "{} ring displacements and {} fixed-interface modes",
+                    ring.dof(),
+                    stage.fixed_interface_modes
+                ),
+            )
+            .note("Craig-Bampton"),
+        ]);
+    }
+    facts
+}
+
+fn on(value: bool) -> &'static str {
+    if value { "on" } else { "off" }
+}
+
+/// Geometry, orders and contact stiffness of the bearing.
+pub(super) fn bearing_table(setup: &BearingSetup, hertz: Option<&RaceContacts>) -> Table {
+    let geometry: &BearingGeometry = &setup.geometry;
+    let orders = geometry.orders();
+    let row = |table: Table, name: &str, value: f64, digits: usize, unit: &str| {
+        table.row([
+            Cell::text(name),
+            Cell::number(value, digits),
+            Cell::text(unit),
+        ])
+    };
+    let columns = [
+        Column::text("Quantity"),
+        Column::number("Value", ""),
+        Column::text("Unit"),
+    ];
+    let mut table = Table::new("Bearing", columns);
+    table = row(table, "Balls", f64::from(geometry.balls()), 3, "");
+    table = row(table, "Pitch radius", geometry.pitch_radius() * 1e3, 6, "mm");
+    table = row(table, "Radial play", geometry.radial_play() * 1e6, 4, "\u{b5}m");
+    table = row(table, "Diametral clearance", geometry.diametral_clearance() * 1e6, 4, "\u{b5}m");
+    table = row(table, "Cage order", orders.cage, 5, "per shaft turn");
+    table = row(table, "Outer-race defect order", orders.outer, 5, "per shaft turn");
+    table = row(table, "Inner-race defect order", orders.inner, 5, "per shaft turn");
+    table = row(table, "Ball defect order (two hits a spin)", orders.ball_defect, 5, "per shaft turn");
+    table = row(table, "k inner in use", setup.stiffness.inner(), 4, "N/m^1.5");
+    table = row(table, "k outer in use", setup.stiffness.outer(), 4, "N/m^1.5");
+    if let Some(hertz) = hertz {
+        table = row(table, "k inner by Hertz from the geometry", hertz.inner.stiffness, 4, "N/m^1.5");
+        table = row(table, "k outer by Hertz from the geometry", hertz.outer.stiffness, 4, "N/m^1.5");
+    }
+    for dent in &setup.dents {
+        table = row(table, "A ball at the dent's middle sinks by", dent.drop() * 1e6, 4, "\u{b5}m");
+    }
+    table
+}
+
+/// Forces and positions at rest.
+pub(super) fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
+    let mut table = Table::new(
+        format!(
+            "Static equilibrium: shaft at ({}, {}) \u{b5}m, least curvature {} N/m ({})",
+            significant(equilibrium.shaft[0] * 1e6, 4),
+            significant(equilibrium.shaft[1] * 1e6, 4),
+            significant(equilibrium.least_curvature, 3),
+            if equilibrium.least_curvature > 0.0 { "stable" } else { "not stable" }
+        ),
+        [
+            Column::number("Ball", ""),
+            Column::number("Angle", "deg"),
+            Column::number("Outward displacement", "\u{b5}m"),
+            Column::number("Inner force", "N"),
+            Column::number("Outer force", "N"),
+        ],
+    );
+    for (index, ball) in equilibrium.balls.iter().enumerate() {
+        table = table.row([
+            Cell::text(index.to_string()),
+            Cell::number(ball.angle.to_degrees().rem_euclid(360.0), 5),
+            Cell::number(ball.displacement * 1e6, 4),
+            Cell::number(ball.inner, 4),
+            Cell::number(ball.outer, 4),
+        ]);
+    }
+    table
+}
+
+/// Loaded and unloaded frequencies side by side.
+pub(super) fn mode_table(unloaded_hz: &[f64], loaded: Option<&LoadedModes>) -> Table {
+    let mut table = Table::new(
+        "Eigenfrequencies",
+        [
+            Column::number("Mode", ""),
+            Column::number("Without contact", "Hz"),
+            Column::number("Loaded", "Hz"),
+            Column::number("Ring and housing", "%"),
+            Column::number("Shaft", "%"),
+            Column::number("Balls", "%"),
+        ],
+    );
+    let listed = loaded.map_or(&[][..], |loaded| &loaded.modes);
+    let rows = LISTED_MODES.min(unloaded_hz.len().max(listed.len()));
+    let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value));
+    for row in 0..rows {
+        let unloaded = unloaded_hz
+            .get(row)
+            .map_or_else(|| Cell::text(""), |&hz| Cell::number(hz, 5));
+        let mut cells = vec![Cell::text((row + 1).to_string()), unloaded];
+        match listed.get(row) {
+            Some(mode) => cells.extend([
+                Cell::number(mode.frequency_hz, 5),
+                share(mode.structure_share),
+                share(mode.shaft_share),
+                share(mode.ball_share),
+            ]),
+            None => cells.extend((0..4).map(|_| Cell::text(""))),
+        }
+        table = table.row(cells);
+    }
+    let mut notes = Vec::new();
+    if loaded.is_some() {
+        notes.push("Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes.".to_owned());
+    }
+    if let Some(loaded) = loaded.filter(|loaded| loaded.without_stiffness > 0) {
+        notes.push(format!(
+            "{} motions without stiffness are left out: balls that nothing presses.",
+            loaded.without_stiffness
+        ));
+    }
+    if let Some(loaded) = loaded.filter(|loaded| loaded.unstable > 0) {
+        notes.push(format!(
+            "{} motions have no real frequency about this equilibrium and are left out.",
+            loaded.unstable
+        ));
+    }
+    for note in notes {
+        table = table.footnote(note);
+    }
+    table
+}
+
+/// Expected against found.
+pub(super) fn expected_table(expected: &[ExpectedMode]) -> Table {
+    let mut table = Table::new(
+        "Expected eigenfrequencies",
+        [
+            Column::text("What"),
+            Column::number("Expected", "Hz"),
+            Column::number("Found", "Hz"),
+            Column::number("Difference", "%"),
+            Column::number("Allowed", "%"),
+            Column::text("Verdict"),
+        ],
+    );
+    for row in expected {
+        let verdict = Verdict::of(row.ok);
+        let found = row.found_hz.map_or_else(|| "none".to_owned(), |hz| significant(hz, 5));
+        let difference = row
+            .relative_error
+            .map_or_else(String::new, |error| format!("{:+.2}", 100.0 * error));
+        table = table.row([
+            Cell::text(&row.what),
+            Cell::number(row.hz, 5),
+            Cell::text(found),
+            Cell::text(difference).judged(verdict),
+            Cell::text(format!("{:.2}", 100.0 * row.within)),
+            Cell::text(if row.ok { "passes" } else { "fails" }).judged(verdict),
+        ]);
+    }
+    table
+}
+
+/// What a reader must know to judge the numbers.
+pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<String> {
+    let mut list = Vec::new();
+    if let Some(setup) = setup {
+        list.push(match setup.formulation {
+            Formulation::Consistent => "Formulation `consistent`: ball positions are measured from the fixed bearing centre; symmetric, energy-conserving.".to_owned(),
+            Formulation::Printed => "Formulation `printed`: the source's equations (3)-(16) with their misprints put right; rigid ring motion is counted twice in the outer contact. For reproduction only.".to_owned(),
+        });
+        list.push("Balls follow a prescribed cage and move radially; the shaft is rigid with two displacements; everything stays in the bearing's plane.".to_owned());
+        if setup.contact_damping > 0.0 {
+            list.push(format!(
+                "Contact damping (Hunt-Crossley) {} s/m: a choice, the source has none and does not say its damping.",
+                setup.contact_damping
+            ));
+        }
+        if !setup.dents.is_empty() {
+            list.push("Dent in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's.".to_owned());
+        }
+    }
+    if let Some(damping) = &case.damping {
+        list.push(format!("Damping of ring and housing: {damping:?}; a choice, the source does not give it."));
+    }
+    if let Some(ring) = &case.ring {
+        if ring.sections.len() > 1 {
+            list.push(format!("Rings in one section: bond {:?}, radius rule {:?}.", ring.bond, ring.radius_rule));
+        }
+        if ring.tie.is_some() {
+            list.push("The bore follows the ring's own interpolation: a section-rigid bore, somewhat stiffer than a bore with the ring meshed into it.".to_owned());
+        }
+    }
+    if let Some(plane) = case.housing.as_ref().and_then(|housing| housing.plane) {
+        list.push(format!(
+            "Housing in plane {:?}, {} mm thick.",
+            plane.assumption,
+            significant(plane.thickness * 1e3, 4)
+        ));
+    }
+    list
+}

@@ -1,0 +1,265 @@
+//! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
+
+use super::bearing_setup::{BearingSetup, Formulation};
+use super::equilibrium::Equilibrium;
+use super::error::SystemError;
+use super::inner::InnerRace;
+use super::outer::OuterRace;
+use super::raceway::RacewayTable;
+use super::residual::ResidualFlexibility;
+use super::structure::{Structure, StructureModes};
+use crate::bearing::SpeedCursor;
+use crate::dynamics::{LinearCoordinate, State};
+use std::f64::consts::TAU;
+
+/// Which modes of the structure a run keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModeSelection {
+    /// All of them: the same space as all nodal displacements.
+    All,
+    /// The lowest so many.
+    Count(usize),
+    /// Those up to a frequency, Hz.
+    UpTo(f64),
+}
+
+/// Damping of the structure's modes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModeDamping {
+    /// `C = alpha M + beta K`: 2 zeta omega = alpha + beta omega^2; alpha in 1/s, beta in s.
+    Rayleigh {
+        /// Mass coefficient, 1/s.
+        alpha: f64,
+        /// Stiffness coefficient, s.
+        beta: f64,
+    },
+    /// The same ratio zeta for every mode.
+    Modal(f64),
+}
+
+impl ModeDamping {
+    /// Rayleigh damping with the given ratios at two frequencies (Hz):
+    /// `zeta = alpha / (2 omega) + beta omega / 2`.
+    pub fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
+        let (w1, w2) = (TAU * first.0, TAU * second.0);
+        let beta = 2.0 * (second.1 * w2 - first.1 * w1) / (w2 * w2 - w1 * w1);
+        Self::Rayleigh {
+            alpha: 2.0 * first.1 * w1 - beta * w1 * w1,
+            beta,
+        }
+    }
+
+    /// 2 zeta omega of a mode, 1/s.
+    pub fn coefficient(&self, squared_frequency: f64) -> f64 {
+        match *self {
+            Self::Rayleigh { alpha, beta } => alpha + beta * squared_frequency,
+            Self::Modal(ratio) => 2.0 * ratio * squared_frequency.max(0.0).sqrt(),
+        }
+    }
+}
+
+impl ModeSelection {
+    /// Number of lowest modes that the selection keeps.
+    fn count(&self, modes: &StructureModes) -> usize {
+        match *self {
+            Self::All => modes.count(),
+            Self::Count(count) => count.min(modes.count()),
+            Self::UpTo(hz) => (0..modes.count())
+                .take_while(|&mode| modes.frequency_hz(mode) <= hz)
+                .count(),
+        }
+    }
+}
+
+/// Ring and housing by their modes, shaft and balls by their positions.
+///
+/// Coordinates: mode amplitudes (kg^1/2 m), shaft x and y (m), then for every ball its outward
+/// displacement s (m) from touching the undeformed outer race, `rho = R_0 - rho_b + s`.
+#[derive(Debug, Clone)]
+pub struct CoupledSystem {
+    pub(super) setup: BearingSetup,
+    pub(super) inner: InnerRace,
+    pub(super) outer: OuterRace,
+    pub(super) linear: Vec<LinearCoordinate>,
+    pub(super) modes: usize,
+    /// Work of the weight on each kept mode, N kg^-1/2.
+    pub(super) gravity: Vec<f64>,
+    /// Radial displacement of the raceway by kept modes.
+    pub(super) radial: RacewayTable,
+    /// Tangential displacement at the raceway by kept modes.
+    pub(super) tangential: RacewayTable,
+    pub(super) residual: Option<ResidualFlexibility>,
+    /// Mean displacement of the ring's nodes in x and y by kept modes (`printed` only).
+    pub(super) centre: [Vec<f64>; 2],
+    /// Sensor rows over kept modes.
+    pub(super) sensors: Vec<(String, Vec<f64>)>,
+    pub(super) cursor: SpeedCursor,
+    pub(super) work: Work,
+}
+
+/// Buffers and results of the last force evaluation, one entry a ball unless said otherwise.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Work {
+    /// [balls x modes]
+    pub rows: Vec<f64>,
+    /// [modes], of the ball that is in a dent
+    pub tangential_row: Vec<f64>,
+    pub direction: Vec<[f64; 2]>,
+    pub angle: Vec<f64>,
+    /// Displacement relative to the race, without the residual's part.
+    pub gap: Vec<f64>,
+    pub rate: Vec<[f64; 2]>,
+    /// Radial force on the race, N.
+    pub outer_radial: Vec<f64>,
+    pub outer_tangential: Vec<f64>,
+    /// Sum of contact force magnitudes, N.
+    pub outer_magnitude: Vec<f64>,
+    pub inner_force: Vec<f64>,
+}
+
+impl CoupledSystem {
+    /// Couples a structure and a bearing.
+    ///
+    /// With `residual` the static flexibility of the modes left out acts in the contacts and the
+    /// sensors.
+    ///
+    /// # Errors
+    /// [`SystemError::NotSupported`] for a free structure with `residual`;
+    /// [`SystemError::PrintedNeedsAllModes`].
+    pub fn new(
+        structure: &Structure,
+        modes: &StructureModes,
+        setup: BearingSetup,
+        selection: ModeSelection,
+        damping: ModeDamping,
+        residual: bool,
+    ) -> Result<Self, SystemError> {
+        let count = selection.count(modes);
+        let complete = count == modes.count();
+        if setup.formulation == Formulation::Printed && !complete {
+            return Err(SystemError::PrintedNeedsAllModes);
+        }
+        let kept: Vec<usize> = (0..count).collect();
+        let balls = setup.balls();
+        let residual = if residual && !complete {
+            Some(ResidualFlexibility::new(structure, modes, &kept, balls)?)
+        } else {
+            None
+        };
+        let structural = kept.iter().map(|&mode| {
+            let squared_frequency = modes.squared_frequencies[mode].max(0.0);
+            LinearCoordinate {
+                squared_frequency,
+                damping: damping.coefficient(squared_frequency),
+            }
+        });
+        let free = LinearCoordinate {
+            squared_frequency: 0.0,
+            damping: 0.0,
+        };
+        let linear = structural
+            .chain(std::iter::repeat_n(free, 2 + balls))
+            .collect();
+        let over_modes = |row: &[f64]| -> Vec<f64> {
+            kept.iter()
+                .map(|&mode| modes.participation(mode, row))
+                .collect()
+        };
+        let ring = structure.ring();
+        let arm = setup.raceway_arm(ring.section().radius);
+        let gravity = match setup.formulation {
+            Formulation::Consistent => over_modes(structure.gravity()),
+            Formulation::Printed => vec![0.0; count],
+        };
+        Ok(Self {
+            inner: InnerRace::new(
+                &setup.geometry,
+                setup.stiffness.inner(),
+                setup.contact_damping,
+            ),
+            outer: OuterRace::new(&setup),
+            linear,
+            modes: count,
+            gravity,
+            radial: RacewayTable::new(ring, modes, &kept, |rows| rows.radial),
+            tangential: RacewayTable::new(ring, modes, &kept, |rows| rows.tangential_at(arm)),
+            residual,
+            centre: [0, 1].map(|component| over_modes(&mean_row(structure, component))),
+            sensors: structure
+                .sensors()
+                .iter()
+                .map(|sensor| (sensor.name.clone(), over_modes(&sensor.row)))
+                .collect(),
+            cursor: SpeedCursor::default(),
+            work: Work::new(balls, count),
+            setup,
+        })
+    }
+
+    /// Number of kept modes.
+    pub fn modes(&self) -> usize {
+        self.modes
+    }
+
+    /// Largest omega^2 among the kept modes, 1/s^2.
+    pub fn highest_squared_frequency(&self) -> f64 {
+        self.linear
+            .iter()
+            .map(|coordinate| coordinate.squared_frequency)
+            .fold(0.0, f64::max)
+    }
+
+    /// Whether the static residual of the modes left out is in use.
+    pub fn has_residual(&self) -> bool {
+        self.residual.is_some()
+    }
+
+    /// The bearing.
+    pub fn setup(&self) -> &BearingSetup {
+        &self.setup
+    }
+
+    /// State at rest in an equilibrium, the cage held at its angle at `t` (s).
+    pub fn state_at(&self, t: f64, equilibrium: &Equilibrium, modes: &StructureModes) -> State {
+        let amplitudes = (0..self.modes).map(|mode| {
+            modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]
+        });
+        let y: Vec<f64> = amplitudes
+            .chain(equilibrium.shaft)
+            .chain(equilibrium.balls.iter().map(|ball| ball.displacement))
+            .collect();
+        State {
+            t,
+            v: vec![0.0; y.len()],
+            y,
+        }
+    }
+}
+
+impl Work {
+    fn new(balls: usize, modes: usize) -> Self {
+        let zeros = || vec![0.0; balls];
+        Self {
+            rows: vec![0.0; balls * modes],
+            tangential_row: vec![0.0; modes],
+            direction: vec![[0.0; 2]; balls],
+            angle: zeros(),
+            gap: zeros(),
+            rate: vec![[0.0; 2]; balls],
+            outer_radial: zeros(),
+            outer_tangential: zeros(),
+            outer_magnitude: zeros(),
+            inner_force: zeros(),
+        }
+    }
+}
+
+/// Mean of the ring nodes' displacement in one direction, the source's (11) and (12).
+fn mean_row(structure: &Structure, component: usize) -> Vec<f64> {
+    let nodes = structure.ring().nodes();
+    let mut row = vec![0.0; structure.dof()];
+    for node in 0..nodes {
+        row[3 * node + component] = 1.0 / nodes as f64;
+    }
+    row
+}

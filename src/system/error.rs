@@ -1,0 +1,55 @@
+//! What can go wrong between structure and bearing.
+
+use crate::linalg::LinalgError;
+use thiserror::Error;
+
+/// Failure of a coupled computation.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SystemError {
+    /// A linear algebra step failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+    /// Housing and ring do not share their interface.
+    #[error("the ring has {expected} degrees of freedom, the superelement's interface {found}")]
+    InterfaceSize {
+        /// Degrees of freedom of the ring.
+        expected: usize,
+        /// Interface of the superelement.
+        found: usize,
+    },
+    /// A sensor row of the wrong length.
+    #[error("sensor {name}: {expected} coordinates expected, {found} found")]
+    SensorSize {
+        /// The sensor.
+        name: String,
+        /// Coordinates of the structure.
+        expected: usize,
+        /// Length of the row.
+        found: usize,
+    },
+    /// The structure can move as a whole.
+    #[error(
+        "ring and housing are not held: they can move without force; add springs or fixed nodes under [housing] supports or [ring] supports"
+    )]
+    NotSupported,
+    /// Reduced model and formulation that exclude each other.
+    #[error(
+        "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\""
+    )]
+    PrintedNeedsAllModes,
+    /// No stable equilibrium found.
+    #[error(
+        "no static equilibrium found after {iterations} iterations: the forces on shaft and balls are still {residual_n:.3e} N out of balance; check loads and clearance"
+    )]
+    NoEquilibrium {
+        /// Iterations made.
+        iterations: usize,
+        /// Largest force out of balance, N.
+        residual_n: f64,
+    },
+    /// Nothing holds the shaft.
+    #[error(
+        "the shaft is not held in the loaded direction: without load on it, it can move in the clearance"
+    )]
+    NothingHoldsTheShaft,
+}

@@ -1,0 +1,29 @@
+//! Structure, balls and shaft as one system: small, diagonal in its linear part, nonlinear in its
+//! contacts.
+//!
+//! [`Structure`] (ring with or without housing) -> [`StructureModes`] -> [`CoupledSystem`], which a
+//! time integrator steps. [`Equilibrium`] finds where everything rests, [`LoadedModes`] linearises
+//! there.
+
+mod bearing_setup;
+mod coupled;
+mod equilibrium;
+mod error;
+mod force;
+mod inner;
+mod loaded;
+mod outer;
+mod raceway;
+mod recorder;
+
+mod residual;
+mod structure;
+
+pub use bearing_setup::{BearingSetup, Formulation, Shaft};
+pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
+pub use equilibrium::{BallLoad, Equilibrium};
+pub use error::SystemError;
+pub use loaded::{LoadedMode, LoadedModes};
+
+pub use recorder::{Recorder, RunRecord};
+pub use structure::{Sensor, Structure, StructureModes};

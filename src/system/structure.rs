@@ -1,0 +1,208 @@
+//! The linear structure that the bearing's outer ring belongs to: ring alone, or ring and condensed
+//! housing.
+
+use super::SystemError;
+use crate::linalg::{DenseCholesky, DenseMatrix, symmetric_generalised_eigen};
+use crate::model::Ring;
+use crate::reduction::Superelement;
+use std::f64::consts::TAU;
+
+/// A displacement to watch: `row . (ring displacements, housing amplitudes)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Its name in results.
+    pub name: String,
+    /// Row over the structure's coordinates [dof], metres per unit of each.
+    pub row: Vec<f64>,
+}
+
+/// Ring and housing in one pair of matrices; coordinates: ring displacements first (three a node),
+/// then the amplitudes of the housing's fixed-interface modes.
+#[derive(Debug, Clone)]
+pub struct Structure {
+    ring: Ring,
+    stiffness: DenseMatrix,
+    mass: DenseMatrix,
+    gravity: Vec<f64>,
+    sensors: Vec<Sensor>,
+}
+
+/// All modes of a structure: as many as it has coordinates.
+#[derive(Debug, Clone)]
+pub struct StructureModes {
+    /// omega^2, 1/s^2, ascending.
+    pub squared_frequencies: Vec<f64>,
+    /// Mode shapes [dof x dof], `phi^T M phi = 1`.
+    pub shapes: DenseMatrix,
+}
+
+impl Structure {
+    /// The ring on its own supports.
+    ///
+    /// `gravity` in m/s^2 loads the ring's mass.
+    pub fn ring_alone(ring: Ring, gravity: [f64; 2]) -> Self {
+        let load = ring_gravity(&ring, gravity);
+        Self {
+            stiffness: ring.stiffness().clone(),
+            mass: ring.mass().clone(),
+            gravity: load,
+            sensors: Vec::new(),
+            ring,
+        }
+    }
+
+    /// The ring tied to a condensed housing whose interface is the ring's displacements.
+    ///
+    /// # Errors
+    /// [`SystemError::InterfaceSize`] if the superelement has another interface.
+    pub fn with_housing(
+        ring: Ring,
+        housing: &Superelement,
+        gravity: [f64; 2],
+    ) -> Result<Self, SystemError> {
+        let interface = ring.dof();
+        if housing.interface_dof() != interface {
+            return Err(SystemError::InterfaceSize {
+                expected: interface,
+                found: housing.interface_dof(),
+            });
+        }
+        let add_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
+            let mut sum = housing.clone();
+            for column in 0..interface {
+                for row in 0..interface {
+                    sum[(row, column)] += ring[(row, column)];
+                }
+            }
+            sum
+        };
+        let mut load = housing.gravity_load(gravity);
+        for (total, own) in load.iter_mut().zip(ring_gravity(&ring, gravity)) {
+            *total += own;
+        }
+        Ok(Self {
+            stiffness: add_ring(housing.stiffness(), ring.stiffness()),
+            mass: add_ring(housing.mass(), ring.mass()),
+            gravity: load,
+            sensors: Vec::new(),
+            ring,
+        })
+    }
+
+    /// Adds a sensor.
+    ///
+    /// # Errors
+    /// [`SystemError::SensorSize`] if its row has another length than the coordinates.
+    pub fn add_sensor(&mut self, sensor: Sensor) -> Result<(), SystemError> {
+        if sensor.row.len() == self.dof() {
+            self.sensors.push(sensor);
+            Ok(())
+        } else {
+            Err(SystemError::SensorSize {
+                name: sensor.name,
+                expected: self.dof(),
+                found: sensor.row.len(),
+            })
+        }
+    }
+
+    /// A sensor on the ring at an angle (rad) in a direction of the plane, at the node radius.
+    pub fn ring_sensor(&self, name: &str, angle: f64, direction: [f64; 2]) -> Sensor {
+        let rows = self.ring.rows_at(angle);
+        let (sin, cos) = angle.sin_cos();
+        let radial = direction[0] * cos + direction[1] * sin;
+        let tangential = direction[1] * cos - direction[0] * sin;
+        let mut row = vec![0.0; self.dof()];
+        for k in 0..6 {
+            row[rows.dofs[k]] += radial * rows.radial[k] + tangential * rows.tangential[k];
+        }
+        Sensor {
+            name: name.to_owned(),
+            row,
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn dof(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// The ring.
+    pub fn ring(&self) -> &Ring {
+        &self.ring
+    }
+
+    /// Sensors in the order they were added.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// Stiffness [dof x dof].
+    pub fn stiffness(&self) -> &DenseMatrix {
+        &self.stiffness
+    }
+
+    /// Mass [dof x dof].
+    pub fn mass(&self) -> &DenseMatrix {
+        &self.mass
+    }
+
+    /// Weight of ring and housing on the coordinates [dof], N and N m.
+    pub fn gravity(&self) -> &[f64] {
+        &self.gravity
+    }
+
+    /// All modes, by a dense solver.
+    ///
+    /// # Errors
+    /// What the eigenvalue computation reports.
+    pub fn modes(&self) -> Result<StructureModes, SystemError> {
+        let spectrum = symmetric_generalised_eigen(&self.stiffness, &self.mass)?;
+        Ok(StructureModes {
+            squared_frequencies: spectrum.values,
+            shapes: spectrum.vectors,
+        })
+    }
+
+    /// Static responses `K^-1 B`.
+    ///
+    /// # Errors
+    /// [`SystemError::NotSupported`] if the structure can move without force.
+    pub fn static_response(&self, loads: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
+        let free = |_| SystemError::NotSupported;
+        // a free structure may slip through the factorisation with pivots of round-off size
+        let factor = DenseCholesky::new(&self.stiffness).map_err(free)?;
+        if factor.reciprocal_condition() < 1e-14 {
+            return Err(SystemError::NotSupported);
+        }
+        Ok(factor.solve(loads))
+    }
+}
+
+impl StructureModes {
+    /// Number of modes.
+    pub fn count(&self) -> usize {
+        self.squared_frequencies.len()
+    }
+
+    /// Frequency of a mode, Hz; rigid ones within round-off of zero.
+    pub fn frequency_hz(&self, mode: usize) -> f64 {
+        self.squared_frequencies[mode].max(0.0).sqrt() / TAU
+    }
+
+    /// `phi_mode . row`.
+    pub fn participation(&self, mode: usize, row: &[f64]) -> f64 {
+        self.shapes
+            .col(mode)
+            .iter()
+            .zip(row)
+            .map(|(shape, factor)| shape * factor)
+            .sum()
+    }
+}
+
+fn ring_gravity(ring: &Ring, gravity: [f64; 2]) -> Vec<f64> {
+    let fall = ring.rigid_motion(gravity[0], gravity[1], 0.0);
+    let fall = DenseMatrix::from_fn(fall.len(), 1, |row, _| fall[row]);
+    (ring.mass() * fall).col(0).iter().copied().collect()
+}

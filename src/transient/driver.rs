@@ -1,0 +1,232 @@
+//! One loop for all methods: steps, records, checks.
+
+use super::error::TransientError;
+use super::exponential::Exponential;
+use super::newmark::NewmarkExplicit;
+use crate::dynamics::{Instant, Observer, SecondOrderSystem, State};
+use std::f64::consts::TAU;
+
+/// Integration method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Exponential velocity Verlet.
+    Exponential,
+    /// Central differences with implicit damping, the source paper's.
+    NewmarkExplicit,
+}
+
+/// When a run ends, how it is cut into steps, and how often it is checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Schedule {
+    /// Time between checks and progress reports, s; a whole number of steps.
+    pub interval: f64,
+    /// Steps in an interval, >= 1.
+    pub steps_per_interval: u32,
+    /// Number of intervals.
+    pub intervals: u64,
+}
+
+/// Counts of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Steps taken.
+    pub steps: u64,
+    /// Force evaluations.
+    pub evaluations: u64,
+}
+
+/// Whether to go on after an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stepping {
+    /// Go on.
+    Continue,
+    /// Stop here; the state is that of this instant.
+    Stop,
+}
+
+impl Method {
+    /// Name in case files and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exponential => "exponential",
+            Self::NewmarkExplicit => "newmark-explicit",
+        }
+    }
+}
+
+impl Schedule {
+    /// Intervals of `interval` seconds that cover `duration`, each cut into equal steps of at most
+    /// `largest_step`: methods and steps of any kind then meet at the same instants.
+    ///
+    /// # Errors
+    /// [`TransientError::Schedule`] for values that are not positive and finite.
+    pub fn covering(
+        duration: f64,
+        interval: f64,
+        largest_step: f64,
+    ) -> Result<Self, TransientError> {
+        for (what, value) in [
+            ("duration", duration),
+            ("output interval", interval),
+            ("step", largest_step),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(TransientError::Schedule {
+                    what,
+                    value,
+                    rule: "positive and finite",
+                });
+            }
+        }
+        // a step that fits a whole number of times up to round-off is kept as it is
+        let steps = (interval / largest_step * (1.0 - 1e-9)).ceil().max(1.0);
+        let intervals = (duration / interval * (1.0 - 1e-12)).ceil();
+        if steps > f64::from(u32::MAX) || intervals * steps > 1e15 {
+            return Err(TransientError::Schedule {
+                what: "step",
+                value: largest_step,
+                rule: "large enough to finish: fewer than 1e15 steps",
+            });
+        }
+        Ok(Self {
+            interval,
+            steps_per_interval: steps as u32,
+            intervals: intervals as u64,
+        })
+    }
+
+    /// Step length, s.
+    pub fn step(&self) -> f64 {
+        self.interval / f64::from(self.steps_per_interval)
+    }
+}
+
+/// One step of a method; `g` is the force at the state on entry and on return.
+pub(super) trait Stepper<S> {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]);
+}
+
+/// Integrates `system` from `state`, which is left at the end or at the last good instant.
+///
+/// `observer` sees every step; `after_interval(done, total)` is called between intervals and may
+/// stop the run.
+///
+/// # Errors
+/// [`TransientError::Unstable`] before the first step, [`TransientError::BlewUp`] with the state
+/// and the records of the steps before it left in place.
+pub fn integrate<S: SecondOrderSystem>(
+    system: &mut S,
+    method: Method,
+    schedule: &Schedule,
+    state: &mut State,
+    observer: &mut impl Observer<S>,
+    after_interval: impl FnMut(u64, u64) -> Stepping,
+) -> Result<Statistics, TransientError> {
+    let h = schedule.step();
+    match method {
+        Method::Exponential => {
+            let stepper = Exponential::new(system, h);
+            run(stepper, system, schedule, state, observer, after_interval)
+        }
+        Method::NewmarkExplicit => {
+            check_stability(system, h)?;
+            let stepper = NewmarkExplicit::new(system, h);
+            run(stepper, system, schedule, state, observer, after_interval)
+        }
+    }
+}
+
+fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
+    let highest = system
+        .linear()
+        .iter()
+        .map(|coordinate| coordinate.squared_frequency)
+        .fold(0.0, f64::max)
+        .sqrt();
+    if h * highest < 2.0 {
+        Ok(())
+    } else {
+        Err(TransientError::Unstable {
+            step_s: h,
+            limit_s: 2.0 / highest,
+            highest_hz: highest / TAU,
+        })
+    }
+}
+
+fn run<S: SecondOrderSystem>(
+    mut stepper: impl Stepper<S>,
+    system: &mut S,
+    schedule: &Schedule,
+    state: &mut State,
+    observer: &mut impl Observer<S>,
+    mut after_interval: impl FnMut(u64, u64) -> Stepping,
+) -> Result<Statistics, TransientError> {
+    let dof = state.y.len();
+    let (start, h) = (state.t, schedule.step());
+    let (mut g, mut a) = (vec![0.0; dof], vec![0.0; dof]);
+    let mut statistics = Statistics {
+        steps: 0,
+        evaluations: 1,
+    };
+    system.force_into(start, &state.y, &state.v, &mut g);
+    observe(system, observer, 0, state, &g, &mut a);
+    let mut last_good = state.clone();
+    for interval in 0..schedule.intervals {
+        for step in 1..=schedule.steps_per_interval {
+            // times are counted, not summed: every method has the same instants to the last bit
+            let t = if step == schedule.steps_per_interval {
+                start + (interval + 1) as f64 * schedule.interval
+            } else {
+                start + interval as f64 * schedule.interval + f64::from(step) * h
+            };
+            stepper.step(system, t, &mut state.y, &mut state.v, &mut g);
+            state.t = t;
+            statistics.steps += 1;
+            statistics.evaluations += 1;
+            observe(system, observer, statistics.steps, state, &g, &mut a);
+        }
+        if let Err(cause) = system.check(&state.y, &state.v) {
+            let time = state.t;
+            *state = last_good;
+            return Err(TransientError::BlewUp {
+                time,
+                step: statistics.steps,
+                step_s: h,
+                cause,
+            });
+        }
+        last_good.t = state.t;
+        last_good.y.copy_from_slice(&state.y);
+        last_good.v.copy_from_slice(&state.v);
+        if after_interval(interval + 1, schedule.intervals) == Stepping::Stop {
+            break;
+        }
+    }
+    Ok(statistics)
+}
+
+fn observe<S: SecondOrderSystem>(
+    system: &S,
+    observer: &mut impl Observer<S>,
+    step: u64,
+    state: &State,
+    g: &[f64],
+    a: &mut [f64],
+) {
+    let linear = system.linear().iter();
+    for (i, (acceleration, coordinate)) in a.iter_mut().zip(linear).enumerate() {
+        *acceleration =
+            g[i] - coordinate.damping * state.v[i] - coordinate.squared_frequency * state.y[i];
+    }
+    observer.observe(
+        system,
+        Instant {
+            step,
+            t: state.t,
+            y: &state.y,
+            v: &state.v,
+            a,
+        },
+    );
+}

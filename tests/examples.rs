@@ -1,0 +1,142 @@
+//! The case files under `examples/` are read as they stand and hold what they say.
+
+use std::path::{Path, PathBuf};
+
+use plummer::case::{
+    BallInertia, Case, Damping, Formulation, Hold, Linearise, Method, PerNodeOrGroup, Purpose,
+    RadiusRule,
+};
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("examples")
+        .join(name)
+}
+
+fn load(name: &str) -> Case {
+    Case::load(path(name), &[]).unwrap()
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * b.abs()
+}
+
+#[test]
+fn the_dent_is_all_that_distinguishes_the_faulty_bearing() {
+    let mut dent = load("tadina2011/outer-dent.toml");
+    let healthy = load("tadina2011/healthy.toml");
+    dent.ready_for(Purpose::Run).unwrap();
+    healthy.ready_for(Purpose::Run).unwrap();
+    assert_ne!(dent.title, healthy.title);
+    let bearing = dent.bearing.as_mut().unwrap();
+    assert_eq!(bearing.defects.len(), 1);
+    bearing.defects.clear();
+    dent.title.clone_from(&healthy.title);
+    assert_eq!(
+        serde_json::to_value(&dent).unwrap(),
+        serde_json::to_value(&healthy).unwrap()
+    );
+}
+
+#[test]
+fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
+    let case = load("tadina2011/outer-dent.toml");
+    let bearing = case.bearing.as_ref().unwrap();
+    assert!((bearing.play() - 2.5e-6).abs() < 1e-12);
+    assert!(matches!(bearing.ball_inertia(), BallInertia::Mass(mass) if near(mass, 3.29e-5)));
+    assert!(near(bearing.contact_damping, 1.0));
+    assert!(near(bearing.defects[0].length, 0.75e-3));
+    assert!(matches!(case.damping, Some(Damping::Modal(ratio)) if near(ratio, 0.03)));
+    let housing = case.housing.as_ref().unwrap();
+    assert_eq!(
+        housing.mesh,
+        path("tadina2011").join("../../meshes/ring_6_9.msh")
+    );
+    assert!(matches!(
+        housing.supports[0].hold,
+        Hold::Spring { spring, per: PerNodeOrGroup::Group }
+            if near(spring.x, 36.0 * 1e5) && near(spring.y, 36.0 * 1e5)
+    ));
+    let groups = ["housing", "bore", "outer", "lower", "top"].map(str::to_owned);
+    case.check_groups(&groups).unwrap();
+    // omega = 20 pi (t - 0.2): 10 Hz per second.
+    let profile = &case.speed.as_ref().unwrap().profile;
+    assert!(near(
+        (profile[1].hz - profile[0].hz) / (profile[1].time - profile[0].time),
+        10.0
+    ));
+    let transient = case.transient.as_ref().unwrap();
+    assert_eq!(transient.method, Method::Exponential);
+    assert!(near(transient.end, 2.6));
+}
+
+#[test]
+fn the_beam_case_names_every_choice_of_the_fit() {
+    let case = load("tadina2011/beam.toml");
+    case.ready_for(Purpose::Modes).unwrap();
+    assert!(case.housing.is_none());
+    let ring = case.ring.as_ref().unwrap();
+    assert_eq!(ring.radius_rule, RadiusRule::CommonCentroid);
+    assert!(!ring.shear);
+    let (width, height) = (4e-3, 3e-3_f64);
+    assert!(near(ring.sections[1].area, width * height));
+    assert!(near(
+        ring.sections[1].inertia,
+        width * height.powi(3) / 12.0
+    ));
+    let bearing = case.bearing.as_ref().unwrap();
+    assert_eq!(bearing.formulation, Formulation::Printed);
+    // Half a ball spacing off the load: 270 + 360 / 7 / 2.
+    assert!((bearing.first_ball_deg - (270.0 + 180.0 / 7.0)).abs() < 1e-3);
+    assert_eq!(case.modes.linearise, Linearise::Static);
+    for (item, hz) in case.modes.expected.iter().zip([8200.0, 11300.0, 36000.0]) {
+        assert!(near(item.hz, hz));
+    }
+    assert_eq!(case.modes.expected.len(), 3);
+    assert!(
+        case.modes
+            .expected
+            .iter()
+            .all(|item| near(item.within, 0.015))
+    );
+}
+
+#[test]
+fn every_variant_of_the_beam_case_differs_from_it_and_from_the_others() {
+    let case = load("tadina2011/beam.toml");
+    let variants = case.variants().unwrap();
+    assert_eq!(variants.len(), 12);
+    let plain = |case: &Case| {
+        let mut case = case.clone();
+        case.modes.variants.clear();
+        serde_json::to_string(&case).unwrap()
+    };
+    let mut seen = vec![plain(&case)];
+    for variant in &variants {
+        let text = plain(&variant.case);
+        assert!(!seen.contains(&text), "{}", variant.what);
+        seen.push(text);
+    }
+    let width = |index: usize| {
+        let variant = &variants[index].case.ring.as_ref().unwrap().sections[1];
+        (variant.area, variant.inertia)
+    };
+    for (index, millimetres) in [(10, 3.0), (11, 5.0)] {
+        let (area, inertia) = width(index);
+        assert!(near(area, millimetres * 1e-3 * 3e-3));
+        assert!(near(inertia, millimetres * 1e-3 * 2.25e-9));
+    }
+}
+
+#[test]
+fn the_smooth_scene_is_preloaded_and_has_no_dent() {
+    let case = load("scenes/smooth.toml");
+    case.ready_for(Purpose::Run).unwrap();
+    let bearing = case.bearing.as_ref().unwrap();
+    assert!(near(bearing.play(), -1.5e-6));
+    assert!(bearing.defects.is_empty());
+    assert_eq!(case.speed.as_ref().unwrap().profile.len(), 1);
+    let transient = case.transient.as_ref().unwrap();
+    assert!(near(transient.end - transient.start, 10e-3));
+    assert!(near(transient.output_hz, 4e5));
+}

@@ -1,0 +1,3 @@
+//! Computed against published values and other programs' numbers.
+
+mod plane_frequencies;
