@@ -1,4 +1,39 @@
-//! plummer
+//! `plummer`: an FE housing coupling toolkit, named after the plummer block, the standard bearing
+//! housing.
+//!
+//! A housing mesh from gmsh is condensed by Craig-Bampton onto the curved-beam outer ring of a ball
+//! bearing; the nonlinear ball-contact transient runs on the reduced coupled system through a run-up
+//! with faults; the signal is diagnosed. Source of the bearing model: Tadina and Boltezar, J. Sound
+//! Vib. (2011), with its equations put right where that was needed (`docs/theory.md`).
+//!
+//! The data flows one way:
+//!
+//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside.
+//! 2. [`mesh`]: gmsh import with physical names and a validator.
+//! 3. [`material`], [`element`]: plane elements and the curved beam; [`model`]: properties, supports,
+//!    the ring and the tie of the bore to its interpolation.
+//! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, ARPACK, dense problems.
+//! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
+//! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
+//! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
+//! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and two integrators.
+//! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
+//! 10. [`export`], [`report`], [`stages`], [`cli`]: files, one self-contained HTML page, commands.
+//!
+//! ```no_run
+//! use plummer::case::Case;
+//! use plummer::stages::{Unwatched, compute_run};
+//! let case = Case::load("examples/tadina2011/outer-dent.toml", &[])?;
+//! let run = compute_run(&case, &Unwatched)?;
+//! assert_eq!(run.record.sensors[0].0, "P1");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Limitations
+//!
+//! Plane housings of Tri3, Tri6, Quad4 and Quad8 from MSH 4.1; dents in the outer race, in the
+//! bearing's plane; balls with their own inertia; constant cage slip; one thread.
+
 pub mod assembly;
 pub mod bearing;
 pub mod case;

@@ -17,8 +17,9 @@ pub(super) struct BlockPattern {
 impl BlockPattern {
     pub fn new(model: &HousingModel) -> Self {
         // unused nodes keep their diagonal block, so that the matrix has every degree of freedom
-        let mut neighbours: Vec<Vec<usize>> =
-            (0..model.coordinates.len()).map(|node| vec![node]).collect();
+        let mut neighbours: Vec<Vec<usize>> = (0..model.coordinates.len())
+            .map(|node| vec![node])
+            .collect();
         for element in &model.elements {
             for &node in &element.nodes {
                 neighbours[node].extend_from_slice(&element.nodes);

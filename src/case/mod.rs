@@ -53,8 +53,8 @@ pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};
 pub use housing::{
-    Axis, Hold, Housing, Integration, Part, PerNodeOrGroup, Plane, PlaneAssumption,
-    PointMass, Spring, Support,
+    Axis, Hold, Housing, Integration, Part, PerNodeOrGroup, Plane, PlaneAssumption, PointMass,
+    Spring, Support,
 };
 pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, Material};

@@ -126,7 +126,7 @@ impl From<Modes> for ModesForm {
 }
 
 /// How the housing is condensed onto the ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Condense {
     /// What the condensed housing is attached by.
@@ -135,23 +135,9 @@ pub struct Condense {
     /// How many fixed-interface modes are kept.
     #[serde(default)]
     pub fixed_interface_modes: FixedInterfaceModes,
-    /// Whether the residual flexibility of the modes left out is kept; otherwise plain Craig-Bampton.
-    #[serde(default = "yes")]
+    /// Always false in this version: plain Craig-Bampton (`true` is refused by name).
+    #[serde(default)]
     pub enhanced: bool,
-}
-
-fn yes() -> bool {
-    true
-}
-
-impl Default for Condense {
-    fn default() -> Self {
-        Self {
-            interface: Interface::default(),
-            fixed_interface_modes: FixedInterfaceModes::default(),
-            enhanced: yes(),
-        }
-    }
 }
 
 /// What a condensed housing is attached by.

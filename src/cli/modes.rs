@@ -19,7 +19,13 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
         .to_html()
         .map_err(crate::stages::StageError::from)?;
     let report = folder.write("modes-report.html", html.as_bytes())?;
-    let json = modes_json(case, &result, progress, started.elapsed().as_secs_f64(), options);
+    let json = modes_json(
+        case,
+        &result,
+        progress,
+        started.elapsed().as_secs_f64(),
+        options,
+    );
     let text = format!("{json:#}\n");
     let json_path = folder.write("modes.json", text.as_bytes())?;
     let failed = result.base.expected.iter().filter(|row| !row.ok).count();
@@ -48,7 +54,10 @@ fn summary(result: &ModesResult) -> String {
         "{} degrees of freedom, {} rigid modes, {:.6e} kg",
         result.dof, result.rigid_modes, result.mass_kg
     )];
-    lines.push(format!("unloaded (Hz): {}", listed(&result.base.unloaded_hz)));
+    lines.push(format!(
+        "unloaded (Hz): {}",
+        listed(&result.base.unloaded_hz)
+    ));
     lines.extend(reading(&result.base));
     for variant in &result.variants {
         lines.push(format!("-- {}", variant.what));
@@ -67,7 +76,10 @@ fn reading(reading: &Reading) -> Vec<String> {
             .map(|mode| mode.frequency_hz)
             .take(8)
             .collect();
-        lines.push(format!("loaded (Hz), without the balls' own: {}", listed(&own)));
+        lines.push(format!(
+            "loaded (Hz), without the balls' own: {}",
+            listed(&own)
+        ));
     }
     for expected in &reading.expected {
         let found = expected

@@ -20,7 +20,13 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
         .to_html()
         .map_err(crate::stages::StageError::from)?;
     let report = folder.write("report.html", html.as_bytes())?;
-    let json = run_json(case, &result, progress, started.elapsed().as_secs_f64(), options);
+    let json = run_json(
+        case,
+        &result,
+        progress,
+        started.elapsed().as_secs_f64(),
+        options,
+    );
     let text = format!("{json:#}\n");
     let json_path = folder.write("run.json", text.as_bytes())?;
     Ok(Outcome {
@@ -57,7 +63,11 @@ fn summary(result: &RunResult) -> String {
         result.method.name(),
         result.modes,
         result.stage.modes.count(),
-        if result.residual { " with static residual" } else { "" },
+        if result.residual {
+            " with static residual"
+        } else {
+            ""
+        },
         result.realtime_factor(),
     )];
     for window in &result.windows {

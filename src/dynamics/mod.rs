@@ -63,7 +63,7 @@ pub enum Divergence {
     },
 }
 
-/// Position, velocity and acceleration at one instant.
+/// Position and velocity at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Instant<'a> {
     /// Number of the step that ends here; 0 is the start.
@@ -74,8 +74,6 @@ pub struct Instant<'a> {
     pub y: &'a [f64],
     /// Velocities.
     pub v: &'a [f64],
-    /// Accelerations of the whole equation, `g - damping v - squared_frequency y`.
-    pub a: &'a [f64],
 }
 
 /// Sees every step of a run, the start included.

@@ -37,8 +37,8 @@ impl SparseCholesky {
         let pattern =
             SymbolicSparseColMatRef::new_checked(order, order, offsets, None, a.indices());
         let failed = |reason| LinalgError::Factorisation { order, reason };
-        let symbolic = SymbolicLlt::try_new(pattern, Side::Lower)
-            .map_err(|_| failed("symbolic analysis"))?;
+        let symbolic =
+            SymbolicLlt::try_new(pattern, Side::Lower).map_err(|_| failed("symbolic analysis"))?;
         let values = SparseColMatRef::new(pattern, a.data());
         let factor = Llt::try_new_with_symbolic(symbolic, values, Side::Lower).map_err(
             |error| match error {

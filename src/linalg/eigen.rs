@@ -16,6 +16,10 @@ const MAX_RESTARTS: usize = 300;
 /// are verified afterwards; tolerance zero costs 2.7 times the solves for nothing.
 const TOLERANCE: f64 = 1e-10;
 
+/// Largest relative residual of a mode. Those of rigid modes are a ratio of round-off to the shift's
+/// term; a frequency's relative error is below the square of it.
+const LARGEST_RESIDUAL: f64 = 1e-5;
+
 /// How to find the lowest modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EigenOptions {
@@ -42,7 +46,8 @@ pub struct EigenPairs {
 /// `factor` is the factorisation of `K - sigma M`: whoever made it for something else shares it.
 ///
 /// # Errors
-/// [`LinalgError::TooManyModes`] if count exceeds the order; what ARPACK reports.
+/// [`LinalgError::TooManyModes`] if count exceeds the order; [`LinalgError::Residual`] for a mode that
+/// does not satisfy its equation; what ARPACK reports.
 pub fn lowest_eigenpairs(
     k: &SparseMatrix,
     m: &SparseMatrix,
@@ -80,6 +85,16 @@ pub fn lowest_eigenpairs(
         sorted(pairs.values, &pairs.vectors, order)
     };
     let residuals = residuals(k, m, &values, &vectors, shift);
+    let bad = residuals
+        .iter()
+        .position(|&residual| !(residual <= LARGEST_RESIDUAL));
+    if let Some(mode) = bad {
+        return Err(LinalgError::Residual {
+            mode,
+            residual: residuals[mode],
+            limit: LARGEST_RESIDUAL,
+        });
+    }
     Ok(EigenPairs {
         values,
         vectors,
@@ -109,7 +124,10 @@ fn sorted(values: Vec<f64>, columns: &[f64], order: usize) -> (Vec<f64>, DenseMa
     let vectors = DenseMatrix::from_fn(order, values.len(), |row, column| {
         columns[ranking[column] * order + row]
     });
-    (ranking.iter().map(|&place| values[place]).collect(), vectors)
+    (
+        ranking.iter().map(|&place| values[place]).collect(),
+        vectors,
+    )
 }
 
 /// `y = A x` for a symmetric `A`: each entry of `y` is one dot product with a stored column.
@@ -126,11 +144,15 @@ fn residuals(
     vectors: &DenseMatrix,
     shift: f64,
 ) -> Vec<f64> {
-    let (kx, mx) = (sparse_times_dense(k, vectors), sparse_times_dense(m, vectors));
+    let (kx, mx) = (
+        sparse_times_dense(k, vectors),
+        sparse_times_dense(m, vectors),
+    );
     (0..values.len())
         .map(|mode| {
             let difference = kx.col(mode) - mx.col(mode) * faer::Scale(values[mode]);
-            let scale = kx.col(mode).norm_l2() + (values[mode] - shift).abs() * mx.col(mode).norm_l2();
+            let scale =
+                kx.col(mode).norm_l2() + (values[mode] - shift).abs() * mx.col(mode).norm_l2();
             difference.norm_l2() / scale
         })
         .collect()
@@ -171,7 +193,10 @@ mod tests {
                 let angle = (index + 1) as f64 * std::f64::consts::PI / (order + 1) as f64;
                 let exact = 4.0 * (0.5 * angle).sin().powi(2);
                 // eigenvalues converge with the square of the tolerance 1e-10: round-off is left
-                assert!((value / exact - 1.0).abs() < 1e-11, "{order} {index} {value} {exact}");
+                assert!(
+                    (value / exact - 1.0).abs() < 1e-11,
+                    "{order} {index} {value} {exact}"
+                );
                 assert!(pairs.residuals[index] < 1e-9);
             }
         }
@@ -180,14 +205,20 @@ mod tests {
     #[test]
     fn a_run_repeats_to_the_bit() {
         let (first, second) = (lowest(150, 5), lowest(150, 5));
-        assert_eq!(first.expect("converges").values, second.expect("converges").values);
+        assert_eq!(
+            first.expect("converges").values,
+            second.expect("converges").values
+        );
     }
 
     #[test]
     fn more_modes_than_degrees_of_freedom_is_an_error() {
         assert_eq!(
             lowest(5, 6).err(),
-            Some(LinalgError::TooManyModes { asked: 6, available: 5 })
+            Some(LinalgError::TooManyModes {
+                asked: 6,
+                available: 5
+            })
         );
     }
 }

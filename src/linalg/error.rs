@@ -6,7 +6,9 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LinalgError {
     /// A Cholesky factorisation met a pivot that is not positive.
-    #[error("the {order} x {order} matrix is not positive definite (pivot {pivot} is not positive)")]
+    #[error(
+        "the {order} x {order} matrix is not positive definite (pivot {pivot} is not positive)"
+    )]
     NotPositiveDefinite {
         /// Number of rows of the matrix.
         order: usize,
@@ -50,6 +52,18 @@ pub enum LinalgError {
         converged: usize,
         /// Restarts made.
         restarts: usize,
+    },
+    /// Modes that do not satisfy their equation.
+    #[error(
+        "mode {mode} leaves a relative residual of {residual:.3e} in its eigenvalue equation, more than {limit:.0e}: the matrices are too ill-conditioned"
+    )]
+    Residual {
+        /// Which mode, from 0.
+        mode: usize,
+        /// Its residual.
+        residual: f64,
+        /// Largest residual accepted.
+        limit: f64,
     },
     /// ARPACK refused its input; an error of this program.
     #[error("ARPACK routine {routine} returned info = {info}")]

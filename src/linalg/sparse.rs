@@ -103,7 +103,13 @@ mod tests {
 
     fn sample() -> SparseMatrix {
         let mut builder = TripletBuilder::new(3, 3);
-        for (row, column, value) in [(0, 0, 2.0), (1, 1, 3.0), (2, 2, 4.0), (0, 1, -1.0), (1, 0, -1.0)] {
+        for (row, column, value) in [
+            (0, 0, 2.0),
+            (1, 1, 3.0),
+            (2, 2, 4.0),
+            (0, 1, -1.0),
+            (1, 0, -1.0),
+        ] {
             builder.add(row, column, value);
         }
         builder.add(2, 2, 1.0);

@@ -88,7 +88,7 @@ impl BeamSection {
     /// shear and rotary terms scale with `R / R_k`; R is the first ring's radius. With
     /// `Slip(CommonCentroid)` stiffness and mass sums are plain and R is the EA-weighted centroid
     /// radius, but the masses stay where they are: moments of mass are taken about R (without them
-    /// a rigid rotation of two rings such as the source's would miss 4 % of its inertia). With
+    /// a rigid rotation of two rings such as the source's would miss 3 % of its inertia). With
     /// `Composite` the parallel-axis terms come in everywhere, R the same.
     ///
     /// # Errors
@@ -129,8 +129,7 @@ impl BeamSection {
         let shear = sum(&|layer| {
             layer.shear_coefficient * layer.material.shear_modulus() * layer.area * along(layer)
         });
-        let line_mass =
-            |layer: &RingLayer| layer.material.density * layer.area * ratio(layer);
+        let line_mass = |layer: &RingLayer| layer.material.density * layer.area * ratio(layer);
         let rotary = match bond {
             Bond::Slip(RadiusRule::Own) => {
                 sum(&|layer| layer.material.density * layer.inertia / ratio(layer))

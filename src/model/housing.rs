@@ -1,9 +1,9 @@
 //! A plane housing: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! 2n (x) and 2n + 1 (y).
 
+use super::ModelError;
 use super::spread::shares;
 use super::support::{Constraint, HousingSupport, PointMass, SupportShare};
-use super::ModelError;
 use crate::element::plane::{PlaneKind, PlaneProperties};
 use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
 
@@ -99,7 +99,7 @@ impl HousingModel {
         }
         for mass in masses {
             let group = model.group_on_housing(mesh, &mass.group, "the mass")?;
-            for (node, share) in shares(mesh, group)? {
+            for (node, share) in shares(mesh, group, &model.used)? {
                 model.masses.push((node, share * mass.mass));
             }
         }
@@ -120,6 +120,11 @@ impl HousingModel {
     /// The elements.
     pub fn elements(&self) -> &[PlaneElement] {
         &self.elements
+    }
+
+    /// Whether an element uses a node.
+    pub fn is_used(&self, node: usize) -> bool {
+        self.used[node]
     }
 
     /// Nodes with a spring to the ground.
@@ -161,7 +166,7 @@ impl HousingModel {
         let group = self.group_on_housing(mesh, &support.group, "the support")?;
         let carried = match support.share {
             SupportShare::PerNode => group.nodes.iter().map(|&node| (node, 1.0)).collect(),
-            SupportShare::PerGroup => shares(mesh, group)?,
+            SupportShare::PerGroup => shares(mesh, group, &self.used)?,
         };
         for (node, share) in carried.into_iter().filter(|&(node, _)| self.used[node]) {
             let matrix = match support.constraint {
@@ -177,7 +182,10 @@ impl HousingModel {
                 Constraint::Radial(stiffness) => {
                     let [x, y] = self.coordinates[node];
                     let scale = share * stiffness / (x * x + y * y).max(f64::MIN_POSITIVE);
-                    [[scale * x * x, scale * x * y], [scale * x * y, scale * y * y]]
+                    [
+                        [scale * x * x, scale * x * y],
+                        [scale * x * y, scale * y * y],
+                    ]
                 }
             };
             self.springs.push(NodeSpring { node, matrix });
@@ -188,13 +196,16 @@ impl HousingModel {
 
 fn check_plane(mesh: &Mesh, path: &str) -> Result<(), ModelError> {
     let first = mesh.nodes.first().map_or(0.0, |node| node[2]);
-    let size = mesh
-        .nodes
-        .iter()
-        .fold(0.0_f64, |size, node| size.max(node[0].abs()).max(node[1].abs()));
+    let size = mesh.nodes.iter().fold(0.0_f64, |size, node| {
+        size.max(node[0].abs()).max(node[1].abs())
+    });
     // gmsh writes 16 digits: what is off by more is meant
     let tolerance = 1e-9 * size;
-    match mesh.nodes.iter().position(|node| (node[2] - first).abs() > tolerance) {
+    match mesh
+        .nodes
+        .iter()
+        .position(|node| (node[2] - first).abs() > tolerance)
+    {
         Some(index) => Err(ModelError::NotPlane {
             path: path.to_owned(),
             tag: mesh.node_tags[index],
@@ -210,8 +221,11 @@ fn assign_parts(
     parts: &[PartProperties],
     path: &str,
 ) -> Result<Vec<PlaneElement>, ModelError> {
-    let mut owner: Vec<Vec<Option<usize>>> =
-        mesh.blocks.iter().map(|block| vec![None; block.len()]).collect();
+    let mut owner: Vec<Vec<Option<usize>>> = mesh
+        .blocks
+        .iter()
+        .map(|block| vec![None; block.len()])
+        .collect();
     for (part, properties) in parts.iter().enumerate() {
         let group = mesh.group(&properties.group)?;
         if group.dimension != 2 {

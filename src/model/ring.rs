@@ -108,7 +108,10 @@ impl Ring {
         for index in 0..nodes {
             let (dofs, turn) = ring.frame(index);
             let turned = |polar: &nalgebra::Matrix6<f64>| turn.transpose() * polar * turn;
-            let (k, m) = (turned(ring.element.stiffness()), turned(ring.element.mass()));
+            let (k, m) = (
+                turned(ring.element.stiffness()),
+                turned(ring.element.mass()),
+            );
             for (row, &global_row) in dofs.iter().enumerate() {
                 for (column, &global_column) in dofs.iter().enumerate() {
                     ring.stiffness[(global_row, global_column)] += k[(row, column)];
@@ -222,6 +225,13 @@ impl Ring {
             radial: row(1),
             rotation: row(2),
         }
+    }
+
+    /// Interpolation of the radial displacement at `phi` from an element's middle (rad) in the polar
+    /// components (tangential, radial, rotation) of its two nodes; the same for every element.
+    pub fn polar_radial_row(&self, phi: f64) -> [f64; 6] {
+        let n = self.element.interpolation(phi);
+        std::array::from_fn(|column| n[(1, column)])
     }
 
     /// Rigid motion of all nodes: translation (x, y) plus rotation about the origin [dof].
@@ -353,6 +363,10 @@ mod tests {
             offset: 0.0,
         };
         let error = ring.add_support(&support).expect_err("no node");
-        assert!(error.to_string().contains("the 8 nodes are 45 degrees apart"));
+        assert!(
+            error
+                .to_string()
+                .contains("the 8 nodes are 45 degrees apart")
+        );
     }
 }

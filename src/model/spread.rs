@@ -4,17 +4,22 @@ use super::ModelError;
 use crate::element::plane::{EdgeKind, edge_weights};
 use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
 
-/// Nodes of a group with their shares; the shares add up to 1.
+/// Nodes of a group that the housing uses, with their shares; the shares add up to 1.
 ///
 /// Points share equally. Curves share by length with the consistent weights of their edges
 /// (integral of the shape functions). Surfaces share equally: plane housings have no load on faces.
 ///
 /// # Errors
 /// [`ModelError::Element`] for an edge without length.
-pub(super) fn shares(mesh: &Mesh, group: &PhysicalGroup) -> Result<Vec<(usize, f64)>, ModelError> {
+pub(super) fn shares(
+    mesh: &Mesh,
+    group: &PhysicalGroup,
+    used: &[bool],
+) -> Result<Vec<(usize, f64)>, ModelError> {
     if group.dimension != 1 {
-        let share = 1.0 / group.nodes.len() as f64;
-        return Ok(group.nodes.iter().map(|&node| (node, share)).collect());
+        let nodes: Vec<usize> = group.nodes.iter().copied().filter(|&n| used[n]).collect();
+        let share = 1.0 / nodes.len() as f64;
+        return Ok(nodes.into_iter().map(|node| (node, share)).collect());
     }
     let mut weights = vec![0.0; mesh.nodes.len()];
     for element in &group.elements {
@@ -37,13 +42,16 @@ pub(super) fn shares(mesh: &Mesh, group: &PhysicalGroup) -> Result<Vec<(usize, f
             source,
         })?;
         for (&node, weight) in nodes.iter().zip(edge) {
-            weights[node] += weight;
+            if used[node] {
+                weights[node] += weight;
+            }
         }
     }
     let total: f64 = weights.iter().sum();
     Ok(group
         .nodes
         .iter()
+        .filter(|&&node| used[node])
         .map(|&node| (node, weights[node] / total))
         .collect())
 }

@@ -66,12 +66,15 @@ pub fn craig_bampton(
     }
     let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
     let floating = |error| match error {
-        LinalgError::NotPositiveDefinite { .. } => ReductionError::FloatingInterior {
-            interior: i.len(),
-        },
+        LinalgError::NotPositiveDefinite { .. } => {
+            ReductionError::FloatingInterior { interior: i.len() }
+        }
         other => other.into(),
     };
     let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
+    if floats(&k_ii, &m_ii, &factor)? {
+        return Err(ReductionError::FloatingInterior { interior: i.len() });
+    }
     let tie = dense(&partition.tie);
     let driven_k = sparse_times_dense(&submatrix(k, i, b), &tie);
     let mut constraint_modes = &driven_k * faer::Scale(-1.0);
@@ -90,9 +93,8 @@ pub fn craig_bampton(
         + constraint_modes.transpose() * &follow;
     let m_qb = phi.transpose() * &follow;
     let interface = tie.ncols();
-    let entry = |bb: &DenseMatrix, row: usize, column: usize| {
-        0.5 * (bb[(row, column)] + bb[(column, row)])
-    };
+    let entry =
+        |bb: &DenseMatrix, row: usize, column: usize| 0.5 * (bb[(row, column)] + bb[(column, row)]);
     let order = interface + q;
     let stiffness = DenseMatrix::from_fn(order, order, |row, column| {
         match (row.checked_sub(interface), column.checked_sub(interface)) {
@@ -119,6 +121,34 @@ pub fn craig_bampton(
     ))
 }
 
+/// Eigenvalue ratio below which a motion of the interior counts as free: the lowest eigenvalue
+/// against the smallest `K_jj / M_jj`. Round-off leaves 1e-14, a slender mesh of 1e6 elements 1e-9.
+const FLOATING: f64 = 1e-12;
+
+/// Whether the interior can move freely although the factorisation passed: pivots of round-off size
+/// do. Four inverse iterations bring out the softest motion.
+fn floats(
+    k_ii: &SparseMatrix,
+    m_ii: &SparseMatrix,
+    factor: &SparseCholesky,
+) -> Result<bool, LinalgError> {
+    let order = k_ii.rows();
+    let diagonal = |a: &SparseMatrix, j: usize| a.get(j, j).copied().unwrap_or(0.0);
+    let smallest = (0..order)
+        .map(|j| diagonal(k_ii, j) / diagonal(m_ii, j))
+        .filter(|ratio| *ratio > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let mut x = DenseMatrix::from_fn(order, 1, |row, _| 1.0 + (row as f64).sin());
+    let mut eigenvalue = f64::INFINITY;
+    for _ in 0..4 {
+        let before = x.norm_l2();
+        x = sparse_times_dense(m_ii, &x) * faer::Scale(1.0 / before);
+        factor.solve_columns(&mut x)?;
+        eigenvalue = 1.0 / x.norm_l2();
+    }
+    Ok(!(eigenvalue > FLOATING * smallest))
+}
+
 /// Eigenvalues and vectors [interior x count] with the interface held.
 fn fixed_interface_modes(
     k_ii: &SparseMatrix,
@@ -127,9 +157,8 @@ fn fixed_interface_modes(
     selection: FixedModeSelection,
 ) -> Result<(Vec<f64>, DenseMatrix), ReductionError> {
     let order = k_ii.rows();
-    let lowest = |count: usize| {
-        lowest_eigenpairs(k_ii, m_ii, factor, EigenOptions { count, shift: 0.0 })
-    };
+    let lowest =
+        |count: usize| lowest_eigenpairs(k_ii, m_ii, factor, EigenOptions { count, shift: 0.0 });
     match selection {
         FixedModeSelection::Count(0) => Ok((Vec::new(), DenseMatrix::zeros(order, 0))),
         FixedModeSelection::Count(count) => {
@@ -170,7 +199,10 @@ mod tests {
 
     /// Rod of unit springs and masses, free at both ends.
     fn rod(nodes: usize) -> SystemMatrices {
-        let (mut k, mut m) = (TripletBuilder::new(nodes, nodes), TripletBuilder::new(nodes, nodes));
+        let (mut k, mut m) = (
+            TripletBuilder::new(nodes, nodes),
+            TripletBuilder::new(nodes, nodes),
+        );
         for node in 0..nodes {
             m.add(node, node, 1.0);
             if node + 1 < nodes {
@@ -199,19 +231,24 @@ mod tests {
     #[test]
     fn all_modes_kept_is_the_full_model() {
         let rod = rod(12);
-        let reduced = craig_bampton(&rod, &partition(12), FixedModeSelection::Count(11))
-            .expect("connected");
+        let reduced =
+            craig_bampton(&rod, &partition(12), FixedModeSelection::Count(11)).expect("connected");
         let found = symmetric_generalised_eigen(reduced.stiffness(), reduced.mass()).expect("free");
-        let full = symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
+        let full =
+            symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
         for mode in 0..12 {
-            assert!((found.values[mode] - full.values[mode]).abs() < 1e-11, "{mode}");
+            assert!(
+                (found.values[mode] - full.values[mode]).abs() < 1e-11,
+                "{mode}"
+            );
         }
     }
 
     #[test]
     fn frequencies_converge_from_above() {
         let rod = rod(40);
-        let full = symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
+        let full =
+            symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
         let mut before = f64::INFINITY;
         for kept in [0, 2, 5, 10] {
             let reduced = craig_bampton(&rod, &partition(40), FixedModeSelection::Count(kept))
@@ -260,12 +297,8 @@ mod tests {
                 2.0 * angle.sin() <= limit
             })
             .count();
-        let reduced = craig_bampton(
-            &rod,
-            &partition(60),
-            FixedModeSelection::UpTo(limit / TAU),
-        )
-        .expect("connected");
+        let reduced = craig_bampton(&rod, &partition(60), FixedModeSelection::UpTo(limit / TAU))
+            .expect("connected");
         assert_eq!(reduced.fixed_interface_modes(), exact);
     }
 }

@@ -89,7 +89,10 @@ pub fn analyse(
             };
             let near = |expected: f64| {
                 let found = spectrum.peak_near(expected, LINE_TOLERANCE);
-                (expected, found.map(|peak| (peak.frequency_hz, peak.amplitude)))
+                (
+                    expected,
+                    found.map(|peak| (peak.frequency_hz, peak.amplitude)),
+                )
             };
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),

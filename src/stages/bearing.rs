@@ -1,7 +1,7 @@
 //! The bearing of a case.
 
 use super::StageError;
-use crate::bearing::dent::{DentCurvature, DentShape, OuterDent};
+use crate::bearing::dent::{DentCurvature, DentShape, OuterDent, reduced};
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
     SpeedKnot, SpeedProfile,
@@ -40,7 +40,8 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
             OuterDent::new(&geometry, shape, stiffness)
                 .map_err(|source| StageError::Dent { index, source })
         })
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<Vec<_>, _>>()?;
+    check_apart(&dents)?;
     let speed = match &case.speed {
         Some(speed) => {
             let knots: Vec<SpeedKnot> = speed
@@ -76,6 +77,25 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
         },
         gravity: shaft.gravity,
     }))
+}
+
+/// Two dents must not share a part of the race: a contact belongs to one of them.
+fn check_apart(dents: &[OuterDent]) -> Result<(), StageError> {
+    for (second, b) in dents.iter().enumerate() {
+        for (first, a) in dents[..second].iter().enumerate() {
+            let apart = reduced(a.shape().angle - b.shape().angle).abs();
+            let needed = a.contact_half_angle() + b.contact_half_angle();
+            if apart < needed {
+                return Err(StageError::DentsOverlap {
+                    first,
+                    second,
+                    apart_deg: apart.to_degrees(),
+                    needed_deg: needed.to_degrees(),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The stiffness of both contacts from geometry, whichever the case uses.

@@ -56,7 +56,9 @@ fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
             let nodes: Vec<usize> = edge.iter().map(|&local| element.nodes[local]).collect();
             let ends = [nodes[0], nodes[nodes.len() - 1]];
             if drawn.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
-                drawing.mesh_edges.push(nodes.into_iter().map(point).collect());
+                drawing
+                    .mesh_edges
+                    .push(nodes.into_iter().map(point).collect());
             }
         }
     }
@@ -111,7 +113,10 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
         },
         race,
     ];
-    let start = case.transient.as_ref().map_or(0.0, |transient| transient.start);
+    let start = case
+        .transient
+        .as_ref()
+        .map_or(0.0, |transient| transient.start);
     let cage = setup.cage.motion(setup.speed.motion(start));
     for ball in 0..geometry.balls() {
         let angle = setup.cage.ball_angle(cage.angle, ball);
@@ -143,18 +148,35 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 stage.structure.ring().section().radius,
                 degrees.to_radians(),
             )),
-            SensorSpot::Point([x, y, _]) => Some(Point { x: *x, y: *y }),
+            SensorSpot::Point([x, y, _]) => {
+                let centre = case.ring.as_ref().and_then(|ring| ring.tie.as_ref());
+                let [cx, cy, _] = centre.map_or([0.0; 3], |tie| tie.centre);
+                Some(Point {
+                    x: x - cx,
+                    y: y - cy,
+                })
+            }
             SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
                 let nodes = &housing.mesh.group(group).ok()?.nodes;
                 let mean = |k: usize| {
-                    let sum: f64 = nodes.iter().map(|&n| housing.model.coordinates()[n][k]).sum();
+                    let sum: f64 = nodes
+                        .iter()
+                        .map(|&n| housing.model.coordinates()[n][k])
+                        .sum();
                     sum / nodes.len() as f64
                 };
-                Some(Point { x: mean(0), y: mean(1) })
+                Some(Point {
+                    x: mean(0),
+                    y: mean(1),
+                })
             }),
         };
         let [x, y, _] = sensor.direction;
-        let direction_rad = if x == 0.0 && y == 0.0 { FRAC_PI_2 } else { y.atan2(x) };
+        let direction_rad = if x == 0.0 && y == 0.0 {
+            FRAC_PI_2
+        } else {
+            y.atan2(x)
+        };
         if let Some(at) = at {
             drawing.sensors.push(Sensor {
                 name: sensor.name.clone(),

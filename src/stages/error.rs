@@ -60,6 +60,38 @@ pub enum StageError {
         /// What is wrong with it.
         source: DentError,
     },
+    /// Two dents in one place.
+    #[error(
+        "bearing.defects[{first}] and bearing.defects[{second}] overlap (arcs {apart_deg:.2} degrees apart, {needed_deg:.2} needed): move one or make it shorter"
+    )]
+    DentsOverlap {
+        /// The one, from 0.
+        first: usize,
+        /// The other.
+        second: usize,
+        /// Distance of their middles, degrees.
+        apart_deg: f64,
+        /// Distance that keeps them apart, degrees.
+        needed_deg: f64,
+    },
+    /// Rayleigh damping that drives.
+    #[error(
+        "damping: these values mean alpha = {alpha:.4e} 1/s and beta = {beta:.4e} s; a negative coefficient drives some modes: bring the two ratios closer together, or use damping.modal"
+    )]
+    NegativeDamping {
+        /// Mass coefficient, 1/s.
+        alpha: f64,
+        /// Stiffness coefficient, s.
+        beta: f64,
+    },
+    /// A sensor that points out of the plane.
+    #[error(
+        "sensor \"{name}\": direction has no part in the plane x, y of a plane model; give direction = [0, 1, 0] or the like"
+    )]
+    SensorDirection {
+        /// Name of the sensor.
+        name: String,
+    },
     /// Speed profile.
     #[error("speed.profile: {0}")]
     Speed(#[from] SpeedError),
@@ -130,6 +162,7 @@ impl StageError {
                 SystemError::NotSupported
                     | SystemError::NothingHoldsTheShaft
                     | SystemError::PrintedNeedsAllModes
+                    | SystemError::NoModesKept { .. }
             ),
             Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),
             Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),

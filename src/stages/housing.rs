@@ -6,7 +6,9 @@ use crate::case::{self, Case, Hold, PerNodeOrGroup};
 use crate::element::plane::{PlaneAssumption, PlaneProperties};
 use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::model::{Constraint, HousingModel, HousingSupport, PartProperties, PointMass, SupportShare};
+use crate::model::{
+    Constraint, HousingModel, HousingSupport, PartProperties, PointMass, SupportShare,
+};
 
 /// A housing, assembled.
 #[derive(Debug, Clone)]
@@ -94,16 +96,16 @@ fn part_properties(
     part: &case::Part,
 ) -> Result<PartProperties, StageError> {
     // a plane housing without `plane` was refused with the case
-    let (assumption, thickness) = housing.plane.map_or(
-        (PlaneAssumption::Stress, f64::NAN),
-        |plane| {
-            let assumption = match plane.assumption {
-                case::PlaneAssumption::Stress => PlaneAssumption::Stress,
-                case::PlaneAssumption::Strain => PlaneAssumption::Strain,
-            };
-            (assumption, plane.thickness)
-        },
-    );
+    let (assumption, thickness) =
+        housing
+            .plane
+            .map_or((PlaneAssumption::Stress, f64::NAN), |plane| {
+                let assumption = match plane.assumption {
+                    case::PlaneAssumption::Stress => PlaneAssumption::Stress,
+                    case::PlaneAssumption::Strain => PlaneAssumption::Strain,
+                };
+                (assumption, plane.thickness)
+            });
     Ok(PartProperties {
         group: part.group.clone(),
         properties: PlaneProperties::new(material(case, &part.material)?, assumption, thickness)?,
@@ -121,9 +123,7 @@ fn support(support: &case::Support) -> Option<HousingSupport> {
             let fixed = [holds(case::Axis::X), holds(case::Axis::Y)];
             (Constraint::Fixed(fixed), SupportShare::PerNode)
         }
-        Hold::Spring { spring, per } => {
-            (Constraint::Spring([spring.x, spring.y]), share(*per))
-        }
+        Hold::Spring { spring, per } => (Constraint::Spring([spring.x, spring.y]), share(*per)),
         Hold::Radial { stiffness, per } => (Constraint::Radial(*stiffness), share(*per)),
     };
     Some(HousingSupport {

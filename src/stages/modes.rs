@@ -83,7 +83,9 @@ impl Reading {
     /// Nearest mode to a frequency among those that are not the balls' own, Hz.
     pub fn nearest_hz(&self, hz: f64) -> Option<f64> {
         match &self.loaded {
-            Some(loaded) => loaded.nearest(hz).map(|mode: &LoadedMode| mode.frequency_hz),
+            Some(loaded) => loaded
+                .nearest(hz)
+                .map(|mode: &LoadedMode| mode.frequency_hz),
             None => self
                 .unloaded_hz
                 .iter()
@@ -120,7 +122,10 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
         .housing
         .as_ref()
         .map_or(0.0, |housing| housing.matrices.total_mass());
-    let housing_dof = stage.housing.as_ref().map_or(0, |housing| housing.model.dof());
+    let housing_dof = stage
+        .housing
+        .as_ref()
+        .map_or(0, |housing| housing.model.dof());
     Ok(ModesResult {
         base,
         variants,
@@ -195,7 +200,10 @@ fn reading(
         .collect();
     let (loaded, equilibrium) = match (case.modes.linearise, bearing_setup(case)?) {
         (Linearise::Static, Some(setup)) => {
-            let t = case.transient.as_ref().map_or(0.0, |transient| transient.start);
+            let t = case
+                .transient
+                .as_ref()
+                .map_or(0.0, |transient| transient.start);
             let equilibrium = Equilibrium::find(&stage.structure, &setup, t)?;
             let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
             (Some(loaded), Some(equilibrium))

@@ -22,9 +22,10 @@ pub fn modes_report(
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Eigenfrequencies and their verification");
     for expected in &result.base.expected {
-        let found = expected
-            .found_hz
-            .map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
+        let found = expected.found_hz.map_or_else(
+            || "none".to_owned(),
+            |hz| format!("{} Hz", significant(hz, 4)),
+        );
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
     let mut frequencies = Section::new("Eigenfrequencies");
@@ -75,7 +76,10 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
             "Hz",
         ));
     }
-    columns.push(Column::number("Modes below 40 kHz without the balls' own", "kHz"));
+    columns.push(Column::number(
+        "Modes below 40 kHz without the balls' own",
+        "kHz",
+    ));
     let mut table = Table::new("Readings side by side", columns);
     for reading in std::iter::once(base).chain(variants) {
         let name = if reading.what.is_empty() {

@@ -2,6 +2,7 @@
 
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use crate::case::{self, Case, ModesKept, StepLength};
+use crate::closed_form::race::DefectOrders;
 use crate::series::TimeSeries;
 use crate::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeDamping, ModeSelection,
@@ -81,7 +82,12 @@ impl RunResult {
     pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
         let start = self.record.time_s.first().copied().unwrap_or(0.0);
         let values = self.record.sensors[sensor].1.clone();
-        Ok(TimeSeries::new(start, self.schedule.interval, "m/s^2", values)?)
+        Ok(TimeSeries::new(
+            start,
+            self.schedule.interval,
+            "m/s^2",
+            values,
+        )?)
     }
 }
 
@@ -110,7 +116,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         &stage.modes,
         setup.clone(),
         selection(case, &setup, method),
-        damping(case),
+        damping(case)?,
         asked.residual,
     )?;
     let step = match asked.step {
@@ -119,8 +125,15 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     };
     let interval = 1.0 / asked.output_hz;
     let mut schedule = Schedule::covering(asked.end - asked.start, interval, step)?;
-    let wanted = usize::try_from(schedule.intervals).unwrap_or(usize::MAX).saturating_add(1);
-    let mut recorder = Recorder::new(&system, schedule.steps_per_interval, schedule.step(), wanted)?;
+    let wanted = usize::try_from(schedule.intervals)
+        .unwrap_or(usize::MAX)
+        .saturating_add(1);
+    let mut recorder = Recorder::new(
+        &system,
+        schedule.steps_per_interval,
+        schedule.step(),
+        wanted,
+    )?;
     schedule.intervals += recorder.intervals_past_the_end();
     let mut state = system.state_at(asked.start, &equilibrium, &stage.modes);
     watch.stage("step");
@@ -141,20 +154,28 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     );
     let stepping_s = clock.elapsed().as_secs_f64();
     let simulated_s = state.t - asked.start;
-    let (statistics, end) = match stepped {
-        Ok(statistics) => (statistics, RunEnd::Complete),
+    let modes = system.modes();
+    let residual = system.has_residual();
+    let (statistics, end, record) = match stepped {
+        Ok(statistics) => (statistics, RunEnd::Complete, recorder.finish()),
         Err(error @ TransientError::BlewUp { step, .. }) => {
             let statistics = Statistics {
                 steps: step,
                 evaluations: step + 1,
             };
-            (statistics, RunEnd::BlewUp(error))
+            // the interval in which it was noticed is not good any more
+            let good = (step / u64::from(schedule.steps_per_interval)).saturating_sub(1);
+            (
+                statistics,
+                RunEnd::BlewUp(error),
+                recorder.finish_after(good),
+            )
         }
         Err(error) => return Err(error.into()),
     };
     let mut result = RunResult {
-        modes: system.modes(),
-        residual: system.has_residual(),
+        modes,
+        residual,
         stage,
         setup,
         equilibrium,
@@ -164,7 +185,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         statistics,
         simulated_s,
         stepping_s,
-        record: recorder.finish(),
+        record,
         windows: Vec::new(),
         not_analysed: Vec::new(),
         end,
@@ -177,7 +198,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
 impl RunResult {
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
-        let orders = self.setup.geometry.orders();
+        let orders = slipping_orders(&self.setup);
         for (index, (name, _)) in self.record.sensors.clone().iter().enumerate() {
             let analysed = self
                 .signal(index)
@@ -187,6 +208,19 @@ impl RunResult {
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),
             }
         }
+    }
+}
+
+/// Defect orders with the cage's slip: outer `N r`, inner `N (1 - r)` for a cage order r. The ball's
+/// own spin is not prescribed; its order stays that of pure rolling.
+fn slipping_orders(setup: &BearingSetup) -> DefectOrders {
+    let balls = f64::from(setup.geometry.balls());
+    let cage = setup.cage.ratio();
+    DefectOrders {
+        cage,
+        outer: balls * cage,
+        inner: balls * (1.0 - cage),
+        ..setup.geometry.orders()
     }
 }
 
@@ -201,8 +235,7 @@ fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection
         ModesKept::Count(count) => ModeSelection::Count(count),
         // the source's method steps all ring displacements, and its equations need them
         ModesKept::Auto
-            if method == Method::NewmarkExplicit
-                || setup.formulation == Formulation::Printed =>
+            if method == Method::NewmarkExplicit || setup.formulation == Formulation::Printed =>
         {
             ModeSelection::All
         }
@@ -210,8 +243,8 @@ fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection
     }
 }
 
-fn damping(case: &Case) -> ModeDamping {
-    match &case.damping {
+fn damping(case: &Case) -> Result<ModeDamping, StageError> {
+    let damping = match &case.damping {
         None => ModeDamping::Modal(0.0),
         Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
         Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh {
@@ -222,6 +255,12 @@ fn damping(case: &Case) -> ModeDamping {
             (first.frequency_hz, first.ratio),
             (second.frequency_hz, second.ratio),
         ),
+    };
+    match damping {
+        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
+            Err(StageError::NegativeDamping { alpha, beta })
+        }
+        admissible => Ok(admissible),
     }
 }
 
@@ -238,8 +277,7 @@ fn auto_step(
         .iter()
         .map(|ball| ball.inner.max(ball.outer))
         .fold(setup.geometry.ball_mass() * 9.81, f64::max);
-    let tangent =
-        |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (AUTO_FORCE * largest).cbrt();
+    let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (AUTO_FORCE * largest).cbrt();
     let sum = tangent(setup.stiffness.inner()) + tangent(setup.stiffness.outer());
     let resolved = AUTO_PHASE / (sum / setup.geometry.ball_mass()).sqrt();
     match method {

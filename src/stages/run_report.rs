@@ -73,7 +73,10 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
         for (harmonic, (expected, found)) in (1..).zip(window.outer) {
             if let (Some((hz, _)), false) = (found, result.setup.dents.is_empty()) {
                 report = report.headline(
-                    format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
+                    format!(
+                        "Envelope line at {harmonic} x outer race ({} Hz)",
+                        significant(expected, 4)
+                    ),
                     format!("{} Hz", significant(hz, 4)),
                     Verdict::of((hz / expected - 1.0).abs() <= 0.03),
                 );
@@ -103,7 +106,10 @@ fn signals(result: &RunResult) -> Result<Section, StageError> {
 fn envelope(window: &WindowAnalysis) -> Section {
     let top = 14.0 * window.speed_hz;
     let mut plot = Plot::new(
-        format!("Envelope spectrum of {}, {}-{} s", window.sensor, window.from, window.to),
+        format!(
+            "Envelope spectrum of {}, {}-{} s",
+            window.sensor, window.from, window.to
+        ),
         Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
         Axis::new("Amplitude", "m/s^2"),
     )
@@ -155,12 +161,17 @@ fn envelope(window: &WindowAnalysis) -> Section {
     Section::new(format!("Envelope analysis of {}", window.sensor))
         .plot(plot)
         .facts([
-            Fact::new("Mean shaft speed", format!("{} Hz", significant(window.speed_hz, 4))),
+            Fact::new(
+                "Mean shaft speed",
+                format!("{} Hz", significant(window.speed_hz, 4)),
+            ),
             Fact::new("RMS", format!("{} m/s^2", significant(window.rms, 4))),
             Fact::new("Peak", format!("{} m/s^2", significant(window.peak, 4))),
             Fact::new(
                 "Kurtosis",
-                window.kurtosis.map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
+                window
+                    .kurtosis
+                    .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
             )
             .note("3 for a normal distribution"),
             Fact::new(
@@ -170,7 +181,14 @@ fn envelope(window: &WindowAnalysis) -> Section {
                     |hz| format!("{} Hz, Butterworth, zero phase", significant(hz, 4)),
                 ),
             ),
-            Fact::new("Window", format!("{} s, zero-padded {} times", significant(window.to - window.from, 3), significant(window.spectrum.zero_padding, 3))),
+            Fact::new(
+                "Window",
+                format!(
+                    "{} s, zero-padded {} times",
+                    significant(window.to - window.from, 3),
+                    significant(window.spectrum.zero_padding, 3)
+                ),
+            ),
         ])
         .table(peaks)
 }
@@ -185,7 +203,10 @@ fn frequencies(case: &Case, result: &RunResult) -> Section {
         .expected
         .iter()
         .map(|expected| {
-            let found_hz = result.loaded.nearest(expected.hz).map(|mode| mode.frequency_hz);
+            let found_hz = result
+                .loaded
+                .nearest(expected.hz)
+                .map(|mode| mode.frequency_hz);
             let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
             ExpectedMode {
                 hz: expected.hz,
@@ -207,7 +228,10 @@ fn frequencies(case: &Case, result: &RunResult) -> Section {
 fn computation(result: &RunResult) -> Vec<Fact> {
     vec![
         Fact::new("Method", result.method.name()),
-        Fact::new("Step", format!("{} s", significant(result.schedule.step(), 4))),
+        Fact::new(
+            "Step",
+            format!("{} s", significant(result.schedule.step(), 4)),
+        ),
         Fact::new("Steps", result.statistics.steps.to_string()),
         Fact::new(
             "Kept modes",
@@ -218,14 +242,20 @@ fn computation(result: &RunResult) -> Vec<Fact> {
         } else {
             "without static residual"
         }),
-        Fact::new("Wall time of the stepping", format!("{} s", significant(result.stepping_s, 3))),
+        Fact::new(
+            "Wall time of the stepping",
+            format!("{} s", significant(result.stepping_s, 3)),
+        ),
         Fact::new("Real-time factor", significant(result.realtime_factor(), 3))
             .note("simulated time over wall time"),
         Fact::new(
             "Time per step",
             format!(
                 "{} \u{b5}s",
-                significant(1e6 * result.stepping_s / result.statistics.steps.max(1) as f64, 3)
+                significant(
+                    1e6 * result.stepping_s / result.statistics.steps.max(1) as f64,
+                    3
+                )
             ),
         ),
     ]

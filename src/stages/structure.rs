@@ -9,9 +9,11 @@ use crate::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
 use crate::reduction::{FixedModeSelection, Superelement, craig_bampton};
 use crate::system::{Sensor, Structure, StructureModes};
 
-/// Fixed-interface modes kept by `auto`: those below so many times the band. On the source's
-/// aluminium ring ten times the 40 kHz band keep the first ten elastic frequencies within 1e-4.
-const AUTO_CUT_OFF: f64 = 10.0;
+/// Fixed-interface modes kept by `auto`: those below so many times the band. With the 40 kHz band
+/// that is 1 MHz and some forty modes of the source's aluminium ring, which leave 3e-5 on its first
+/// elastic frequencies; ten times the band leave 3e-3 (plain Craig-Bampton converges slowly through
+/// a stiff tie).
+const AUTO_CUT_OFF: f64 = 25.0;
 
 /// Farthest that a node may be from a sensor's point, relative to the housing's size.
 const SENSOR_TOLERANCE: f64 = 0.02;
@@ -38,7 +40,10 @@ impl StructureStage {
         let Some(asked) = &case.ring else {
             return Ok(None);
         };
-        let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
+        let gravity = case
+            .shaft
+            .as_ref()
+            .map_or([0.0, -9.81], |shaft| shaft.gravity);
         let ring = ring(case, asked)?;
         let housing = HousingStage::build(case, watch)?;
         let (structure, fixed_interface_modes) = match (&housing, &asked.tie) {
@@ -49,14 +54,8 @@ impl StructureStage {
                 };
                 // a tie without an outer radius was refused with the case
                 let outer = asked.outer_radius.unwrap_or(f64::NAN);
-                let tie = RingTie::new(
-                    &housing.mesh,
-                    &housing.model,
-                    &tie.group,
-                    &ring,
-                    outer,
-                    fit,
-                )?;
+                let tie =
+                    RingTie::new(&housing.mesh, &housing.model, &tie.group, &ring, outer, fit)?;
                 watch.stage("condense");
                 let matrices = housing.matrices.clone().for_tie(&tie);
                 let condensed = craig_bampton(&matrices, tie.partition(), selection(case))?;
@@ -147,8 +146,21 @@ fn ring(case: &Case, asked: &case::Ring) -> Result<Ring, StageError> {
     Ok(ring)
 }
 
+/// Unit vector of a sensor in the plane.
+fn direction(sensor: &case::Sensor) -> Result<[f64; 2], StageError> {
+    let [x, y, z] = sensor.direction;
+    let length = (x * x + y * y + z * z).sqrt();
+    if x.hypot(y) > 1e-9 * length {
+        Ok([x / length, y / length])
+    } else {
+        Err(StageError::SensorDirection {
+            name: sensor.name.clone(),
+        })
+    }
+}
+
 fn ring_sensor(structure: &Structure, sensor: &case::Sensor) -> Result<Sensor, StageError> {
-    let direction = [sensor.direction[0], sensor.direction[1]];
+    let direction = direction(sensor)?;
     match &sensor.spot {
         SensorSpot::RingDeg(degrees) => {
             Ok(structure.ring_sensor(&sensor.name, degrees.to_radians(), direction))
@@ -174,21 +186,27 @@ fn housing_sensor(
 ) -> Result<Sensor, StageError> {
     let nodes = match &sensor.spot {
         SensorSpot::RingDeg(_) => return ring_sensor(structure, sensor),
-        SensorSpot::Group(group) => {
-            housing
-                .model
-                .group_on_housing(&housing.mesh, group, "the sensor")?
-                .nodes
-                .clone()
-        }
+        SensorSpot::Group(group) => housing
+            .model
+            .group_on_housing(&housing.mesh, group, "the sensor")?
+            .nodes
+            .iter()
+            .copied()
+            .filter(|&node| housing.model.is_used(node))
+            .collect(),
         SensorSpot::Point(point) => vec![nearest_node(housing, &sensor.name, point)?],
     };
-    let direction = [sensor.direction[0], sensor.direction[1]];
+    let direction = direction(sensor)?;
     let mut row = vec![0.0; structure.dof()];
     for &node in &nodes {
         for (dof, factor) in tie.displacement_row(node, direction) {
             // a fixed degree of freedom does not move: no row
-            for (place, part) in condensed.recovery_row(dof).into_iter().flatten().enumerate() {
+            for (place, part) in condensed
+                .recovery_row(dof)
+                .into_iter()
+                .flatten()
+                .enumerate()
+            {
                 row[place] += factor * part / nodes.len() as f64;
             }
         }
@@ -203,7 +221,8 @@ fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<
     let distance = |node: &[f64; 3]| (node[0] - point[0]).hypot(node[1] - point[1]);
     let bounds = housing.mesh.inventory().bounding_box.extent();
     let nodes = housing.mesh.nodes.iter().enumerate();
-    let found = nodes.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    let on_housing = nodes.filter(|(index, _)| housing.model.is_used(*index));
+    let found = on_housing.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
     let missed = |distance| StageError::SensorPlace {
         name: name.to_owned(),
         point: [point[0], point[1]],

@@ -14,15 +14,32 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage) -> Vec<Fact> {
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![
-        Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
-        Fact::new("Node radius", format!("{} mm", significant(section.radius * 1e3, 5))),
-        Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
-        Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
+        Fact::new(
+            "Ring",
+            format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof()),
+        ),
+        Fact::new(
+            "Node radius",
+            format!("{} mm", significant(section.radius * 1e3, 5)),
+        ),
+        Fact::new(
+            "Bending stiffness EI",
+            format!("{} N m^2", significant(section.bending, 4)),
+        ),
+        Fact::new(
+            "Mass per length",
+            format!("{} kg/m", significant(section.mass, 4)),
+        ),
     ];
     if let Some(asked) = &case.ring {
         facts.push(Fact::new(
             "Element",
-            format!("{:?}, shear {}, rotary inertia {}", asked.element, on(asked.shear), on(asked.rotary_inertia)),
+            format!(
+                "{:?}, shear {}, rotary inertia {}",
+                asked.element,
+                on(asked.shear),
+                on(asked.rotary_inertia)
+            ),
         ));
     }
     if let (Some(housing), Some(asked)) = (&stage.housing, &case.housing) {
@@ -73,21 +90,87 @@ pub(super) fn bearing_table(setup: &BearingSetup, hertz: Option<&RaceContacts>) 
     ];
     let mut table = Table::new("Bearing", columns);
     table = row(table, "Balls", f64::from(geometry.balls()), 3, "");
-    table = row(table, "Pitch radius", geometry.pitch_radius() * 1e3, 6, "mm");
-    table = row(table, "Radial play", geometry.radial_play() * 1e6, 4, "\u{b5}m");
-    table = row(table, "Diametral clearance", geometry.diametral_clearance() * 1e6, 4, "\u{b5}m");
+    table = row(
+        table,
+        "Pitch radius",
+        geometry.pitch_radius() * 1e3,
+        6,
+        "mm",
+    );
+    table = row(
+        table,
+        "Radial play",
+        geometry.radial_play() * 1e6,
+        4,
+        "\u{b5}m",
+    );
+    table = row(
+        table,
+        "Diametral clearance",
+        geometry.diametral_clearance() * 1e6,
+        4,
+        "\u{b5}m",
+    );
     table = row(table, "Cage order", orders.cage, 5, "per shaft turn");
-    table = row(table, "Outer-race defect order", orders.outer, 5, "per shaft turn");
-    table = row(table, "Inner-race defect order", orders.inner, 5, "per shaft turn");
-    table = row(table, "Ball defect order (two hits a spin)", orders.ball_defect, 5, "per shaft turn");
-    table = row(table, "k inner in use", setup.stiffness.inner(), 4, "N/m^1.5");
-    table = row(table, "k outer in use", setup.stiffness.outer(), 4, "N/m^1.5");
+    table = row(
+        table,
+        "Outer-race defect order",
+        orders.outer,
+        5,
+        "per shaft turn",
+    );
+    table = row(
+        table,
+        "Inner-race defect order",
+        orders.inner,
+        5,
+        "per shaft turn",
+    );
+    table = row(
+        table,
+        "Ball defect order (two hits a spin)",
+        orders.ball_defect,
+        5,
+        "per shaft turn",
+    );
+    table = row(
+        table,
+        "k inner in use",
+        setup.stiffness.inner(),
+        4,
+        "N/m^1.5",
+    );
+    table = row(
+        table,
+        "k outer in use",
+        setup.stiffness.outer(),
+        4,
+        "N/m^1.5",
+    );
     if let Some(hertz) = hertz {
-        table = row(table, "k inner by Hertz from the geometry", hertz.inner.stiffness, 4, "N/m^1.5");
-        table = row(table, "k outer by Hertz from the geometry", hertz.outer.stiffness, 4, "N/m^1.5");
+        table = row(
+            table,
+            "k inner by Hertz from the geometry",
+            hertz.inner.stiffness,
+            4,
+            "N/m^1.5",
+        );
+        table = row(
+            table,
+            "k outer by Hertz from the geometry",
+            hertz.outer.stiffness,
+            4,
+            "N/m^1.5",
+        );
     }
     for dent in &setup.dents {
-        table = row(table, "A ball at the dent's middle sinks by", dent.drop() * 1e6, 4, "\u{b5}m");
+        table = row(
+            table,
+            "A ball at the dent's middle sinks by",
+            dent.drop() * 1e6,
+            4,
+            "\u{b5}m",
+        );
     }
     table
 }
@@ -100,7 +183,11 @@ pub(super) fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
             significant(equilibrium.shaft[0] * 1e6, 4),
             significant(equilibrium.shaft[1] * 1e6, 4),
             significant(equilibrium.least_curvature, 3),
-            if equilibrium.least_curvature > 0.0 { "stable" } else { "not stable" }
+            if equilibrium.least_curvature > 0.0 {
+                "stable"
+            } else {
+                "not stable"
+            }
         ),
         [
             Column::number("Ball", ""),
@@ -191,7 +278,9 @@ pub(super) fn expected_table(expected: &[ExpectedMode]) -> Table {
     );
     for row in expected {
         let verdict = Verdict::of(row.ok);
-        let found = row.found_hz.map_or_else(|| "none".to_owned(), |hz| significant(hz, 5));
+        let found = row
+            .found_hz
+            .map_or_else(|| "none".to_owned(), |hz| significant(hz, 5));
         let difference = row
             .relative_error
             .map_or_else(String::new, |error| format!("{:+.2}", 100.0 * error));
@@ -227,11 +316,16 @@ pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
         }
     }
     if let Some(damping) = &case.damping {
-        list.push(format!("Damping of ring and housing: {damping:?}; a choice, the source does not give it."));
+        list.push(format!(
+            "Damping of ring and housing: {damping:?}; a choice, the source does not give it."
+        ));
     }
     if let Some(ring) = &case.ring {
         if ring.sections.len() > 1 {
-            list.push(format!("Rings in one section: bond {:?}, radius rule {:?}.", ring.bond, ring.radius_rule));
+            list.push(format!(
+                "Rings in one section: bond {:?}, radius rule {:?}.",
+                ring.bond, ring.radius_rule
+            ));
         }
         if ring.tie.is_some() {
             list.push("The bore follows the ring's own interpolation: a section-rigid bore, somewhat stiffer than a bore with the ring meshed into it.".to_owned());

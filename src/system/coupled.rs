@@ -4,7 +4,7 @@ use super::bearing_setup::{BearingSetup, Formulation};
 use super::equilibrium::Equilibrium;
 use super::error::SystemError;
 use super::inner::InnerRace;
-use super::outer::OuterRace;
+use super::outer::{OuterForce, OuterRace};
 use super::raceway::RacewayTable;
 use super::residual::ResidualFlexibility;
 use super::structure::{Structure, StructureModes};
@@ -102,10 +102,18 @@ pub struct CoupledSystem {
 pub(super) struct Work {
     /// [balls x modes]
     pub rows: Vec<f64>,
-    /// [modes], of the ball that is in a dent
-    pub tangential_row: Vec<f64>,
+    /// [modes], scratch: the tangential row or the slopes of one ball
+    pub scratch_row: Vec<f64>,
+    /// Cosine and sine of each ball's angle from the first.
+    pub spacing: Vec<[f64; 2]>,
     pub direction: Vec<[f64; 2]>,
     pub angle: Vec<f64>,
+    /// The same in turns, 0 to 1.
+    pub turn: Vec<f64>,
+    /// Dent that the ball may feel.
+    pub dent: Vec<Option<usize>>,
+    /// Displacement of the last evaluation and its force.
+    pub known: Vec<(f64, OuterForce)>,
     /// Displacement relative to the race, without the residual's part.
     pub gap: Vec<f64>,
     pub rate: Vec<[f64; 2]>,
@@ -125,7 +133,7 @@ impl CoupledSystem {
     ///
     /// # Errors
     /// [`SystemError::NotSupported`] for a free structure with `residual`;
-    /// [`SystemError::PrintedNeedsAllModes`].
+    /// [`SystemError::PrintedNeedsAllModes`]; [`SystemError::NoModesKept`].
     pub fn new(
         structure: &Structure,
         modes: &StructureModes,
@@ -136,6 +144,11 @@ impl CoupledSystem {
     ) -> Result<Self, SystemError> {
         let count = selection.count(modes);
         let complete = count == modes.count();
+        if count == 0 {
+            return Err(SystemError::NoModesKept {
+                lowest_hz: modes.frequency_hz(0),
+            });
+        }
         if setup.formulation == Formulation::Printed && !complete {
             return Err(SystemError::PrintedNeedsAllModes);
         }
@@ -241,9 +254,18 @@ impl Work {
         let zeros = || vec![0.0; balls];
         Self {
             rows: vec![0.0; balls * modes],
-            tangential_row: vec![0.0; modes],
+            scratch_row: vec![0.0; modes],
+            spacing: (0..balls)
+                .map(|j| {
+                    let (sin, cos) = (TAU * j as f64 / balls as f64).sin_cos();
+                    [cos, sin]
+                })
+                .collect(),
             direction: vec![[0.0; 2]; balls],
             angle: zeros(),
+            turn: zeros(),
+            dent: vec![None; balls],
+            known: vec![(0.0, OuterForce::default()); balls],
             gap: zeros(),
             rate: vec![[0.0; 2]; balls],
             outer_radial: zeros(),

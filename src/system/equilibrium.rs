@@ -64,6 +64,8 @@ pub struct Equilibrium {
     /// Displacement of the structure relative to the fixed centre that the inner race's position is
     /// measured from, m: the ring's mean in `printed`, zero otherwise.
     pub centre: [f64; 2],
+    /// Cage speed that the centrifugal load belongs to, rad/s.
+    pub cage_speed: f64,
 }
 
 /// One evaluation of the reduced potential.
@@ -97,7 +99,7 @@ impl Equilibrium {
     /// [`SystemError::NotSupported`], [`SystemError::NoEquilibrium`],
     /// [`SystemError::NothingHoldsTheShaft`].
     pub fn find(structure: &Structure, setup: &BearingSetup, t: f64) -> Result<Self, SystemError> {
-        let (mut problem, responses) = Problem::new(structure, setup, t)?;
+        let (mut problem, loads) = Problem::new(structure, setup, t)?;
         let balls = setup.balls();
         let load = setup.shaft_load();
         let load_size = load[0].hypot(load[1]);
@@ -120,7 +122,14 @@ impl Equilibrium {
                 let held = eigen.eigenvalues.iter().copied();
                 let held = held.filter(|value| value.abs() > 1e-3 * LEAST_CURVATURE);
                 let least_curvature = held.fold(f64::INFINITY, f64::min);
-                return Ok(problem.result(&z, &evaluation, &responses, structure, iterations, least_curvature));
+                return Ok(problem.result(
+                    &z,
+                    &evaluation,
+                    &loads,
+                    structure,
+                    iterations,
+                    least_curvature,
+                ));
             }
             if iterations == MAX_ITERATIONS || !residual_n.is_finite() {
                 return Err(SystemError::NoEquilibrium {
@@ -163,7 +172,7 @@ fn start(load: [f64; 2], load_size: f64, play: f64, balls: usize) -> DVector<f64
 }
 
 impl<'a> Problem<'a> {
-    /// The problem, and the structure's responses to unit contact forces [dof x 2 balls] behind it.
+    /// The problem, and the loads behind it: unit contact forces, then the weight [dof x 2 balls + 1].
     fn new(
         structure: &Structure,
         setup: &'a BearingSetup,
@@ -176,13 +185,14 @@ impl<'a> Problem<'a> {
             .collect();
         let rows = contact_rows(structure, setup, &angles);
         let weighted = setup.formulation == Formulation::Consistent;
-        let loads = DenseMatrix::from_fn(structure.dof(), 2 * balls + 1, |row, column| {
-            match column.checked_sub(2 * balls) {
-                None => rows[(row, column)],
-                Some(_) if weighted => structure.gravity()[row],
-                Some(_) => 0.0,
-            }
-        });
+        let loads =
+            DenseMatrix::from_fn(structure.dof(), 2 * balls + 1, |row, column| {
+                match column.checked_sub(2 * balls) {
+                    None => rows[(row, column)],
+                    Some(_) if weighted => structure.gravity()[row],
+                    Some(_) => 0.0,
+                }
+            });
         let responses = structure.static_response(&loads)?;
         let at_contacts = rows.transpose() * &responses;
         Ok((
@@ -258,9 +268,7 @@ impl<'a> Problem<'a> {
                 for a in 0..3 {
                     gradient[place[a]] -= force.force * along[a];
                     for b in 0..3 {
-                        hessian[(place[a], place[b])] += force.by_penetration
-                            * along[a]
-                            * along[b]
+                        hessian[(place[a], place[b])] += force.by_penetration * along[a] * along[b]
                             - force.force / gap.distance * across[a] * across[b];
                     }
                 }
@@ -310,13 +318,12 @@ impl<'a> Problem<'a> {
                 break;
             };
             let size = error.norm();
-            for _ in 0..20 {
+            // the error falls along Newton's direction; past round-off any step is as good
+            loop {
                 let trial = &race - &step;
                 let (trial_forces, trial_error) = at(&trial);
-                let better = trial_error.norm() < size;
-                (forces, error) = (trial_forces, trial_error);
-                if better || step.amax() < 1e-18 {
-                    race = trial;
+                if trial_error.norm() < size || step.amax() < 1e-18 {
+                    (race, forces, error) = (trial, trial_forces, trial_error);
                     break;
                 }
                 step *= 0.5;
@@ -384,6 +391,7 @@ impl<'a> Problem<'a> {
             residual_n: evaluation.gradient.amax(),
             least_curvature,
             centre,
+            cage_speed: self.speed,
         }
     }
 

@@ -37,6 +37,14 @@ pub enum SystemError {
         "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\""
     )]
     PrintedNeedsAllModes,
+    /// A selection without modes.
+    #[error(
+        "no mode of the structure is kept: the lowest is at {lowest_hz:.4e} Hz; raise accuracy.band_hz or set transient.modes"
+    )]
+    NoModesKept {
+        /// Lowest frequency of the structure, Hz.
+        lowest_hz: f64,
+    },
     /// No stable equilibrium found.
     #[error(
         "no static equilibrium found after {iterations} iterations: the forces on shaft and balls are still {residual_n:.3e} N out of balance; check loads and clearance"

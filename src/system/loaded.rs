@@ -155,7 +155,8 @@ impl Linearised {
         let order = self.masses.len();
         let root = |i: usize| self.masses[i].sqrt();
         let scaled = DenseMatrix::from_fn(order, order, |i, j| {
-            0.5 * (self.matrix[(i, j)] * root(i) / root(j) + self.matrix[(j, i)] * root(j) / root(i))
+            0.5 * (self.matrix[(i, j)] * root(i) / root(j)
+                + self.matrix[(j, i)] * root(j) / root(i))
         });
         let spectrum = symmetric_eigen(&scaled)?;
         Ok((0..order)
@@ -173,9 +174,8 @@ impl Linearised {
         let order = self.masses.len();
         let root = |i: usize| self.masses[i].sqrt();
         // scaled as the symmetric problem is, so that rows and columns have one size
-        let scaled = DenseMatrix::from_fn(order, order, |i, j| {
-            self.matrix[(i, j)] * root(i) / root(j)
-        });
+        let scaled =
+            DenseMatrix::from_fn(order, order, |i, j| self.matrix[(i, j)] * root(i) / root(j));
         let spectrum = general_spectrum(&scaled)?;
         Ok((0..order)
             .map(|pair| Pair {
@@ -238,8 +238,7 @@ fn add_outer(
         let (w, u) = (rows.col(2 * j), rows.col(2 * j + 1));
         for a in 0..modes {
             for b in 0..modes {
-                k[(a, b)] +=
-                    rr * w[a] * w[b] + rt * (w[a] * u[b] + u[a] * w[b]) + tt * u[a] * u[b];
+                k[(a, b)] += rr * w[a] * w[b] + rt * (w[a] * u[b] + u[a] * w[b]) + tt * u[a] * u[b];
             }
             let cross = rr * w[a] + rt * u[a];
             k[(a, place)] -= cross;
@@ -278,7 +277,7 @@ fn add_inner(
 ) {
     let race = InnerRace::new(&setup.geometry, setup.stiffness.inner(), 0.0);
     let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
-    let spin = setup.cage.motion(setup.speed.motion(0.0)).speed.powi(2);
+    let spin = equilibrium.cage_speed.powi(2);
     for (j, ball) in equilibrium.balls.iter().enumerate() {
         let (sin, cos) = ball.angle.sin_cos();
         k[(modes + 2 + j, modes + 2 + j)] -= setup.geometry.ball_mass() * spin;

@@ -5,7 +5,7 @@
 
 use super::structure::StructureModes;
 use crate::model::{Ring, RingRows};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.
 const ACCURACY: f64 = 1e-12;
@@ -42,27 +42,60 @@ impl RacewayTable {
                 })
                 .collect()
         };
-        let mut table = Self::fitted(ring.nodes(), kept.len(), DEGREES[0], &sample);
+        Self::fit(ring.nodes(), kept.len(), &sample)
+    }
+
+    /// Table of the radial interpolation itself: six values over the polar components of an
+    /// element's nodes, one element for all.
+    pub fn of_interpolation(ring: &Ring) -> Self {
+        let half = PI / ring.nodes() as f64;
+        Self::fit(1, 6, &|_, xi| ring.polar_radial_row(xi * half).to_vec())
+    }
+
+    /// Raises the degree until the polynomials reproduce `sample(element, xi)`.
+    fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
+        let mut table = Self::fitted(elements, modes, DEGREES[0], sample);
         for degree in &DEGREES[1..] {
-            if table.worst_error(&sample) <= ACCURACY {
+            if table.worst_error(sample) <= ACCURACY {
                 break;
             }
-            table = Self::fitted(ring.nodes(), kept.len(), *degree, &sample);
+            table = Self::fitted(elements, modes, *degree, sample);
         }
         table
     }
 
-    /// Values of all modes at an angle, rad, into `out` [modes].
+    /// Values of all modes at an angle in turns, 0 <= turn < 1, into `out` [modes].
     #[inline]
-    pub fn values_into(&self, angle: f64, out: &mut [f64]) {
-        let turns = (angle * (1.0 / TAU)).rem_euclid(1.0) * self.elements as f64;
-        let element = (turns as usize).min(self.elements - 1);
-        let xi = 2.0 * (turns - element as f64) - 1.0;
+    pub fn values_into(&self, turn: f64, out: &mut [f64]) {
+        let (element, xi) = locate(turn, self.elements);
         self.local_values_into(element, xi, out);
     }
 
+    /// Derivatives of all modes by the angle at an angle in turns, 1/rad, into `out` [modes].
     #[inline]
-    fn local_values_into(&self, element: usize, xi: f64, out: &mut [f64]) {
+    pub fn slopes_into(&self, turn: f64, out: &mut [f64]) {
+        let (element, xi) = locate(turn, self.elements);
+        self.local_slopes_into(element, xi, self.elements as f64 / PI, out);
+    }
+
+    /// Derivatives by the local coordinate, times `scale`.
+    #[inline]
+    pub fn local_slopes_into(&self, element: usize, xi: f64, scale: f64, out: &mut [f64]) {
+        let width = self.modes * (self.degree + 1);
+        let block = &self.coefficients[element * width..(element + 1) * width];
+        out.fill(0.0);
+        let powers = block.chunks_exact(self.modes).take(self.degree);
+        for (place, coefficients) in powers.enumerate() {
+            let factor = (self.degree - place) as f64 * scale;
+            for (slope, coefficient) in out.iter_mut().zip(coefficients) {
+                *slope = *slope * xi + factor * coefficient;
+            }
+        }
+    }
+
+    /// The same at the local coordinate -1 <= xi <= 1 of an element.
+    #[inline]
+    pub fn local_values_into(&self, element: usize, xi: f64, out: &mut [f64]) {
         let width = self.modes * (self.degree + 1);
         let block = &self.coefficients[element * width..(element + 1) * width];
         let mut powers = block.chunks_exact(self.modes.max(1));
@@ -146,4 +179,46 @@ fn chebyshev_to_powers(degree: usize) -> Vec<Vec<f64>> {
         table.push(next);
     }
     table
+}
+
+/// Element that contains a place, 0 <= turn < 1, and the local coordinate there, -1 <= xi < 1.
+#[inline]
+pub(super) fn locate(turn: f64, elements: usize) -> (usize, f64) {
+    let place = turn * elements as f64;
+    let element = (place as usize).min(elements - 1);
+    (element, 2.0 * (place - element as f64) - 1.0)
+}
+
+/// An angle (rad) in turns, reduced to 0 <= turn < 1.
+#[inline]
+pub(super) fn reduced_turn(angle: f64) -> f64 {
+    let turns = angle * (0.5 / PI);
+    // truncation to an integer is one instruction everywhere; floor is not
+    let whole = turns as i64 as f64;
+    let rest = turns - whole;
+    let turn = if rest < 0.0 { rest + 1.0 } else { rest };
+    if turn < 1.0 { turn } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_reduced_from_both_sides() {
+        for (angle, turn) in [(0.0, 0.0), (PI, 0.5), (-0.5 * PI, 0.75), (7.0 * PI, 0.5)] {
+            assert!((reduced_turn(angle) - turn).abs() < 1e-15, "{angle}");
+        }
+        assert!(reduced_turn(-1e-18) < 1.0);
+    }
+
+    #[test]
+    fn powers_reproduce_chebyshev_polynomials() {
+        let table = chebyshev_to_powers(5);
+        for (order, powers) in table.iter().enumerate() {
+            let x: f64 = 0.37;
+            let value: f64 = powers.iter().rev().fold(0.0, |sum, c| sum * x + c);
+            assert!((value - (order as f64 * x.acos()).cos()).abs() < 1e-14);
+        }
+    }
 }

@@ -17,7 +17,8 @@ pub struct RunRecord {
     pub shaft_y: Vec<f64>,
     /// Acceleration of every sensor, m/s^2, band-limited to 0.4 of the output rate.
     pub sensors: Vec<(String, Vec<f64>)>,
-    /// Radial positions of the balls from the bearing centre [instants x balls], m.
+    /// Radial positions of the balls [instants x balls], m: from the bearing centre, in `printed`
+    /// from the ring's mean centre.
     pub ball_radius: Vec<f64>,
     /// Forces at the outer race [instants x balls], N.
     pub outer_force: Vec<f64>,
@@ -29,8 +30,11 @@ pub struct RunRecord {
 
 /// Takes the record while a run goes on.
 ///
-/// Accelerations contain frequencies far above the output rate, so they pass a linear-phase
-/// low-pass whose delay is removed; positions and forces are taken as they are at the instant.
+/// A sensor's displacement, kept modes and static residual together, passes a linear-phase low-pass
+/// that differentiates it twice and whose delay is removed. The acceleration of the equations of
+/// motion is not used: in modes that a step does not resolve it is a small difference of large terms
+/// of which the integrator holds only the position well. Positions and forces are taken as they are
+/// at the instant.
 #[derive(Debug)]
 pub struct Recorder {
     ratio: u64,
@@ -42,12 +46,9 @@ pub struct Recorder {
 /// One sensor on its way to the output rate.
 #[derive(Debug)]
 struct Track {
-    /// Acceleration by the kept modes.
-    modal: Decimator,
-    /// Displacement by the modes left out, differentiated twice on the way.
-    residual: Option<Decimator>,
-    modal_values: Vec<f64>,
-    residual_values: Vec<f64>,
+    /// Takes displacements, gives accelerations.
+    filter: Decimator,
+    accelerations: Vec<f64>,
 }
 
 impl Recorder {
@@ -61,16 +62,10 @@ impl Recorder {
         step: f64,
         wanted: usize,
     ) -> Result<Self, SeriesError> {
-        let modal = Decimator::new(ratio as usize)?;
-        let residual = match system.residual {
-            Some(_) => Some(Decimator::second_derivative(ratio as usize, step)?),
-            None => None,
-        };
+        let filter = Decimator::second_derivative(ratio as usize, step)?;
         let tracks = system.sensors.iter().map(|_| Track {
-            modal: modal.clone(),
-            residual: residual.clone(),
-            modal_values: Vec::with_capacity(wanted),
-            residual_values: Vec::with_capacity(wanted),
+            filter: filter.clone(),
+            accelerations: Vec::with_capacity(wanted),
         });
         Ok(Self {
             ratio: u64::from(ratio),
@@ -92,21 +87,30 @@ impl Recorder {
     pub fn intervals_past_the_end(&self) -> u64 {
         self.tracks
             .first()
-            .map_or(0, |track| track.modal.half_length_outputs() as u64)
+            .map_or(0, |track| track.filter.half_length_outputs() as u64)
     }
 
     /// The record, cut to the instants for which every signal is there.
-    pub fn finish(mut self) -> RunRecord {
-        let mut instants = self.record.time_s.len().min(self.wanted);
+    pub fn finish(self) -> RunRecord {
+        let wanted = self.wanted;
+        self.finish_first(wanted)
+    }
+
+    /// The record of a run that ended badly after `intervals` good output intervals: without the
+    /// instants whose low-pass reaches beyond them.
+    pub fn finish_after(self, intervals: u64) -> RunRecord {
+        let good = intervals.saturating_sub(self.intervals_past_the_end());
+        self.finish_first(usize::try_from(good).unwrap_or(usize::MAX))
+    }
+
+    fn finish_first(mut self, most: usize) -> RunRecord {
+        let mut instants = self.record.time_s.len().min(self.wanted).min(most);
         for track in &self.tracks {
-            instants = instants.min(track.modal_values.len());
+            instants = instants.min(track.accelerations.len());
         }
         let record = &mut self.record;
         for (track, (_, values)) in self.tracks.iter().zip(&mut record.sensors) {
-            *values = track.modal_values[..instants].to_vec();
-            for (value, residual) in values.iter_mut().zip(&track.residual_values) {
-                *value += residual;
-            }
+            *values = track.accelerations[..instants].to_vec();
         }
         for column in [&mut record.time_s, &mut record.shaft_x, &mut record.shaft_y] {
             column.truncate(instants);
@@ -126,15 +130,12 @@ impl Observer<CoupledSystem> for Recorder {
     fn observe(&mut self, system: &CoupledSystem, now: Instant<'_>) {
         let modes = system.modes;
         for (sensor, track) in self.tracks.iter_mut().enumerate() {
-            let acceleration = dot(&system.sensors[sensor].1, &now.a[..modes]);
-            if let Some(value) = track.modal.push(acceleration) {
-                track.modal_values.push(value);
-            }
-            if let (Some(decimator), Some(residual)) = (&mut track.residual, &system.residual) {
-                let displacement = dot(residual.sensor_row(sensor), &system.work.outer_radial);
-                if let Some(value) = decimator.push(displacement) {
-                    track.residual_values.push(value);
-                }
+            let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
+            let residual = system.residual.as_ref().map_or(0.0, |residual| {
+                dot(residual.sensor_row(sensor), &system.work.outer_radial)
+            });
+            if let Some(acceleration) = track.filter.push(modal + residual) {
+                track.accelerations.push(acceleration);
             }
         }
         if now.step % self.ratio == 0 && self.record.time_s.len() < self.wanted {
@@ -145,8 +146,12 @@ impl Observer<CoupledSystem> for Recorder {
             let touching = system.inner.touching_radius;
             let radii = now.y[modes + 2..].iter().map(|s| touching + s);
             record.ball_radius.extend(radii);
-            record.outer_force.extend_from_slice(&system.work.outer_magnitude);
-            record.inner_force.extend_from_slice(&system.work.inner_force);
+            record
+                .outer_force
+                .extend_from_slice(&system.work.outer_magnitude);
+            record
+                .inner_force
+                .extend_from_slice(&system.work.inner_force);
         }
     }
 }

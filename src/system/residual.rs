@@ -2,46 +2,44 @@
 //! if they had no mass.
 //!
 //! `G = N (K^-1 - sum phi phi^T / omega^2) N^T` over the kept modes (Craig 1981, Structural
-//! Dynamics, section 11.3: mode-acceleration correction). The balls keep their spacing, so all
-//! entries are functions of the cage angle alone; they change little over a fraction of an element
-//! and are interpolated linearly on a grid of cage angles that does not depend on the history.
+//! Dynamics, section 11.3: mode-acceleration correction). The flexibility is stored over the polar
+//! components of the ring's nodes, in which all elements share one interpolation: a pair of balls
+//! costs one product of two six-vectors with a block of it.
 
-use super::structure::{Structure, StructureModes};
 use super::SystemError;
+use super::raceway::{RacewayTable, locate};
+use super::structure::{Structure, StructureModes};
 use crate::linalg::DenseMatrix;
 use crate::model::Ring;
-use std::f64::consts::TAU;
 
-/// Grid cells of the cage angle in the width of one element.
-const CELLS_PER_ELEMENT: usize = 16;
+/// Components of an element's two nodes.
+const ELEMENT_DOF: usize = 6;
 
 /// Residual flexibility on the ring's displacements and how the balls meet it.
 #[derive(Debug, Clone)]
 pub(super) struct ResidualFlexibility {
-    ring: Ring,
-    balls: usize,
-    /// [ring dof x ring dof], m/N.
-    flexibility: DenseMatrix,
-    /// Displacement under the weight that the kept modes lack [ring dof], m.
+    elements: usize,
+    interpolation: RacewayTable,
+    /// Three components a node, the first node repeated after the last.
+    width: usize,
+    /// [width x width], m/N.
+    flexibility: Vec<f64>,
+    /// Displacement under the weight that the kept modes lack [width], m.
     weight: Vec<f64>,
-    /// Sensors over ring loads [sensors x ring dof].
-    sensors: DenseMatrix,
-    cell: f64,
-    current: i64,
-    left: Entries,
-    right: Entries,
-    now: Entries,
-}
-
-/// Values at one cage angle.
-#[derive(Debug, Clone)]
-struct Entries {
+    /// Sensors over ring loads [sensors x width].
+    sensors: Vec<f64>,
+    /// Element of every ball and its radial interpolation there.
+    places: Vec<(usize, [f64; ELEMENT_DOF])>,
+    /// Derivative of that interpolation by the angle, 1/rad.
+    slopes: Vec<[f64; ELEMENT_DOF]>,
     /// Radial displacement at ball j for a radial force at ball k [balls x balls], m/N.
     contact: Vec<f64>,
+    /// Its derivative by the cage angle, m/(N rad).
+    contact_slope: Vec<f64>,
     /// Radial displacement at ball j under the weight [balls], m.
-    weight: Vec<f64>,
+    weight_now: Vec<f64>,
     /// Sensor displacement for a radial force at ball k [sensors x balls], m/N.
-    sensor: Vec<f64>,
+    sensor_now: Vec<f64>,
 }
 
 impl ResidualFlexibility {
@@ -53,116 +51,154 @@ impl ResidualFlexibility {
         kept: &[usize],
         balls: usize,
     ) -> Result<Self, SystemError> {
-        let (dof, ring_dof) = (structure.dof(), structure.ring().dof());
-        let identity = DenseMatrix::from_fn(dof, ring_dof, |i, j| f64::from(u8::from(i == j)));
-        let mut flexibility = structure.static_response(&identity)?;
-        let weight_load = DenseMatrix::from_fn(dof, 1, |i, _| structure.gravity()[i]);
-        let mut weight = structure.static_response(&weight_load)?;
+        let (dof, ring) = (structure.dof(), structure.ring());
+        let ring_dof = ring.dof();
+        let loads = DenseMatrix::from_fn(dof, ring_dof + 1, |i, j| {
+            if j == ring_dof {
+                structure.gravity()[i]
+            } else {
+                f64::from(u8::from(i == j))
+            }
+        });
+        let mut response = structure.static_response(&loads)?;
         for &mode in kept {
             let shape = modes.shapes.col(mode);
             let softness = 1.0 / modes.squared_frequencies[mode];
             let pull = modes.participation(mode, structure.gravity());
             for row in 0..dof {
                 for column in 0..ring_dof {
-                    flexibility[(row, column)] -= softness * shape[row] * shape[column];
+                    response[(row, column)] -= softness * shape[row] * shape[column];
                 }
-                weight[(row, 0)] -= softness * shape[row] * pull;
+                response[(row, ring_dof)] -= softness * shape[row] * pull;
             }
         }
         let sensors = structure.sensors();
-        let sensors = DenseMatrix::from_fn(sensors.len(), ring_dof, |sensor, column| {
+        let sensor_rows = DenseMatrix::from_fn(sensors.len(), ring_dof, |sensor, column| {
             (0..dof)
-                .map(|row| sensors[sensor].row[row] * flexibility[(row, column)])
+                .map(|row| sensors[sensor].row[row] * response[(row, column)])
                 .sum()
         });
-        let entries = Entries {
-            contact: vec![0.0; balls * balls],
-            weight: vec![0.0; balls],
-            sensor: vec![0.0; sensors.nrows() * balls],
+        let width = ring_dof + ELEMENT_DOF / 2;
+        let polar = polar_components(ring, width);
+        let on_ring = response.subrows(0, ring_dof);
+        let flexibility = &polar * on_ring.subcols(0, ring_dof) * polar.transpose();
+        let weight = &polar * on_ring.subcols(ring_dof, 1);
+        let sensor_rows = sensor_rows * polar.transpose();
+        let by_rows = |matrix: &DenseMatrix| -> Vec<f64> {
+            (0..matrix.nrows())
+                .flat_map(|row| (0..matrix.ncols()).map(move |column| (row, column)))
+                .map(|place| matrix[place])
+                .collect()
         };
         Ok(Self {
-            ring: structure.ring().clone(),
-            balls,
-            flexibility: flexibility.subrows(0, ring_dof).to_owned(),
-            weight: (0..ring_dof).map(|row| weight[(row, 0)]).collect(),
-            sensors,
-            cell: TAU / (structure.ring().nodes() * CELLS_PER_ELEMENT) as f64,
-            current: i64::MIN,
-            left: entries.clone(),
-            right: entries.clone(),
-            now: entries,
+            elements: ring.nodes(),
+            interpolation: RacewayTable::of_interpolation(ring),
+            width,
+            flexibility: by_rows(&flexibility),
+            weight: by_rows(&weight),
+            places: vec![(0, [0.0; ELEMENT_DOF]); balls],
+            slopes: vec![[0.0; ELEMENT_DOF]; balls],
+            contact: vec![0.0; balls * balls],
+            contact_slope: vec![0.0; balls * balls],
+            weight_now: vec![0.0; balls],
+            sensor_now: vec![0.0; sensor_rows.nrows() * balls],
+            sensors: by_rows(&sensor_rows),
         })
     }
 
-    /// Moves to the cage angle `first` of ball 0, rad.
+    /// Moves ball `j` to a place in turns, 0 <= turn < 1.
     #[inline]
-    pub fn turn_to(&mut self, first: f64) {
-        let place = first / self.cell;
-        let cell = place.floor();
-        if cell as i64 != self.current {
-            self.enter_cell(cell as i64);
+    pub fn place(&mut self, j: usize, turn: f64) {
+        let (element, xi) = locate(turn, self.elements);
+        let (place, row) = &mut self.places[j];
+        *place = element;
+        self.interpolation.local_values_into(0, xi, row);
+        let by_angle = self.elements as f64 / std::f64::consts::PI;
+        self.interpolation
+            .local_slopes_into(0, xi, by_angle, &mut self.slopes[j]);
+        let first = ELEMENT_DOF / 2 * element;
+        self.weight_now[j] = product(row, &self.weight[first..first + ELEMENT_DOF]);
+        let balls = self.places.len();
+        let sensors = self.sensors.chunks_exact(self.width);
+        for (sensor, loads) in sensors.enumerate() {
+            self.sensor_now[sensor * balls + j] =
+                product(&self.places[j].1, &loads[first..first + ELEMENT_DOF]);
         }
-        let fraction = place - cell;
-        blend(&mut self.now.contact, &self.left.contact, &self.right.contact, fraction);
-        blend(&mut self.now.weight, &self.left.weight, &self.right.weight, fraction);
-        blend(&mut self.now.sensor, &self.left.sensor, &self.right.sensor, fraction);
+    }
+
+    /// Computes the coupling between the balls for which `near(j)` holds; the others' is stale.
+    #[inline]
+    pub fn couple(&mut self, near: impl Fn(usize) -> bool) {
+        let balls = self.places.len();
+        for j in (0..balls).filter(|&j| near(j)) {
+            let (element, row) = &self.places[j];
+            let top = ELEMENT_DOF / 2 * element;
+            for k in (0..=j).filter(|&k| near(k)) {
+                let (other, column) = &self.places[k];
+                let first = ELEMENT_DOF / 2 * other;
+                let (row_slope, column_slope) = (&self.slopes[j], &self.slopes[k]);
+                let (mut sum, mut slope) = (0.0, 0.0);
+                for a in 0..ELEMENT_DOF {
+                    let start = (top + a) * self.width + first;
+                    let block = &self.flexibility[start..start + ELEMENT_DOF];
+                    let at = product(column, block);
+                    sum += row[a] * at;
+                    slope += row_slope[a] * at + row[a] * product(column_slope, block);
+                }
+                for place in [j * balls + k, k * balls + j] {
+                    self.contact[place] = sum;
+                    self.contact_slope[place] = slope;
+                }
+            }
+        }
     }
 
     /// Row of ball `j`: radial displacement there for radial forces at all balls, m/N.
     #[inline]
     pub fn contact_row(&self, j: usize) -> &[f64] {
-        &self.now.contact[j * self.balls..(j + 1) * self.balls]
+        let balls = self.places.len();
+        &self.contact[j * balls..(j + 1) * balls]
+    }
+
+    /// The same differentiated by the cage angle, m/(N rad).
+    #[inline]
+    pub fn contact_slope_row(&self, j: usize) -> &[f64] {
+        let balls = self.places.len();
+        &self.contact_slope[j * balls..(j + 1) * balls]
     }
 
     /// Radial displacement at ball `j` under the weight, m.
     #[inline]
     pub fn weight(&self, j: usize) -> f64 {
-        self.now.weight[j]
+        self.weight_now[j]
     }
 
     /// Row of a sensor over radial forces at all balls, m/N.
     #[inline]
     pub fn sensor_row(&self, sensor: usize) -> &[f64] {
-        &self.now.sensor[sensor * self.balls..(sensor + 1) * self.balls]
-    }
-
-    fn enter_cell(&mut self, cell: i64) {
-        self.current = cell;
-        for (side, entries) in [(0, &mut self.left), (1, &mut self.right)] {
-            let first = (cell + side) as f64 * self.cell;
-            let rows = |j: usize| {
-                let angle = first + TAU * j as f64 / self.balls as f64;
-                self.ring.rows_at(angle)
-            };
-            for j in 0..self.balls {
-                let at_j = rows(j);
-                entries.weight[j] = at_j.apply(&at_j.radial, &self.weight);
-                for sensor in 0..self.sensors.nrows() {
-                    entries.sensor[sensor * self.balls + j] = (0..6)
-                        .map(|k| at_j.radial[k] * self.sensors[(sensor, at_j.dofs[k])])
-                        .sum();
-                }
-                for k in 0..=j {
-                    let at_k = rows(k);
-                    let mut sum = 0.0;
-                    for a in 0..6 {
-                        for b in 0..6 {
-                            sum += at_j.radial[a]
-                                * self.flexibility[(at_j.dofs[a], at_k.dofs[b])]
-                                * at_k.radial[b];
-                        }
-                    }
-                    entries.contact[j * self.balls + k] = sum;
-                    entries.contact[k * self.balls + j] = sum;
-                }
-            }
-        }
+        let balls = self.places.len();
+        &self.sensor_now[sensor * balls..(sensor + 1) * balls]
     }
 }
 
-#[inline]
-fn blend(now: &mut [f64], left: &[f64], right: &[f64], fraction: f64) {
-    for ((now, left), right) in now.iter_mut().zip(left).zip(right) {
-        *now = left + fraction * (right - left);
+/// Polar components of all nodes, the first repeated at the end, from (u_x, u_y, theta)
+/// [width x ring dof].
+fn polar_components(ring: &Ring, width: usize) -> DenseMatrix {
+    let mut polar = DenseMatrix::zeros(width, ring.dof());
+    for repeated in 0..width / 3 {
+        let node = repeated % ring.nodes();
+        let (sin, cos) = ring.node_angle(node).sin_cos();
+        let (row, column) = (3 * repeated, 3 * node);
+        polar[(row, column)] = -sin;
+        polar[(row, column + 1)] = cos;
+        polar[(row + 1, column)] = cos;
+        polar[(row + 1, column + 1)] = sin;
+        polar[(row + 2, column + 2)] = 1.0;
     }
+    polar
+}
+
+#[inline]
+fn product(a: &[f64; ELEMENT_DOF], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

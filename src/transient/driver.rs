@@ -164,13 +164,13 @@ fn run<S: SecondOrderSystem>(
 ) -> Result<Statistics, TransientError> {
     let dof = state.y.len();
     let (start, h) = (state.t, schedule.step());
-    let (mut g, mut a) = (vec![0.0; dof], vec![0.0; dof]);
+    let mut g = vec![0.0; dof];
     let mut statistics = Statistics {
         steps: 0,
         evaluations: 1,
     };
     system.force_into(start, &state.y, &state.v, &mut g);
-    observe(system, observer, 0, state, &g, &mut a);
+    observe(system, observer, 0, state);
     let mut last_good = state.clone();
     for interval in 0..schedule.intervals {
         for step in 1..=schedule.steps_per_interval {
@@ -184,7 +184,7 @@ fn run<S: SecondOrderSystem>(
             state.t = t;
             statistics.steps += 1;
             statistics.evaluations += 1;
-            observe(system, observer, statistics.steps, state, &g, &mut a);
+            observe(system, observer, statistics.steps, state);
         }
         if let Err(cause) = system.check(&state.y, &state.v) {
             let time = state.t;
@@ -206,19 +206,7 @@ fn run<S: SecondOrderSystem>(
     Ok(statistics)
 }
 
-fn observe<S: SecondOrderSystem>(
-    system: &S,
-    observer: &mut impl Observer<S>,
-    step: u64,
-    state: &State,
-    g: &[f64],
-    a: &mut [f64],
-) {
-    let linear = system.linear().iter();
-    for (i, (acceleration, coordinate)) in a.iter_mut().zip(linear).enumerate() {
-        *acceleration =
-            g[i] - coordinate.damping * state.v[i] - coordinate.squared_frequency * state.y[i];
-    }
+fn observe<S>(system: &S, observer: &mut impl Observer<S>, step: u64, state: &State) {
     observer.observe(
         system,
         Instant {
@@ -226,7 +214,6 @@ fn observe<S: SecondOrderSystem>(
             t: state.t,
             y: &state.y,
             v: &state.v,
-            a,
         },
     );
 }

@@ -1,16 +1,18 @@
-//! Exponential velocity Verlet: the linear part exact, the force held over the step for the
-//! position and linear over it for the velocity.
+//! Exponential velocity Verlet: the linear part exact, the force held over the step.
 //!
 //! ```text
 //! y1 = E_yy y0 + E_yv v0 + P g0
-//! v1 = E_vy y0 + E_vv v0 + (E_yv - P/h) g0 + P/h g1,      g1 = g(t1, y1, v*)
+//! v1 = E_vy y0 + E_vv v0 + a g0 + b g1,      g1 = g(t1, y1, v*)
 //! ```
 //!
-//! v* is the velocity at the end under the held force; it enters through contact damping alone. The
-//! variation-of-constants formula with this quadrature belongs to the Gautschi class (Hairer,
-//! Lubich, Wanner, Geometric Numerical Integration, 2nd ed., XIII.1); holding the force keeps
-//! `g = w^2 y` exactly, which impulse splitting does not. With w = 0 it is the velocity Verlet
-//! method.
+//! The weights a and b make the positions follow Gautschi's two-step recursion, which without
+//! damping is `y2 - 2 cos(h w) y1 + y0 = (2 sin(h w / 2) / w)^2 g1`: symmetric in time, so that no
+//! energy creeps in or out through modes that the step does not resolve (Hairer, Lubich, Wanner,
+//! Geometric Numerical Integration, 2nd ed., XIII.1.2). Interpolating the force linearly for the
+//! velocity instead lags behind in such modes and drove the shaft: 31 % wrong after 10 ms of the
+//! smooth scene at h = 2.5e-8 s in all modes. Holding the force keeps `g = w^2 y` exactly, which
+//! impulse splitting does not. v* is the velocity under the held force; it enters through contact
+//! damping alone. With w = 0 this is the velocity Verlet method.
 
 use super::driver::Stepper;
 use super::propagator::Propagator;
@@ -19,7 +21,6 @@ use crate::dynamics::SecondOrderSystem;
 /// Flow coefficients of every coordinate for one step length.
 #[derive(Debug)]
 pub(super) struct Exponential {
-    h: f64,
     flow: Vec<Propagator>,
     predicted: Vec<f64>,
     next_force: Vec<f64>,
@@ -34,7 +35,6 @@ impl Exponential {
             .collect();
         let dof = flow.len();
         Self {
-            h,
             flow,
             predicted: vec![0.0; dof],
             next_force: vec![0.0; dof],
@@ -52,10 +52,10 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
                 p.velocity_position * y0 + p.velocity_velocity * v0 + p.position_velocity * g0;
         }
         system.force_into(t1, y, &self.predicted, &mut self.next_force);
-        let rate = 1.0 / self.h;
         for i in 0..self.flow.len() {
-            v[i] = self.predicted[i]
-                + self.flow[i].response * rate * (self.next_force[i] - g[i]);
+            let p = &self.flow[i];
+            // the prediction holds g0 over the whole step with the weight a + b
+            v[i] = self.predicted[i] + p.kick_after * (self.next_force[i] - g[i]);
             g[i] = self.next_force[i];
         }
     }

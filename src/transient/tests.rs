@@ -56,9 +56,14 @@ fn error_after(method: Method, step: f64, split: f64) -> f64 {
         v: vec![v],
     };
     let schedule = Schedule::covering(8.0, 1.0, step).expect("valid");
-    integrate(&mut system, method, &schedule, &mut state, &mut NoRecord, |_, _| {
-        Stepping::Continue
-    })
+    integrate(
+        &mut system,
+        method,
+        &schedule,
+        &mut state,
+        &mut NoRecord,
+        |_, _| Stepping::Continue,
+    )
     .expect("stable");
     let (y, v) = steady(8.0);
     (state.y[0] - y).hypot(state.v[0] - v)
@@ -73,7 +78,10 @@ fn both_methods_are_of_second_order() {
                 error_after(method, 1.0 / 100.0, split),
             );
             let order = (coarse / fine).log2();
-            assert!((order - 2.0).abs() < 0.1, "{method:?} {split}: order {order}");
+            assert!(
+                (order - 2.0).abs() < 0.1,
+                "{method:?} {split}: order {order}"
+            );
         }
     }
 }
@@ -155,6 +163,11 @@ fn steps_divide_the_interval() {
     let schedule = Schedule::covering(2.6, 1e-5, 1.5e-8).expect("valid");
     assert_eq!(schedule.steps_per_interval, 667);
     assert_eq!(schedule.intervals, 260_000);
-    assert_eq!(Schedule::covering(1.0, 1e-5, 1e-7).expect("valid").steps_per_interval, 100);
+    assert_eq!(
+        Schedule::covering(1.0, 1e-5, 1e-7)
+            .expect("valid")
+            .steps_per_interval,
+        100
+    );
     assert!(Schedule::covering(1.0, 1e-5, f64::NAN).is_err());
 }

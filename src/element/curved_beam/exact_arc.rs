@@ -96,7 +96,11 @@ impl Arc {
         [
             Vector3::new(cos, sin, 0.0),
             Vector3::new(sin, -cos, 0.0),
-            Vector3::new(self.radius * Differences::at(phi).cosine, -self.radius * sin, 1.0),
+            Vector3::new(
+                self.radius * Differences::at(phi).cosine,
+                -self.radius * sin,
+                1.0,
+            ),
         ]
     }
 

@@ -37,7 +37,10 @@ mod tests {
         for power in (0..=22).step_by(2) {
             let exact = 2.0 * 0.7_f64.powi(power + 1) / f64::from(power + 1);
             let found = over_arc(0.7, |x| x.powi(power));
-            assert!((found / exact - 1.0).abs() < 1e-13, "{power}: {found} {exact}");
+            assert!(
+                (found / exact - 1.0).abs() < 1e-13,
+                "{power}: {found} {exact}"
+            );
         }
     }
 }

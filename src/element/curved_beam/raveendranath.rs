@@ -131,5 +131,7 @@ fn integral(p: &Polynomial) -> Polynomial {
 }
 
 fn value(p: &Polynomial, phi: f64) -> f64 {
-    p.iter().rev().fold(0.0, |sum, coefficient| sum * phi + coefficient)
+    p.iter()
+        .rev()
+        .fold(0.0, |sum, coefficient| sum * phi + coefficient)
 }

@@ -62,7 +62,10 @@ fn the_exact_arc_interpolates_rigid_motions_and_its_nodes() {
 
 #[test]
 fn both_interpolations_take_their_nodal_values() {
-    for kind in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
+    for kind in [
+        RingInterpolation::ExactArc,
+        RingInterpolation::Raveendranath,
+    ] {
         let half = 0.05;
         let element = CurvedBeam::new(&section(0.05), half, kind);
         for (phi, first) in [(-half, 0), (half, 3)] {
@@ -82,7 +85,10 @@ fn shear_and_extension_follow_from_the_interpolation() {
     // stiffness = integral B^T D B of the interpolation's own strains, by differences
     let section = section(0.3);
     let half = 0.2;
-    for kind in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
+    for kind in [
+        RingInterpolation::ExactArc,
+        RingInterpolation::Raveendranath,
+    ] {
         let element = CurvedBeam::new(&section, half, kind);
         let step = 1e-5;
         let moduli = nalgebra::Matrix3::from_diagonal(&Vector3::new(
