@@ -31,7 +31,7 @@ test: setup
 		echo "cargo test"; \
 		cargo test; \
 	fi
-	cargo build --examples
+	cargo run --example compare_integrators
 
 meshes:
 	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }

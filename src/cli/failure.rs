@@ -50,7 +50,13 @@ pub enum CliError {
     },
     /// A stage of the computation failed, by its input or by itself.
     #[error(transparent)]
-    Stage(#[from] StageError),
+    Stage(Box<StageError>),
+}
+
+impl From<StageError> for CliError {
+    fn from(error: StageError) -> Self {
+        Self::Stage(Box::new(error))
+    }
 }
 
 impl CliError {
@@ -71,13 +77,14 @@ impl CliError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Case(error) | Self::Stage(StageError::Case(error)) => error.help(),
+            Self::Case(error) => error.help(),
+            Self::Stage(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
             Self::BadAnswer { help, .. } => help.clone(),
-            Self::Write { .. } | Self::StandardOutput(_) | Self::Stage(_) => None,
+            Self::Write { .. } | Self::StandardOutput(_) => None,
         }
     }
 
@@ -145,7 +152,7 @@ mod tests {
                 "error: blew up at 0.3 s\nhelp: halve the step\n",
             ),
             (
-                CliError::Stage(StageError::TieFrame),
+                CliError::from(StageError::TieFrame),
                 2,
                 "error: ring.tie: only axis = [0, 0, 1] and zero_deg = [1, 0, 0] are supported for a plane housing; turn the mesh in gmsh\n",
             ),

@@ -70,11 +70,19 @@ impl DenseCholesky {
 /// [`LinalgError::DenseEigen`] if the iteration does not converge (values that are not finite).
 pub fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
     run_sequentially();
-    let eigen = a
+    let failed = || LinalgError::DenseEigen { order: a.nrows() };
+    // faer's solver has thresholds that are not relative: entries of 1e15 cost it half its digits
+    let largest = a.norm_max();
+    let scale = if largest > 0.0 { largest } else { 1.0 };
+    if !scale.is_finite() {
+        return Err(failed());
+    }
+    let eigen = (a * faer::Scale(scale.recip()))
         .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| LinalgError::DenseEigen { order: a.nrows() })?;
+        .map_err(|_| failed())?;
+    let values = eigen.S().column_vector().iter();
     Ok(SymmetricSpectrum {
-        values: eigen.S().column_vector().iter().copied().collect(),
+        values: values.map(|value| scale * value).collect(),
         vectors: eigen.U().to_owned(),
     })
 }
@@ -103,7 +111,7 @@ pub fn symmetric_generalised_eigen(
     let factor = DenseCholesky::new(&shifted)?;
     let lower = factor.factor.L();
     // C = L^-1 s M L^-T, formed from both sides and made exactly symmetric; eigenvalues s mu in
-    // (0, 1], a scale that faer's solver needs for its full accuracy
+    // (0, 1]
     let mut half = m * faer::Scale(shift);
     solve_lower_triangular_in_place(lower, half.as_mut(), faer::Par::Seq);
     let mut whole = half.transpose().to_owned();

@@ -85,9 +85,8 @@ pub fn lowest_eigenpairs(
         sorted(pairs.values, &pairs.vectors, order)
     };
     let residuals = residuals(k, m, &values, &vectors, shift);
-    let bad = residuals
-        .iter()
-        .position(|&residual| !(residual <= LARGEST_RESIDUAL));
+    let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
+    let bad = residuals.iter().position(too_large);
     if let Some(mode) = bad {
         return Err(LinalgError::Residual {
             mode,

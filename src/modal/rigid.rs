@@ -18,10 +18,7 @@ pub fn rigid_mode_count(eigenvalues: &[f64]) -> usize {
             .get(*count)
             .is_some_and(|&next| below < ENERGY_RATIO * next)
     };
-    (1..=MOST.min(eigenvalues.len()))
-        .filter(rigid)
-        .next_back()
-        .unwrap_or(0)
+    (1..=MOST.min(eigenvalues.len())).rfind(rigid).unwrap_or(0)
 }
 
 #[cfg(test)]

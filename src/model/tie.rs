@@ -74,14 +74,13 @@ impl RingTie {
             let rows = ring.rows_at(angle);
             let tangential = rows.tangential_at(radius - ring.section().radius);
             let (sin, cos) = angle.sin_cos();
-            for k in 0..6 {
-                let (w, u) = (rows.radial[k], tangential[k]);
+            for ((dof, w), u) in rows.dofs.into_iter().zip(rows.radial).zip(tangential) {
                 match fit {
                     Fit::Bonded => {
-                        tie.add(2 * index, rows.dofs[k], w * cos - u * sin);
-                        tie.add(2 * index + 1, rows.dofs[k], w * sin + u * cos);
+                        tie.add(2 * index, dof, w * cos - u * sin);
+                        tie.add(2 * index + 1, dof, w * sin + u * cos);
                     }
-                    Fit::Sliding => tie.add(index, rows.dofs[k], w),
+                    Fit::Sliding => tie.add(index, dof, w),
                 }
             }
         }

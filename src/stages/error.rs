@@ -153,6 +153,14 @@ pub enum StageError {
 }
 
 impl StageError {
+    /// What to do about it, where the message does not say it already.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Case(error) => error.help(),
+            _ => None,
+        }
+    }
+
     /// Whether the input is wrong, rather than the computation failed.
     pub fn is_input(&self) -> bool {
         match self {

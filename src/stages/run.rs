@@ -146,7 +146,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         &mut state,
         &mut recorder,
         |done, total| {
-            if done % report_every == 0 {
+            if done.is_multiple_of(report_every) {
                 watch.fraction(done as f64 / total as f64);
             }
             Stepping::Continue

@@ -123,16 +123,18 @@ impl RacewayTable {
         for element in 0..elements {
             let samples: Vec<Vec<f64>> = (0..count).map(|k| sample(element, point(k))).collect();
             for mode in 0..modes {
-                for order in 0..count {
+                for (order, polynomial) in chebyshev.iter().take(count).enumerate() {
                     // discrete cosine transform of the samples
                     let scale = if order == 0 { 1.0 } else { 2.0 } / count as f64;
-                    let amplitude: f64 = (0..count)
-                        .map(|k| {
+                    let amplitude: f64 = samples
+                        .iter()
+                        .enumerate()
+                        .map(|(k, values)| {
                             let angle = order as f64 * (k as f64 + 0.5) * PI / count as f64;
-                            scale * samples[k][mode] * angle.cos()
+                            scale * values[mode] * angle.cos()
                         })
                         .sum();
-                    for (power, factor) in chebyshev[order].iter().enumerate() {
+                    for (power, factor) in polynomial.iter().enumerate() {
                         let place = (element * count + degree - power) * modes + mode;
                         coefficients[place] += amplitude * factor;
                     }

@@ -138,7 +138,7 @@ impl Observer<CoupledSystem> for Recorder {
                 track.accelerations.push(acceleration);
             }
         }
-        if now.step % self.ratio == 0 && self.record.time_s.len() < self.wanted {
+        if now.step.is_multiple_of(self.ratio) && self.record.time_s.len() < self.wanted {
             let record = &mut self.record;
             record.time_s.push(now.t);
             record.shaft_x.push(now.y[modes]);

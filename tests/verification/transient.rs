@@ -111,10 +111,18 @@ impl<'a> NodalNewmark<'a> {
             let radial = |d: &DenseMatrix| -> f64 {
                 (0..6).map(|k| rows.radial[k] * d[(rows.dofs[k], 0)]).sum()
             };
+            // the ball also moves along the deformed race; differences of 1e-5 rad are good to 1e-10
+            let displaced = |angle: f64| -> f64 {
+                let rows = self.structure.ring().rows_at(angle);
+                (0..6)
+                    .map(|k| rows.radial[k] * y.ring[(rows.dofs[k], 0)])
+                    .sum()
+            };
+            let slope = (displaced(angle + 1e-5) - displaced(angle - 1e-5)) / 2e-5;
+            let race_rate = radial(&v.ring) + cage.speed * slope;
             let (s, s_rate) = (y.rest[2 + ball], v.rest[2 + ball]);
             let rho = geometry.outer_race_radius() - geometry.ball_radius() + s;
-            let outer =
-                law(setup.stiffness.outer()).force(s - radial(&y.ring), s_rate - radial(&v.ring));
+            let outer = law(setup.stiffness.outer()).force(s - radial(&y.ring), s_rate - race_rate);
             for k in 0..6 {
                 ring[(rows.dofs[k], 0)] += outer * rows.radial[k];
             }

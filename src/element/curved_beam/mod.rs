@@ -41,8 +41,8 @@ pub struct CurvedBeam {
 
 #[derive(Debug, Clone)]
 enum Field {
-    ExactArc(exact_arc::ExactArc),
-    Polynomial(raveendranath::CoupledPolynomial),
+    ExactArc(Box<exact_arc::ExactArc>),
+    Polynomial(Box<raveendranath::CoupledPolynomial>),
 }
 
 impl CurvedBeam {
@@ -52,12 +52,12 @@ impl CurvedBeam {
             RingInterpolation::ExactArc => {
                 let arc = exact_arc::ExactArc::new(section, half_angle);
                 let stiffness = arc.stiffness();
-                (Field::ExactArc(arc), stiffness)
+                (Field::ExactArc(Box::new(arc)), stiffness)
             }
             RingInterpolation::Raveendranath => {
                 let polynomial = raveendranath::CoupledPolynomial::new(section, half_angle);
                 let stiffness = polynomial.stiffness(section);
-                (Field::Polynomial(polynomial), stiffness)
+                (Field::Polynomial(Box::new(polynomial)), stiffness)
             }
         };
         let mut element = Self {
