@@ -234,7 +234,7 @@ impl Ring {
         std::array::from_fn(|column| n[(1, column)])
     }
 
-    /// Rigid motion of all nodes: translation (x, y) plus rotation about the origin [dof].
+    /// Rigid motion of all nodes: translation (x, y) plus rotation about the origin \[dof\].
     pub fn rigid_motion(&self, x: f64, y: f64, rotation: f64) -> Vec<f64> {
         (0..self.nodes)
             .flat_map(|node| {

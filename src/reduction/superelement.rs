@@ -68,7 +68,7 @@ impl Superelement {
     }
 
     /// Data recovery: the row that gives a degree of freedom of the housing from the coordinates
-    /// [order]; `None` for one that is fixed.
+    /// \[order\]; `None` for one that is fixed.
     pub fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
         let interface = self.interface_dof();
         if let Some(place) = self.partition.interior.iter().position(|&i| i == dof) {
@@ -84,7 +84,7 @@ impl Superelement {
         Some(row)
     }
 
-    /// Weight on the coordinates for a gravity vector in m/s^2 [order].
+    /// Weight on the coordinates for a gravity vector in m/s^2 \[order\].
     pub fn gravity_load(&self, gravity: [f64; 2]) -> Vec<f64> {
         (0..self.order())
             .map(|row| self.weight[(row, 0)] * gravity[0] + self.weight[(row, 1)] * gravity[1])

@@ -102,7 +102,7 @@ pub struct CoupledSystem {
 pub(super) struct Work {
     /// [balls x modes]
     pub rows: Vec<f64>,
-    /// [modes], scratch: the tangential row or the slopes of one ball
+    /// \[modes\], scratch: the tangential row or the slopes of one ball
     pub scratch_row: Vec<f64>,
     /// Cosine and sine of each ball's angle from the first.
     pub spacing: Vec<[f64; 2]>,

@@ -52,7 +52,7 @@ pub struct Equilibrium {
     pub shaft: [f64; 2],
     /// Balls, in order.
     pub balls: Vec<BallLoad>,
-    /// Contact forces and weight on the structure's coordinates [dof].
+    /// Contact forces and weight on the structure's coordinates \[dof\].
     pub structure_load: Vec<f64>,
     /// Newton iterations.
     pub iterations: usize,

@@ -64,14 +64,14 @@ impl RacewayTable {
         table
     }
 
-    /// Values of all modes at an angle in turns, 0 <= turn < 1, into `out` [modes].
+    /// Values of all modes at an angle in turns, 0 <= turn < 1, into `out` \[modes\].
     #[inline]
     pub fn values_into(&self, turn: f64, out: &mut [f64]) {
         let (element, xi) = locate(turn, self.elements);
         self.local_values_into(element, xi, out);
     }
 
-    /// Derivatives of all modes by the angle at an angle in turns, 1/rad, into `out` [modes].
+    /// Derivatives of all modes by the angle at an angle in turns, 1/rad, into `out` \[modes\].
     #[inline]
     pub fn slopes_into(&self, turn: f64, out: &mut [f64]) {
         let (element, xi) = locate(turn, self.elements);

@@ -24,7 +24,7 @@ pub(super) struct ResidualFlexibility {
     width: usize,
     /// [width x width], m/N.
     flexibility: Vec<f64>,
-    /// Displacement under the weight that the kept modes lack [width], m.
+    /// Displacement under the weight that the kept modes lack \[width\], m.
     weight: Vec<f64>,
     /// Sensors over ring loads [sensors x width].
     sensors: Vec<f64>,
@@ -36,7 +36,7 @@ pub(super) struct ResidualFlexibility {
     contact: Vec<f64>,
     /// Its derivative by the cage angle, m/(N rad).
     contact_slope: Vec<f64>,
-    /// Radial displacement at ball j under the weight [balls], m.
+    /// Radial displacement at ball j under the weight \[balls\], m.
     weight_now: Vec<f64>,
     /// Sensor displacement for a radial force at ball k [sensors x balls], m/N.
     sensor_now: Vec<f64>,

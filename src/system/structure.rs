@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 pub struct Sensor {
     /// Its name in results.
     pub name: String,
-    /// Row over the structure's coordinates [dof], metres per unit of each.
+    /// Row over the structure's coordinates \[dof\], metres per unit of each.
     pub row: Vec<f64>,
 }
 
@@ -147,7 +147,7 @@ impl Structure {
         &self.mass
     }
 
-    /// Weight of ring and housing on the coordinates [dof], N and N m.
+    /// Weight of ring and housing on the coordinates \[dof\], N and N m.
     pub fn gravity(&self) -> &[f64] {
         &self.gravity
     }
