@@ -88,6 +88,9 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
 
 fn signals(result: &RunResult) -> Result<Section, StageError> {
     let mut section = Section::new("Signals");
+    if result.record.time_s.is_empty() {
+        return Ok(section.paragraph("The run ended before the first instant was complete."));
+    }
     for (index, (name, _)) in result.record.sensors.iter().enumerate() {
         let signal = result.signal(index)?;
         section = section.plot(

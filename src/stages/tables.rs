@@ -89,7 +89,11 @@ pub(super) fn bearing_table(setup: &BearingSetup, hertz: Option<&RaceContacts>) 
         Column::text("Unit"),
     ];
     let mut table = Table::new("Bearing", columns);
-    table = row(table, "Balls", f64::from(geometry.balls()), 3, "");
+    table = table.row([
+        Cell::text("Balls"),
+        Cell::text(geometry.balls().to_string()),
+        Cell::text(""),
+    ]);
     table = row(
         table,
         "Pitch radius",
