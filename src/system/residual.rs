@@ -30,6 +30,8 @@ pub(super) struct ResidualFlexibility {
     sensors: Vec<f64>,
     /// Element of every ball and its radial interpolation there.
     places: Vec<(usize, [f64; ELEMENT_DOF])>,
+    /// Local coordinate of every ball in its element.
+    local: Vec<f64>,
     /// Derivative of that interpolation by the angle, 1/rad.
     slopes: Vec<[f64; ELEMENT_DOF]>,
     /// Radial displacement at ball j for a radial force at ball k [balls x balls], m/N.
@@ -97,6 +99,7 @@ impl ResidualFlexibility {
             flexibility: by_rows(&flexibility),
             weight: by_rows(&weight),
             places: vec![(0, [0.0; ELEMENT_DOF]); balls],
+            local: vec![0.0; balls],
             slopes: vec![[0.0; ELEMENT_DOF]; balls],
             contact: vec![0.0; balls * balls],
             contact_slope: vec![0.0; balls * balls],
@@ -113,9 +116,7 @@ impl ResidualFlexibility {
         let (place, row) = &mut self.places[j];
         *place = element;
         self.interpolation.local_values_into(0, xi, row);
-        let by_angle = self.elements as f64 / std::f64::consts::PI;
-        self.interpolation
-            .local_slopes_into(0, xi, by_angle, &mut self.slopes[j]);
+        self.local[j] = xi;
         let first = ELEMENT_DOF / 2 * element;
         self.weight_now[j] = product(row, &self.weight[first..first + ELEMENT_DOF]);
         let balls = self.places.len();
@@ -130,7 +131,10 @@ impl ResidualFlexibility {
     #[inline]
     pub fn couple(&mut self, near: impl Fn(usize) -> bool) {
         let balls = self.places.len();
+        let by_angle = self.elements as f64 / std::f64::consts::PI;
         for j in (0..balls).filter(|&j| near(j)) {
+            self.interpolation
+                .local_slopes_into(0, self.local[j], by_angle, &mut self.slopes[j]);
             let (element, row) = &self.places[j];
             let top = ELEMENT_DOF / 2 * element;
             for k in (0..=j).filter(|&k| near(k)) {
