@@ -35,11 +35,7 @@ test: setup
 
 meshes:
 	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }
-	@set -e; for geometry in meshes/*.geo; do \
-		test -f "$$geometry" || { echo "no meshes/*.geo to make meshes from" >&2; exit 1; }; \
-		gmsh "$$geometry" - -v 2 -save -format msh41 -o "$${geometry%.geo}.msh"; \
-		echo "made $${geometry%.geo}.msh"; \
-	done
+	sh meshes/rebuild.sh
 
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps

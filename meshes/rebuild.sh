@@ -1,7 +1,5 @@
 #!/bin/sh
-# Makes every mesh of this folder from its .geo (gmsh 4.8 or later). Makefile target:
-#   meshes:
-#   	sh meshes/rebuild.sh
+# Makes every mesh of this folder from its .geo (gmsh 4.8 or later); `make meshes` calls it.
 set -eu
 cd "$(dirname "$0")"
 for geo in *.geo; do
