@@ -7,7 +7,7 @@ use super::raceway::reduced_turn;
 use crate::bearing::ShaftMotion;
 use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
 
-/// Sweeps over the balls that share the residual flexibility; five to seven are typical.
+/// Sweeps over the balls that share the residual flexibility, far more than it takes.
 const MAX_SWEEPS: usize = 40;
 
 /// Relative change of a contact force at which the sweeps end; far below any integration error.
