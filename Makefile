@@ -32,6 +32,7 @@ test: setup
 		cargo test; \
 	fi
 	cargo run --example compare_integrators
+	cargo run --example bending_lock
 
 meshes:
 	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }

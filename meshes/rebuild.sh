@@ -3,5 +3,5 @@
 set -eu
 cd "$(dirname "$0")"
 for geo in *.geo; do
-    gmsh -2 -v 2 -format msh41 -o "${geo%.geo}.msh" "$geo"
+    gmsh -3 -v 2 -format msh41 -o "${geo%.geo}.msh" "$geo"
 done

@@ -10,8 +10,8 @@
 //!
 //! 1. [`case`]: a TOML file to checked types; [`units`], SI inside.
 //! 2. [`mesh`]: gmsh import with physical names and a validator.
-//! 3. [`material`], [`element`]: plane elements and the curved beam; [`model`]: properties, supports,
-//!    the ring and the tie of the bore to its interpolation.
+//! 3. [`material`], [`element`]: plane and solid elements and the curved beam; [`model`]: properties,
+//!    supports, links, the ring and the tie of the bore to its interpolation.
 //! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, ARPACK, dense problems.
 //! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
 //! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
@@ -31,8 +31,9 @@
 //!
 //! # Limitations
 //!
-//! Plane housings of Tri3, Tri6, Quad4 and Quad8 from MSH 4.1; dents in the outer race, in the
-//! bearing's plane; balls with their own inertia; constant cage slip; one thread.
+//! Linear elasticity, no shells and no pyramids; MSH 4.1 and 2.2; ring sections stay rigid in the bore;
+//! dents in the outer race, in the bearing's plane; balls with their own inertia; constant cage slip;
+//! assembly in parallel, the rest on one thread.
 
 pub mod assembly;
 pub mod bearing;

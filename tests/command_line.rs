@@ -104,3 +104,52 @@ fn a_closed_pipe_does_not_make_it_panic() {
     assert_eq!(errors(&output), "");
     assert_eq!(output.status.code(), Some(0));
 }
+
+/// A look at a mesh: sizes in metres once the unit is known, the verdict in the exit code.
+#[test]
+fn a_mesh_is_inspected() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let look = |words: &[&str]| {
+        let output = plummer(&folder, &[&["inspect"], words].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let plain = look(&["meshes/pedestal.msh"]);
+    assert!(plain.contains("1620 Tet10"), "{plain}");
+    assert!(plain.contains("give --length-unit mm"), "{plain}");
+    let json = look(&[
+        "meshes/pedestal.msh",
+        "--length-unit",
+        "mm",
+        "--density",
+        "2700",
+        "--json",
+    ]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    // foot and seat less bore and bolt holes; curved edges of Tet10 miss 1.1e-4 of it
+    let drawn = 44.0 * 5.0 + 20.0 * 8.0 + std::f64::consts::PI * (50.0 - 36.0);
+    let drawn = 1e-9 * (10.0 * drawn - 40.0 * std::f64::consts::PI);
+    let volume = json["size"].as_f64().unwrap();
+    assert!((volume / drawn - 1.0).abs() < 2e-4, "{volume} {drawn}");
+    let mass = json["mass_kg"].as_f64().unwrap();
+    assert!((mass / (2700.0 * volume) - 1.0).abs() < 1e-14);
+    assert_eq!(json["parts"].as_array().unwrap().len(), 1);
+    assert_eq!(json["invalid_elements"], 0);
+    assert!(json["worst"]["scaled_jacobian"].as_f64().unwrap() > 0.05);
+}
+
+/// An inverted tetrahedron: exit code 1 and its tag.
+#[test]
+fn a_mesh_with_folded_elements_is_a_bad_answer() {
+    let folder = scratch("folded");
+    let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n\
+        0 0 0\n1 0 0\n0 1 0\n0 0 -1\n$EndNodes\n$Elements\n1 1 7 7\n3 1 4 1\n7 1 2 3 4\n$EndElements\n";
+    fs::write(folder.join("inverted.msh"), text).unwrap();
+    let output = plummer(&folder, &["inspect", "inverted.msh", "--length-unit", "mm"]);
+    assert_eq!(output.status.code(), Some(1));
+    let shown = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(shown.contains("INVALID           1 elements: 7"), "{shown}");
+    assert!(errors(&output).contains("(the first is element 7)"));
+    let missing = plummer(&folder, &["inspect", "no.msh"]);
+    assert_eq!(missing.status.code(), Some(2));
+}

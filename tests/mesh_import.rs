@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use plummer::element::plane::{PlaneKind, area};
+use plummer::element::continuum::{ContinuumKind, measure};
 use plummer::mesh::{ElementKind, Mesh, MeshError};
 use plummer::units::LengthUnit;
 
@@ -182,15 +182,12 @@ fn example_meshes_fill_their_drawings() -> Result<(), Box<dyn std::error::Error>
         let mesh = read(&format!("meshes/{name}.msh"), LengthUnit::Millimetre)?;
         let mut total = 0.0;
         for block in &mesh.blocks {
-            let plane = PlaneKind::ALL
+            let surface = ContinuumKind::ALL
                 .into_iter()
                 .find(|kind| kind.name() == block.kind.name());
             for element in block.elements() {
-                let coords: Vec<[f64; 2]> = element
-                    .iter()
-                    .map(|&n| [mesh.nodes[n][0], mesh.nodes[n][1]])
-                    .collect();
-                total += plane.map_or(Ok(0.0), |kind| area(kind, &coords))?;
+                let coords: Vec<[f64; 3]> = element.iter().map(|&n| mesh.nodes[n]).collect();
+                total += surface.map_or(Ok(0.0), |kind| measure(kind, &coords))?;
             }
         }
         let error = total / (square_mm * 1e-6) - 1.0;

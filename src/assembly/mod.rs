@@ -1,25 +1,29 @@
 //! Model to matrices: sparse stiffness and consistent mass of a housing, its weight, its mass.
 //!
-//! The pattern comes from the node graph once; element matrices are added into it in element order,
-//! so that the sums do not depend on anything but the model.
+//! The pattern comes from the node graph once; element matrices are computed in parallel, batch by batch, and
+//! added into it in element order, so that the sums depend on nothing but the model.
 
+mod batch;
 mod pattern;
 
-use crate::element::plane::{mass_into, stiffness_into};
-use crate::linalg::{DenseMatrix, SparseMatrix, congruence};
-use crate::model::{HousingModel, ModelError, RingTie};
-use nalgebra::DMatrix;
-use pattern::BlockPattern;
+use crate::element::continuum::{nodal_mass_into, stiffness_into};
+use crate::linalg::{DenseMatrix, SparseMatrix, congruence, transpose_times_dense};
+use crate::model::{HousingModel, ModelError, NodalMatrix, RingTie};
+use batch::in_batches;
+use pattern::{BlockMatrix, Coupling, Local, NodeGraph};
 
 /// Matrices of a housing over all its degrees of freedom.
+///
+/// Rows and columns of nodes that a link ties are empty: such a node's share is with those that it follows.
 #[derive(Debug, Clone)]
 pub struct SystemMatrices {
     /// Stiffness with springs [dof x dof], N/m.
     pub stiffness: SparseMatrix,
     /// Consistent mass with point masses [dof x dof], kg.
     pub mass: SparseMatrix,
-    /// Mass times unit accelerations in x and in y [dof x 2], kg.
+    /// Mass times unit accelerations along the bearing's x and y [dof x 2], kg.
     pub weight: DenseMatrix,
+    pub(crate) total_mass: f64,
 }
 
 impl SystemMatrices {
@@ -28,48 +32,30 @@ impl SystemMatrices {
     /// # Errors
     /// [`ModelError::Element`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Self, ModelError> {
-        let pattern = BlockPattern::new(model);
-        let (mut k, mut m) = (pattern.zeros(), pattern.zeros());
-        for element in &model.elements {
-            let coordinates: Vec<[f64; 2]> = element
-                .nodes
-                .iter()
-                .map(|&node| model.coordinates[node])
-                .collect();
-            let properties = &model.parts[element.part].properties;
-            let dof = element.kind.dof();
-            let mut local = DMatrix::zeros(dof, dof);
-            let with_tag = |source| ModelError::Element {
-                path: model.path.clone(),
-                tag: element.tag,
-                source,
-            };
-            stiffness_into(element.kind, &coordinates, properties, &mut local).map_err(with_tag)?;
-            pattern.add(&mut k, &element.nodes, &local);
-            mass_into(element.kind, &coordinates, properties, &mut local).map_err(with_tag)?;
-            pattern.add(&mut m, &element.nodes, &local);
+        let elements = model
+            .elements
+            .iter()
+            .map(|element| model.elements.nodes(element));
+        let extra = model.springs.iter().chain(&model.masses);
+        let groups = elements.chain(extra.map(|extra| extra.nodes.as_slice()));
+        let graph = NodeGraph::new(model.coordinates.len(), &groups.collect::<Vec<_>>());
+        let mut matrices = Self {
+            stiffness: stiffness(model, &graph)?,
+            mass: mass(model, &graph)?,
+            weight: DenseMatrix::zeros(0, 2),
+            total_mass: 0.0,
+        };
+        if let Some(tie) = model.tie_matrix() {
+            matrices.stiffness = congruence(&matrices.stiffness, &tie);
+            matrices.mass = congruence(&matrices.mass, &tie);
         }
-        for spring in &model.springs {
-            let local = DMatrix::from_fn(2, 2, |i, j| spring.matrix[i][j]);
-            pattern.add(&mut k, &[spring.node], &local);
-        }
-        for &(node, mass) in &model.masses {
-            pattern.add(&mut m, &[node], &DMatrix::from_diagonal_element(2, 2, mass));
-        }
-        let mass = pattern.matrix(m);
-        Ok(Self {
-            stiffness: pattern.matrix(k),
-            weight: weight(&mass),
-            mass,
-        })
+        matrices.weigh(model);
+        Ok(matrices)
     }
 
-    /// Mass of the housing, kg.
+    /// Mass of the housing with its point masses, kg.
     pub fn total_mass(&self) -> f64 {
-        (0..self.weight.nrows())
-            .step_by(2)
-            .map(|row| self.weight[(row, 0)])
-            .sum()
+        self.total_mass
     }
 
     /// The same matrices in the displacements that a tie's partition uses.
@@ -79,18 +65,71 @@ impl SystemMatrices {
             Some(rotation) => Self {
                 stiffness: congruence(&self.stiffness, rotation),
                 mass: congruence(&self.mass, rotation),
-                weight: crate::linalg::transpose_times_dense(rotation, &self.weight),
+                weight: transpose_times_dense(rotation, &self.weight),
+                ..self
             },
         }
     }
+
+    /// Weight along the bearing's x and y, and the mass: `a^T M a` of a unit acceleration a.
+    fn weigh(&mut self, model: &HousingModel) {
+        let d = model.dimension;
+        let falls = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|v| model.frame().vector_to_mesh(v));
+        let fall = DenseMatrix::from_fn(model.dof(), 2, |dof, column| falls[column][dof % d]);
+        self.weight = crate::linalg::sparse_times_dense(&self.mass, &fall);
+        // tied nodes have empty rows and columns, so their mass counts once, where it was taken
+        self.total_mass = (0..model.dof())
+            .map(|dof| fall[(dof, 0)] * self.weight[(dof, 0)])
+            .sum();
+    }
 }
 
-fn weight(mass: &SparseMatrix) -> DenseMatrix {
-    let mut weight = DenseMatrix::zeros(mass.rows(), 2);
-    for (column, entries) in mass.outer_iterator().enumerate() {
-        for (row, &value) in entries.iter() {
-            weight[(row, column % 2)] += value;
-        }
-    }
-    weight
+fn stiffness(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelError> {
+    let mut k = BlockMatrix::zeros(graph, model.dimension, Coupling::Full);
+    in_batches(
+        model,
+        |kind| kind.dof() * kind.dof(),
+        |element, coordinates, out| {
+            let properties = &model.properties[element.part];
+            stiffness_into(
+                element.kind,
+                coordinates,
+                properties,
+                model.formulation,
+                out,
+            )
+        },
+        |locals| k.add(locals),
+    )?;
+    k.add(&locals(&model.springs));
+    Ok(k.into_matrix())
+}
+
+fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelError> {
+    let mut m = BlockMatrix::zeros(graph, model.dimension, Coupling::Same);
+    in_batches(
+        model,
+        |kind| kind.nodes() * kind.nodes(),
+        |element, coordinates, out| {
+            nodal_mass_into(
+                element.kind,
+                coordinates,
+                &model.properties[element.part],
+                out,
+            )
+        },
+        |locals| m.add(locals),
+    )?;
+    m.add(&locals(&model.masses));
+    Ok(m.into_matrix())
+}
+
+fn locals(matrices: &[NodalMatrix]) -> Vec<Local<'_>> {
+    matrices
+        .iter()
+        .map(|NodalMatrix { nodes, matrix }| Local {
+            nodes,
+            matrix: matrix.as_slice(),
+        })
+        .collect()
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::LengthUnit;
 
+use super::link::Link;
 use super::union::{Mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
@@ -22,6 +23,9 @@ pub struct Housing {
     /// Integration of the stiffness of ten-noded tetrahedra.
     #[serde(default)]
     pub integration: Integration,
+    /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
+    #[serde(default)]
+    pub linear: LinearElements,
     /// Which group is made of what; at least one.
     pub parts: Vec<Part>,
     /// What holds the housing; may be empty.
@@ -30,6 +34,9 @@ pub struct Housing {
     /// Masses without size, each spread over a group; may be empty.
     #[serde(default)]
     pub masses: Vec<PointMass>,
+    /// Connections between its groups; may be empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub links: Vec<Link>,
 }
 
 /// What a plane mesh assumes across its plane.
@@ -59,6 +66,20 @@ pub enum Integration {
     /// With enough points for curved edges.
     #[default]
     Full,
+    /// With four points: exact for straight edges only.
+    #[serde(rename = "4-point")]
+    FourPoint,
+}
+
+/// How four-noded quadrilaterals and eight-noded hexahedra are formulated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LinearElements {
+    /// With incompatible modes: no locking in bending.
+    #[default]
+    Incompatible,
+    /// Plain: much too stiff in bending.
+    Plain,
 }
 
 /// A group of elements and its material.
@@ -104,7 +125,8 @@ pub enum Hold {
         /// What the stiffness belongs to.
         per: PerNodeOrGroup,
     },
-    /// Springs to the ground along the radius from the bearing's axis. Alone they leave a round housing free to turn.
+    /// Springs to the ground along the radius from the bearing's axis. Alone they leave a round housing free to turn and
+    /// to slide along the axis.
     Radial {
         /// Stiffness in N/m, > 0.
         stiffness: f64,
@@ -135,7 +157,7 @@ pub enum PerNodeOrGroup {
     /// Each node has a spring of this stiffness, so the sum grows with the mesh.
     #[default]
     Node,
-    /// The springs of the group sum up to this stiffness, shared by the length or area that belongs to each node.
+    /// The springs of the group sum up to this stiffness, spread evenly over its length, area or volume.
     Group,
 }
 

@@ -4,10 +4,20 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::union::{Mismatch, OneOrThree, written_as};
+
+/// An elastic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Material {
+    /// The same in every direction.
+    Isotropic(IsotropicMaterial),
+    /// With three planes of symmetry; for parts of a housing only.
+    Orthotropic(OrthotropicMaterial),
+}
+
 /// An isotropic elastic material.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IsotropicMaterial {
     /// Young's modulus E in Pa, > 0.
     pub young: f64,
     /// Poisson's ratio, > -1 and < 0.5.
@@ -16,12 +26,120 @@ pub struct Material {
     pub density: f64,
 }
 
+/// An orthotropic elastic material: printed, rolled, laminated, wooden.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrthotropicMaterial {
+    /// Young's moduli along the material's x, y, z in Pa, each > 0.
+    pub young: [f64; 3],
+    /// Poisson's ratios xy, yz, xz: `nu_ij` is the contraction along j under a pull along i.
+    pub poisson: [f64; 3],
+    /// Shear moduli xy, yz, xz in Pa, each > 0.
+    pub shear: [f64; 3],
+    /// Density in kg/m^3, > 0.
+    pub density: f64,
+    /// The material's x in the mesh's axes.
+    pub x_axis: [f64; 3],
+    /// A direction in the material's x-y plane, in the mesh's axes.
+    pub y_axis: [f64; 3],
+}
+
 impl Material {
     const fn new(young: f64, poisson: f64, density: f64) -> Self {
-        Self {
+        Self::Isotropic(IsotropicMaterial {
             young,
             poisson,
             density,
+        })
+    }
+
+    /// Density in kg/m^3.
+    #[must_use]
+    pub fn density(&self) -> f64 {
+        match self {
+            Self::Isotropic(material) => material.density,
+            Self::Orthotropic(material) => material.density,
+        }
+    }
+
+    /// The isotropic material, if it is one.
+    #[must_use]
+    pub fn isotropic(&self) -> Option<&IsotropicMaterial> {
+        match self {
+            Self::Isotropic(material) => Some(material),
+            Self::Orthotropic(_) => None,
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialForm {
+    young: OneOrThree,
+    poisson: OneOrThree,
+    density: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shear: Option<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    x_axis: Option<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    y_axis: Option<[f64; 3]>,
+}
+
+written_as!(Material, MaterialForm);
+
+impl TryFrom<MaterialForm> for Material {
+    type Error = Mismatch;
+
+    fn try_from(form: MaterialForm) -> Result<Self, Mismatch> {
+        const FORMS: &str = "one number each for `young` and `poisson` (isotropic), or three each and `shear` \
+            (orthotropic: young = [x, y, z], poisson and shear = [xy, yz, xz])";
+        match (form.young, form.poisson, form.shear) {
+            (OneOrThree::One(young), OneOrThree::One(poisson), None) => {
+                if form.x_axis.is_some() || form.y_axis.is_some() {
+                    return Err(Mismatch::form("axes of an isotropic material", FORMS));
+                }
+                Ok(Self::new(young, poisson, form.density))
+            }
+            (OneOrThree::Three(young), OneOrThree::Three(poisson), Some(shear)) => {
+                Ok(Self::Orthotropic(OrthotropicMaterial {
+                    young,
+                    poisson,
+                    shear,
+                    density: form.density,
+                    x_axis: form.x_axis.unwrap_or([1.0, 0.0, 0.0]),
+                    y_axis: form.y_axis.unwrap_or([0.0, 1.0, 0.0]),
+                }))
+            }
+            (OneOrThree::One(_), OneOrThree::One(_), Some(_)) => {
+                Err(Mismatch::form("`shear` of an isotropic material", FORMS))
+            }
+            (OneOrThree::Three(_), OneOrThree::Three(_), None) => {
+                Err(Mismatch::form("no `shear`", FORMS))
+            }
+            _ => Err(Mismatch::form("one number and three", FORMS)),
+        }
+    }
+}
+
+impl From<Material> for MaterialForm {
+    fn from(material: Material) -> Self {
+        match material {
+            Material::Isotropic(given) => Self {
+                young: OneOrThree::One(given.young),
+                poisson: OneOrThree::One(given.poisson),
+                density: given.density,
+                shear: None,
+                x_axis: None,
+                y_axis: None,
+            },
+            Material::Orthotropic(given) => Self {
+                young: OneOrThree::Three(given.young),
+                poisson: OneOrThree::Three(given.poisson),
+                density: given.density,
+                shear: Some(given.shear),
+                x_axis: Some(given.x_axis),
+                y_axis: Some(given.y_axis),
+            },
         }
     }
 }

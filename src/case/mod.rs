@@ -25,6 +25,7 @@ mod document;
 mod error;
 mod fault;
 mod housing;
+mod link;
 mod load;
 mod material;
 mod modes;
@@ -52,12 +53,11 @@ pub use check::{BrokenRule, Rule};
 pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};
-pub use housing::{
-    Axis, Hold, Housing, Integration, Part, PerNodeOrGroup, Plane, PlaneAssumption, PointMass,
-    Spring, Support,
-};
+pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};
+pub use housing::{Integration, LinearElements, PlaneAssumption};
+pub use link::{Joint, Link};
 pub use load::{Purpose, VariantCase};
-pub use material::{BUILT_IN_MATERIALS, Material};
+pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
 pub use modes::{
     Condense, Expected, FixedInterfaceModes, Interface, Linearise, ModeExtent, Modes, Variant,
 };
@@ -140,7 +140,7 @@ impl Case {
             BallInertia::Density(density) => Some(density * volume),
             BallInertia::Material => {
                 let material = self.material(&bearing.ball_material)?;
-                Some(material.density * volume)
+                Some(material.density() * volume)
             }
         }
     }

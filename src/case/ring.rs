@@ -58,6 +58,13 @@ pub struct Section {
     pub area: f64,
     /// Second moment of area I about the bending axis in m^4, > 0.
     pub inertia: f64,
+    /// Second moment of area about the radial axis in m^4, > 0: bending out of the ring's plane, which
+    /// a solid housing needs; `None`: that of the rectangle with the given `area` and `inertia`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_inertia: Option<f64>,
+    /// Torsion constant J in m^4, > 0, for a solid housing too; `None`: that of the same rectangle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torsion: Option<f64>,
     /// Radius of the centroid R in m, > 0.
     pub radius: f64,
     /// Share of the area that carries shear, > 0 and <= 1; 5/6 for a rectangle.
@@ -163,9 +170,9 @@ fn axis_x() -> [f64; 3] {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fit {
-    /// The ring's section, radially and tangentially.
+    /// The ring's section in all directions.
     #[default]
     Bonded,
-    /// The ring's radial displacement only; the ring may turn in the bore.
+    /// The ring's radial displacement only; the ring may turn in the bore and, in a solid housing, move along it.
     Sliding,
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::{
-    BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold, Linearise,
-    Method, ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
+    BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold,
+    Integration, Joint, LinearElements, Linearise, Link, Material, Method, ModeExtent, ModesKept,
+    PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
 };
 
 /// A case with every table and every form of value.
@@ -34,7 +35,14 @@ fn near(a: f64, b: f64) -> bool {
 fn every_key_of_the_full_case_arrives() {
     let case = read(FULL, &[]).unwrap();
     assert_eq!(case.title, "Everything");
-    assert!(near(case.material("my alloy").unwrap().young, 71e9));
+    assert!(near(
+        case.material("my alloy")
+            .unwrap()
+            .isotropic()
+            .unwrap()
+            .young,
+        71e9
+    ));
     let housing = case.housing.as_ref().unwrap();
     assert_eq!(housing.mesh, Path::new("folder/pedestal.msh"));
     assert!(near(housing.length_unit.to_metres(), 1e-3));
@@ -46,8 +54,34 @@ fn every_key_of_the_full_case_arrives() {
         housing.supports[2].hold,
         Hold::Radial { stiffness, per: PerNodeOrGroup::Node } if near(stiffness, 3e5)
     ));
+    assert_eq!(
+        (housing.integration, housing.linear),
+        (Integration::FourPoint, LinearElements::Plain)
+    );
+    let between = ["lid seat", "case seat"].map(str::to_owned);
+    assert_eq!(
+        housing.links[0],
+        Link {
+            between,
+            joint: Joint::Tie
+        }
+    );
+    assert!(matches!(
+        housing.links[1].joint,
+        Joint::Spring { spring, per: PerNodeOrGroup::Group } if near(spring.y, 2e6)
+    ));
+    assert!(matches!(
+        housing.links[2].joint,
+        Joint::Radial { stiffness, per: PerNodeOrGroup::Node } if near(stiffness, 3e6)
+    ));
+    let Some(Material::Orthotropic(printed)) = case.material("printed") else {
+        panic!("not orthotropic");
+    };
+    assert!(near(printed.young[2], 2.4e9) && near(printed.y_axis[2], 1.0));
     let ring = case.ring.as_ref().unwrap();
     assert!(near(ring.sections[0].shear_coefficient, 5.0 / 6.0));
+    assert!(ring.sections[0].axial_inertia.is_none());
+    assert!(ring.sections[1].torsion.is_some_and(|j| near(j, 19.5e-12)));
     assert!(near(ring.supports[0].offset, 1e-3));
     let bearing = case.bearing.as_ref().unwrap();
     assert_eq!(bearing.race_material.outer, "my alloy");
@@ -101,8 +135,18 @@ fn defaults_are_those_of_the_format() {
     assert_eq!(transient.modes, ModesKept::Auto);
     assert!(transient.residual);
     assert_eq!(case.band_hz(), Some([0.0, 5e4]));
-    assert!(near(case.material("steel").unwrap().young, 206e9));
-    assert!(near(case.material("aluminium").unwrap().young, 70e9));
+    assert!(near(
+        case.material("steel").unwrap().isotropic().unwrap().young,
+        206e9
+    ));
+    assert!(near(
+        case.material("aluminium")
+            .unwrap()
+            .isotropic()
+            .unwrap()
+            .young,
+        70e9
+    ));
 }
 
 #[test]
@@ -122,8 +166,18 @@ fn a_given_material_takes_the_place_of_a_built_in_one() {
         &["materials.steel={young=1e9,poisson=0.1,density=1000}"],
     )
     .unwrap();
-    assert!(near(case.material("steel").unwrap().young, 1e9));
-    assert!(near(case.material("bearing steel").unwrap().young, 206e9));
+    assert!(near(
+        case.material("steel").unwrap().isotropic().unwrap().young,
+        1e9
+    ));
+    assert!(near(
+        case.material("bearing steel")
+            .unwrap()
+            .isotropic()
+            .unwrap()
+            .young,
+        206e9
+    ));
 }
 
 #[test]
@@ -460,13 +514,25 @@ fn a_command_names_the_table_that_it_lacks() {
 #[test]
 fn a_group_that_the_mesh_lacks_is_named_with_the_nearest() {
     let case = read(FULL, &[]).unwrap();
-    let all = ["case", "feet", "lower", "rim", "lid", "bore", "top"];
+    let all = [
+        "case",
+        "feet",
+        "lower",
+        "rim",
+        "lid",
+        "bore",
+        "top",
+        "lid seat",
+        "case seat",
+        "plug",
+    ];
     let groups: Vec<String> = all.iter().map(|&name| name.to_owned()).collect();
     case.check_groups(&groups).unwrap();
     for (missing, key) in [
         ("case", "housing.parts[0].group"),
         ("feet", "housing.supports[0].group"),
         ("lid", "housing.masses[0].group"),
+        ("plug", "housing.links[2].between"),
         ("bore", "ring.tie.group"),
         ("top", "sensors[0].group"),
     ] {

@@ -145,3 +145,52 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for LooseVisitor<T> {
 /// The table of a [`Loose`] value that takes none: whatever is in it, the value is refused as a table.
 #[derive(Debug, serde::Serialize, serde::Deserialize)]
 pub(super) struct NoTable {}
+
+/// A number, or three for the directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum OneOrThree {
+    One(f64),
+    Three([f64; 3]),
+}
+
+impl<'de> Deserialize<'de> for OneOrThree {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(OneOrThreeVisitor)
+    }
+}
+
+impl Serialize for OneOrThree {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::One(number) => to.serialize_f64(*number),
+            Self::Three(numbers) => numbers.serialize(to),
+        }
+    }
+}
+
+struct OneOrThreeVisitor;
+
+impl<'de> Visitor<'de> for OneOrThreeVisitor {
+    type Value = OneOrThree;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a number or an array of three")
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number as f64))
+    }
+
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<Self::Value, A::Error> {
+        let items = de::value::SeqAccessDeserializer::new(items);
+        <[f64; 3]>::deserialize(items).map(OneOrThree::Three)
+    }
+}

@@ -43,18 +43,7 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 20] = [
-    refused(
-        &["housing", "links"],
-        Extent::Key,
-        "mesh the parts as one body",
-    ),
-    refused(
-        &["housing", "integration"],
-        Extent::Word("4-point"),
-        "use integration = \"full\"",
-    ),
-    refused(&["housing", "linear"], Extent::Key, "leave the key out"),
+const UNSUPPORTED: [Unsupported; 17] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
@@ -199,15 +188,6 @@ mod tests {
 
     /// One argument for each entry of the table, and the key that the error names.
     const SAMPLES: [(&str, &str); UNSUPPORTED.len()] = [
-        (
-            "housing.links=[{between=['lid','body'],tie=true}]",
-            "housing.links",
-        ),
-        (
-            "housing.integration=4-point",
-            "housing.integration = \"4-point\"",
-        ),
-        ("housing.linear=plain", "housing.linear"),
         (
             "bearing.balls_inertia=quasi-static",
             "bearing.balls_inertia = \"quasi-static\"",

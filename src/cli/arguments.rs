@@ -7,9 +7,11 @@ use clap::{Args, Parser, Subcommand};
 
 use super::progress::Visibility;
 use crate::case::Case;
+use crate::units::LengthUnit;
 
 const EXAMPLES: &str = "\
 Examples:
+  plummer inspect meshes/ring_6_9.msh --length-unit mm
   plummer run examples/tadina2011/outer-dent.toml
   plummer modes examples/tadina2011/beam.toml --set ring.shear=true --out out/with-shear --json
 
@@ -21,6 +23,10 @@ Exit codes:
 const RUN_EXAMPLE: &str = "\
 Example: the dented bearing with a deeper dent, in a folder of its own
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper";
+
+const INSPECT_EXAMPLE: &str = "\
+Example: a solid housing drawn in millimetres
+  plummer inspect meshes/pedestal.msh --length-unit mm --density 2700";
 
 const MODES_EXAMPLE: &str = "\
 Example: the published frequencies with the consistent equations instead of the printed ones
@@ -47,6 +53,18 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
+    /// What a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
+    #[command(after_help = INSPECT_EXAMPLE)]
+    Inspect {
+        /// Mesh file (gmsh MSH 4.1 or 2.2)
+        mesh: PathBuf,
+        /// Unit of the mesh's coordinates: m, cm, mm, um or in (the file does not say)
+        #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
+        length_unit: Option<LengthUnit>,
+        /// Density in kg/m^3 for the mass (default: aluminium and steel)
+        #[arg(long, value_name = "RHO", value_parser = density)]
+        density: Option<f64>,
+    },
     /// Eigenfrequencies of housing, ring, or both coupled; checks the expected ones
     #[command(after_help = MODES_EXAMPLE)]
     Modes {
@@ -62,6 +80,7 @@ impl Command {
         match self {
             Self::Run { .. } => "run",
             Self::Modes { .. } => "modes",
+            Self::Inspect { .. } => "inspect",
         }
     }
 }
@@ -69,7 +88,7 @@ impl Command {
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
-    /// Folder for the results (default: out/ and the case file's name without ending)
+    /// Folder for the results (default: out/ and the case file's name without ending; inspect writes only if named)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
@@ -87,6 +106,16 @@ pub struct Options {
     /// Set a key of the case file, e.g. bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+}
+
+/// A density: positive and finite.
+fn density(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(density) if density > 0.0 && density.is_finite() => Ok(density),
+        _ => Err(format!(
+            "expected a number of kg/m^3 above 0, found \"{text}\""
+        )),
+    }
 }
 
 impl Options {
@@ -147,6 +176,8 @@ mod tests {
             "plummer rnu a.toml",
             "plummer run a.toml --threads 0",
             "plummer modes a.toml --fast",
+            "plummer inspect a.msh --length-unit feet",
+            "plummer inspect a.msh --density -1",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }
@@ -161,6 +192,7 @@ mod tests {
             "plummer --help",
             "plummer run --help",
             "plummer modes --help",
+            "plummer inspect --help",
         ] {
             let help = parse(words).unwrap_err().to_string();
             assert!(help.contains("Example"), "{words}");

@@ -154,7 +154,7 @@ mod tests {
             (
                 CliError::from(StageError::TieFrame),
                 2,
-                "error: ring.tie: only axis = [0, 0, 1] and zero_deg = [1, 0, 0] are supported for a plane housing; turn the mesh in gmsh\n",
+                "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
             ),
         ]
     }

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod failure;
+mod inspect;
 mod modes;
 mod outcome;
 mod output;
@@ -13,6 +14,7 @@ mod results;
 mod run;
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -51,10 +53,31 @@ pub fn main() -> ExitCode {
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
     let options = &arguments.options;
-    let (path, purpose) = match &arguments.command {
-        Command::Run { case } => (case, Purpose::Run),
-        Command::Modes { case } => (case, Purpose::Modes),
-    };
+    if let Some(threads) = options.threads {
+        // a pool that is already there stays: results do not depend on the number of threads
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.get())
+            .build_global();
+    }
+    let outcome = match &arguments.command {
+        Command::Run { case } => compute(case, Purpose::Run, arguments),
+        Command::Modes { case } => compute(case, Purpose::Modes, arguments),
+        Command::Inspect {
+            mesh,
+            length_unit,
+            density,
+        } => inspect::inspect(mesh, *length_unit, *density, options),
+    }?;
+    outcome.show(options, to)?;
+    match outcome.verdict {
+        Verdict::Good => Ok(()),
+        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
+    }
+}
+
+/// Reads a case and carries out what it is to be used for.
+fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outcome, CliError> {
+    let options = &arguments.options;
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
     OutputFolder::of(&case, options).claim(arguments.command.name(), options.force)?;
@@ -64,10 +87,5 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Purpose::Modes => modes::modes(&case, options, &progress),
     };
     progress.finish();
-    let outcome = outcome?;
-    outcome.show(options, to)?;
-    match outcome.verdict {
-        Verdict::Good => Ok(()),
-        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
-    }
+    outcome
 }

@@ -27,7 +27,7 @@ fn common(
     map.insert("set".to_owned(), json!(options.set));
     map.insert("wall_s".to_owned(), json!(wall_s));
     map.insert("stages_s".to_owned(), Value::Object(stages));
-    map.insert("threads".to_owned(), json!(1));
+    map.insert("threads".to_owned(), json!(rayon::current_num_threads()));
     map
 }
 

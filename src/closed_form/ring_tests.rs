@@ -14,6 +14,13 @@ fn free_ring_of_nafems_test_6() {
         assert_relative_eq!(computed, hz, max_relative = 3e-5);
     }
     assert!(thin_frequency_hz(1, 1.0, bending, mass).unwrap().abs() < f64::MIN_POSITIVE);
+    // out of the plane, nu 0.3: 51.849, 148.77, 286.98 Hz
+    let torsion = bending / 1.3;
+    let computed = |order| thin_out_of_plane_frequency_hz(order, 1.0, bending, torsion, mass);
+    for (order, hz) in [(2, 51.849), (3, 148.77), (4, 286.98)] {
+        assert_relative_eq!(computed(order).unwrap(), hz, max_relative = 3e-5);
+    }
+    assert!(computed(1).unwrap().abs() < f64::MIN_POSITIVE);
 }
 
 #[test]
@@ -136,4 +143,11 @@ fn properties_that_are_not_positive_are_named() {
     }
     let error = thin_frequency_hz(2, 1.0, 1.0, 0.0).unwrap_err();
     assert_eq!(error.to_string(), "mass per length = 0 must be positive");
+    for (torsion, mass, message) in [
+        (0.0, 1.0, "torsion stiffness = 0 must be positive"),
+        (1.0, -1.0, "mass per length = -1 must be positive"),
+    ] {
+        let error = thin_out_of_plane_frequency_hz(2, 1.0, 1.0, torsion, mass).unwrap_err();
+        assert_eq!(error.to_string(), message);
+    }
 }

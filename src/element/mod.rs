@@ -1,7 +1,7 @@
-//! Element matrices from coordinates: plane solids and curved beams.
+//! Element matrices from coordinates: plane and solid continua, and curved beams.
 
+pub mod continuum;
 pub mod curved_beam;
 mod error;
-pub mod plane;
 
 pub use error::ElementError;

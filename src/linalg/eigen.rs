@@ -1,6 +1,6 @@
 //! The lowest eigenpairs of a sparse symmetric problem, with a residual for each.
 
-use super::arpack::{Request, shift_invert};
+use super::complete::{BEYOND, basis_size, complete_pairs};
 use super::{
     DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, sparse_times_dense,
     symmetric_generalised_eigen,
@@ -8,13 +8,6 @@ use super::{
 
 /// Largest order that is solved densely: below it the dense solver is faster and needs no shift.
 const DENSE_LIMIT: usize = 60;
-
-/// Restarts after which the iteration gives up; modal problems need two to ten.
-const MAX_RESTARTS: usize = 300;
-
-/// Relative tolerance of the Ritz values. Eigenvalues converge with its square, and the residuals
-/// are verified afterwards; tolerance zero costs 2.7 times the solves for nothing.
-const TOLERANCE: f64 = 1e-10;
 
 /// Largest relative residual of a mode. Those of rigid modes are a ratio of round-off to the shift's
 /// term; a frequency's relative error is below the square of it.
@@ -62,27 +55,20 @@ pub fn lowest_eigenpairs(
             available: order,
         });
     }
-    let basis = (2 * count + 1).max(20);
-    let (values, vectors) = if order <= DENSE_LIMIT || basis > order {
+    let asked = count + BEYOND;
+    let (values, vectors) = if order <= DENSE_LIMIT || basis_size(asked) > order {
         dense_pairs(k, m, count)?
     } else {
-        let request = Request {
-            order,
-            count,
-            basis,
-            shift,
-            tolerance: TOLERANCE,
-            max_restarts: MAX_RESTARTS,
-        };
-        let pairs = shift_invert(
-            request,
-            |b, y| {
-                y.copy_from_slice(b);
-                factor.solve_vector(y)
+        complete_pairs(
+            k,
+            m,
+            factor,
+            EigenOptions {
+                count: asked,
+                shift,
             },
-            |x, y| multiply_into(m, x, y),
-        )?;
-        sorted(pairs.values, &pairs.vectors, order)
+        )?
+        .lowest(count)
     };
     let residuals = residuals(k, m, &values, &vectors, shift);
     let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
@@ -115,25 +101,6 @@ fn dense_pairs(
         spectrum.values[..count].to_vec(),
         spectrum.vectors.subcols(0, count).to_owned(),
     ))
-}
-
-fn sorted(values: Vec<f64>, columns: &[f64], order: usize) -> (Vec<f64>, DenseMatrix) {
-    let mut ranking: Vec<usize> = (0..values.len()).collect();
-    ranking.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let vectors = DenseMatrix::from_fn(order, values.len(), |row, column| {
-        columns[ranking[column] * order + row]
-    });
-    (
-        ranking.iter().map(|&place| values[place]).collect(),
-        vectors,
-    )
-}
-
-/// `y = A x` for a symmetric `A`: each entry of `y` is one dot product with a stored column.
-fn multiply_into(a: &SparseMatrix, x: &[f64], y: &mut [f64]) {
-    for (entry, column) in y.iter_mut().zip(a.outer_iterator()) {
-        *entry = column.iter().map(|(row, &value)| value * x[row]).sum();
-    }
 }
 
 fn residuals(
@@ -198,6 +165,40 @@ mod tests {
                 );
                 assert!(pairs.residuals[index] < 1e-9);
             }
+        }
+    }
+
+    /// Six equal chains beside each other: every eigenvalue six times, of which one vector sees one.
+    #[test]
+    fn repeated_eigenvalues_are_found_as_often_as_they_occur() {
+        let (copies, length) = (6, 60);
+        let (k, m) = chain(length);
+        let order = copies * length;
+        let beside = |one: &SparseMatrix| {
+            let mut all = TripletBuilder::new(order, order);
+            for copy in 0..copies {
+                for (&value, (row, column)) in one.iter() {
+                    all.add(copy * length + row, copy * length + column, value);
+                }
+            }
+            all.build()
+        };
+        let (k, m) = (beside(&k), beside(&m));
+        let factor = SparseCholesky::new(&k).expect("held at both ends");
+        for count in [6, 9, 12] {
+            let options = EigenOptions { count, shift: 0.0 };
+            let pairs = lowest_eigenpairs(&k, &m, &factor, options).expect("converges");
+            for (index, value) in pairs.values.iter().enumerate() {
+                let angle = (index / copies + 1) as f64 * std::f64::consts::PI / 61.0;
+                let exact = 4.0 * (0.5 * angle).sin().powi(2);
+                assert!(
+                    (value / exact - 1.0).abs() < 1e-11,
+                    "{count} {index} {value}"
+                );
+            }
+            let mass = sparse_times_dense(&m, &pairs.vectors);
+            let gram = pairs.vectors.transpose() * mass - DenseMatrix::identity(count, count);
+            assert!(gram.norm_max() < 1e-8, "{:e}", gram.norm_max());
         }
     }
 

@@ -53,6 +53,18 @@ pub enum LinalgError {
         /// Restarts made.
         restarts: usize,
     },
+    /// Modes that exist and were not found.
+    #[error(
+        "the eigenvalue iteration missed modes: {counted} lie below {below_hz:.6e} Hz, {found} were found; ask for a few more modes"
+    )]
+    MissingModes {
+        /// Frequency up to which was counted, Hz.
+        below_hz: f64,
+        /// Number of modes below it, from the inertia of `K - sigma M`.
+        counted: usize,
+        /// Number found.
+        found: usize,
+    },
     /// Modes that do not satisfy their equation.
     #[error(
         "mode {mode} leaves a relative residual of {residual:.3e} in its eigenvalue equation, more than {limit:.0e}: the matrices are too ill-conditioned"

@@ -8,9 +8,11 @@
 #[allow(unsafe_code)]
 mod arpack;
 mod cholesky;
+mod complete;
 mod dense;
 mod eigen;
 mod error;
+mod inertia;
 mod sparse;
 
 pub use cholesky::SparseCholesky;

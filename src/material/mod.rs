@@ -1,8 +1,12 @@
-//! Linear elastic, isotropic materials, and the sections of rings.
+//! Linear elastic materials, isotropic and orthotropic, and the sections of rings.
 
+mod elastic;
+mod orthotropic;
 mod section;
 
-pub use section::{BeamSection, Bond, RadiusRule, RingLayer, SectionError};
+pub use elastic::ElasticMaterial;
+pub use orthotropic::OrthotropicMaterial;
+pub use section::{BeamSection, Bond, OutOfPlaneSection, RadiusRule, RingLayer, SectionError};
 
 use thiserror::Error;
 
@@ -33,6 +37,35 @@ pub enum MaterialError {
         /// The value found.
         value: f64,
     },
+    /// Poisson's ratios of an orthotropic material that are in range each but not together.
+    #[error(
+        "the three Poisson's ratios do not go together: 1 - nu_xy^2 E_y/E_x - nu_yz^2 E_z/E_y - \
+         nu_xz^2 E_z/E_x - 2 nu_xy nu_yz nu_xz E_z/E_x must be positive, found {determinant}"
+    )]
+    Unstable {
+        /// The expression in the message.
+        determinant: f64,
+    },
+    /// A material axis without length, or not finite.
+    #[error("the material axis {axis} needs a direction, found ({x}, {y}, {z})",
+        x = vector[0], y = vector[1], z = vector[2])]
+    Axis {
+        /// Which axis.
+        axis: &'static str,
+        /// What was given, mesh coordinates.
+        vector: [f64; 3],
+    },
+    /// Two material axes in one direction.
+    #[error(
+        "the material axes x ({}, {}, {}) and y ({}, {}, {}) are parallel: two different directions are needed",
+        axis_x[0], axis_x[1], axis_x[2], towards_y[0], towards_y[1], towards_y[2]
+    )]
+    ParallelAxes {
+        /// The vector given for x, mesh coordinates.
+        axis_x: [f64; 3],
+        /// The vector given for y, mesh coordinates.
+        towards_y: [f64; 3],
+    },
 }
 
 impl Material {
@@ -60,6 +93,12 @@ impl Material {
     /// Shear modulus `G = E / (2 (1 + nu))`, Pa.
     pub fn shear_modulus(&self) -> f64 {
         self.young / (2.0 * (1.0 + self.poisson))
+    }
+
+    /// Lame's first constant `lambda = E nu / ((1 + nu)(1 - 2 nu))`, Pa.
+    pub fn lame_lambda(&self) -> f64 {
+        let nu = self.poisson;
+        self.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
 }
 

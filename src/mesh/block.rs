@@ -1,9 +1,11 @@
 //! Elements of one kind on one geometrical entity.
 
+use serde::Serialize;
+
 use super::ElementKind;
 
 /// A geometrical entity of the CAD model behind the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub struct Entity {
     /// 0 point, 1 curve, 2 surface, 3 volume.
     pub dimension: usize,
@@ -12,7 +14,7 @@ pub struct Entity {
 }
 
 /// Which element of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub struct ElementId {
     /// Index into the mesh's blocks.
     pub block: usize,
@@ -52,5 +54,11 @@ impl ElementBlock {
     /// Node indices of one element, if there is one of this index.
     pub fn element(&self, index: usize) -> Option<&[usize]> {
         self.elements().nth(index)
+    }
+
+    /// Node indices of an element that is known to exist.
+    pub(super) fn nodes_of(&self, index: usize) -> &[usize] {
+        let nodes = self.kind.nodes();
+        &self.connectivity[index * nodes..][..nodes]
     }
 }

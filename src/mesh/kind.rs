@@ -1,9 +1,11 @@
 //! Element kinds: what gmsh calls them and what they are made of.
 
+use serde::Serialize;
+
 /// Kind of a mesh element. Nodes are in gmsh's order.
 ///
 /// A further kind is a variant here and a row in the table of this file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum ElementKind {
     /// One node.
     Point,
@@ -19,6 +21,18 @@ pub enum ElementKind {
     Quad4,
     /// Second-order quadrilateral without a centre node: four corners, four edge middles.
     Quad8,
+    /// Tetrahedron, four nodes.
+    Tet4,
+    /// Second-order tetrahedron: four corners, six edge middles.
+    Tet10,
+    /// Hexahedron, eight nodes.
+    Hex8,
+    /// Second-order hexahedron without nodes on faces and inside: eight corners, twelve edge middles.
+    Hex20,
+    /// Wedge, six nodes; gmsh's word is prism.
+    Wedge6,
+    /// Second-order wedge without nodes on faces: six corners, nine edge middles; gmsh's word is prism.
+    Wedge15,
 }
 
 /// One row of the table: gmsh's element type number, name, dimension, order, nodes.
@@ -48,7 +62,7 @@ const fn row(
 }
 
 /// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
-static TABLE: [Row; 7] = [
+static TABLE: [Row; 13] = [
     row(ElementKind::Point, 15, "Point", [0, 1, 1]),
     row(ElementKind::Line2, 1, "Line2", [1, 1, 2]),
     row(ElementKind::Line3, 8, "Line3", [1, 2, 3]),
@@ -56,6 +70,12 @@ static TABLE: [Row; 7] = [
     row(ElementKind::Tri6, 9, "Tri6", [2, 2, 6]),
     row(ElementKind::Quad4, 3, "Quad4", [2, 1, 4]),
     row(ElementKind::Quad8, 16, "Quad8", [2, 2, 8]),
+    row(ElementKind::Tet4, 4, "Tet4", [3, 1, 4]),
+    row(ElementKind::Tet10, 11, "Tet10", [3, 2, 10]),
+    row(ElementKind::Hex8, 5, "Hex8", [3, 1, 8]),
+    row(ElementKind::Hex20, 17, "Hex20", [3, 2, 20]),
+    row(ElementKind::Wedge6, 6, "Wedge6", [3, 1, 6]),
+    row(ElementKind::Wedge15, 18, "Wedge15", [3, 2, 15]),
 ];
 
 impl ElementKind {
@@ -86,7 +106,7 @@ impl ElementKind {
         self.row().name
     }
 
-    /// 0 point, 1 line, 2 surface.
+    /// 0 point, 1 line, 2 surface, 3 volume.
     pub fn dimension(self) -> usize {
         self.row().dimension
     }
@@ -102,6 +122,9 @@ impl ElementKind {
     }
 }
 
+/// Highest element type number in gmsh 4.15 (`GmshDefines.h`).
+const LAST_GMSH_TYPE: i32 = 140;
+
 /// Name of a gmsh element type that the program does not read, and what to do about it.
 pub(super) struct Unsupported {
     pub(super) name: &'static str,
@@ -111,22 +134,18 @@ pub(super) struct Unsupported {
 /// What is known of an element type outside of the table.
 pub(super) fn unsupported(gmsh_type: i32) -> Unsupported {
     let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
-    let solid = "only plane elements are read";
+    let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
+                   Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
     let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
     let (name, advice) = match gmsh_type {
-        4 => ("Tet4", solid),
-        5 => ("Hex8", solid),
-        6 => ("Wedge6", solid),
-        7 => ("Pyramid5", solid),
+        7 => ("Pyramid5", pyramid),
         10 => ("Quad9", complete),
-        11 => ("Tet10", solid),
         12 => ("Hex27", complete),
         13 => ("Wedge18", complete),
-        14 => ("Pyramid14", complete),
-        17 => ("Hex20", solid),
-        18 => ("Wedge15", solid),
-        19 => ("Pyramid13", solid),
-        _ => ("of higher order or special purpose", order),
+        14 => ("Pyramid14", pyramid),
+        19 => ("Pyramid13", pyramid),
+        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
+        _ => ("unknown to gmsh", "is the file damaged?"),
     };
     Unsupported { name, advice }
 }

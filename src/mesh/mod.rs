@@ -6,11 +6,14 @@
 //! the mesh's own lists; gmsh's tags are kept beside for messages and for export.
 //!
 //! # Limitations
-//! MSH 4.1 only (2.2 and 4.0 are refused with gmsh's command for converting them); points, lines,
-//! triangles and quadrilaterals of first and second order; no partitioned meshes.
+//! MSH 4.1 and 2.2 only (others are refused with gmsh's command for converting them); elements of first and
+//! second order without nodes inside faces and volumes, no pyramids; no partitioned meshes.
 
 mod block;
+mod boundary;
 mod error;
+mod faces;
+mod format;
 mod gmsh;
 mod group;
 mod inventory;
@@ -19,10 +22,16 @@ mod kind;
 use std::path::PathBuf;
 
 pub use block::{ElementBlock, ElementId, Entity};
+pub use boundary::BoundaryFace;
 pub use error::MeshError;
+pub use faces::Face;
+pub use format::{MshFormat, MshVersion};
 pub use gmsh::{MshError, Place};
 pub use group::PhysicalGroup;
-pub use inventory::{BoundingBox, GroupSummary, Inventory, KindCount};
+pub use inventory::{
+    BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part,
+    UnusedNodes,
+};
 pub use kind::ElementKind;
 
 /// A checked mesh in metres.
@@ -36,6 +45,8 @@ pub struct Mesh {
     pub blocks: Vec<ElementBlock>,
     /// Physical groups, by dimension, then by tag.
     pub groups: Vec<PhysicalGroup>,
+    /// How the file was written.
+    pub format: MshFormat,
     /// The file that it was read from.
     pub source: PathBuf,
 }

@@ -1,5 +1,6 @@
 //! What can be wrong between a mesh and what is asked of it.
 
+use super::RingFrame;
 use crate::element::ElementError;
 use crate::mesh::MeshError;
 use thiserror::Error;
@@ -18,7 +19,7 @@ pub enum ModelError {
         /// gmsh's tag of the element.
         tag: u64,
         /// What is wrong with it.
-        source: ElementError,
+        source: Box<ElementError>,
     },
     /// A group of the wrong dimension.
     #[error(
@@ -50,9 +51,9 @@ pub enum ModelError {
         /// The part met second.
         second: String,
     },
-    /// Surface elements that no part names.
+    /// Elements of the housing that no part names.
     #[error(
-        "{path}: {count} of {total} surface elements belong to no part (the first is element {tag}); add their group to [housing] parts"
+        "{path}: {count} of {total} elements belong to no part (the first is element {tag}); add their group to [housing] parts"
     )]
     Unassigned {
         /// The mesh file.
@@ -80,8 +81,9 @@ pub enum ModelError {
     },
     /// A tie whose nodes are not where the ring is.
     #[error(
-        "the tie finds no nodes of group \"{group}\" ({path}) at the ring's outer radius {expected:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the centre ({x:e}, {y:e}) m; check length_unit, tie.centre and ring.outer_radius",
-        x = centre[0], y = centre[1]
+        "the tie finds no nodes of group \"{group}\" ({path}) at the ring's outer radius {expected:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
+        x = frame.centre()[0], y = frame.centre()[1], z = frame.centre()[2],
+        a = frame.axis()[0], b = frame.axis()[1], c = frame.axis()[2]
     )]
     TieRadius {
         /// The mesh file.
@@ -90,16 +92,114 @@ pub enum ModelError {
         group: String,
         /// Outer radius of the ring, m.
         expected: f64,
-        /// Smallest distance of the group's nodes from the centre, m.
+        /// Smallest distance of the group's nodes from the axis, m.
         nearest: f64,
         /// Largest distance, m.
         farthest: f64,
-        /// Centre of the ring, m.
-        centre: [f64; 2],
+        /// Where the ring sits.
+        frame: Box<RingFrame>,
+    },
+    /// A bore node that a link ties elsewhere.
+    #[error(
+        "{path}: node {tag} of the bore \"{bore}\" is tied to the ring and, by a link, to another part: keep the bore out of the linked surfaces"
+    )]
+    TiedTwice {
+        /// The mesh file.
+        path: String,
+        /// gmsh's tag of the node.
+        tag: u64,
+        /// Group of the ring's tie.
+        bore: String,
+    },
+    /// A link between bodies that do not touch.
+    #[error(
+        "{path}: no face of \"{}\" lies on \"{}\": expected two bodies that touch, or groups of the surfaces to be linked",
+        groups[0], groups[1]
+    )]
+    LinkApart {
+        /// The mesh file.
+        path: String,
+        /// The groups of the link.
+        groups: [String; 2],
+    },
+    /// A link that finds no surface near its nodes.
+    #[error(
+        "{path}: {count} of the {total} nodes of group \"{group}\" are too far from \"{to}\" to be tied to it (node {tag}: {distance:.3e} m, more than half a face): expected two surfaces that lie on each other, one within the other"
+    )]
+    TieGap {
+        /// The mesh file.
+        path: String,
+        /// The group whose nodes are tied.
+        group: String,
+        /// The surface that they are tied to.
+        to: String,
+        /// How many are too far.
+        count: usize,
+        /// Of how many.
+        total: usize,
+        /// gmsh's tag of the farthest.
+        tag: u64,
+        /// Its distance, m.
+        distance: f64,
+    },
+    /// A tied node on a face that other nodes are tied to.
+    #[error(
+        "{path}: node {tag} carries other nodes of the link from \"{group}\" to \"{to}\" or is tied twice: tie each surface once, or merge the nodes in gmsh"
+    )]
+    TieChain {
+        /// The mesh file.
+        path: String,
+        /// gmsh's tag of the node.
+        tag: u64,
+        /// The group whose nodes are tied.
+        group: String,
+        /// The surface that they are tied to.
+        to: String,
+    },
+    /// A ring of the plane with a solid housing, or the other way round.
+    #[error("{path}: a solid housing needs a ring in space, a plane one a ring in the plane")]
+    RingDimension {
+        /// The mesh file.
+        path: String,
+    },
+    /// A part whose material does not fit the model.
+    #[error("{path}: part \"{group}\": {source}")]
+    Part {
+        /// The mesh file.
+        path: String,
+        /// The part's group.
+        group: String,
+        /// What is wrong.
+        source: Box<ElementError>,
+    },
+    /// Solids with a plane model.
+    #[error("{path} is a mesh of solids: leave `housing.plane` out")]
+    PlaneForSolids {
+        /// The mesh file.
+        path: String,
+    },
+    /// A plane mesh without a plane model.
+    #[error(
+        "{path} is a mesh of surfaces: expected `housing.plane = {{ assumption = \"stress\", thickness = ... }}` (or mesh the volume in gmsh and save it)"
+    )]
+    PlaneMissing {
+        /// The mesh file.
+        path: String,
+    },
+    /// The axis of the bearing is not across a plane housing.
+    #[error(
+        "{path} is a plane mesh in x and y: expected a tie along the axis [0, 0, 1] or [0, 0, -1], found [{x}, {y}, {z}]",
+        x = axis[0], y = axis[1], z = axis[2]
+    )]
+    AxisInPlane {
+        /// The mesh file.
+        path: String,
+        /// The axis found.
+        axis: [f64; 3],
     },
     /// A tied node that is also fixed.
     #[error(
-        "{path}: node {tag} is tied to the ring by group \"{tied}\" and fixed by group \"{fixed}\": a node can be one or the other"
+        "{path}: node {tag} is tied by group \"{tied}\" and fixed by group \"{fixed}\": a node can be one or the other"
     )]
     TiedAndFixed {
         /// The mesh file.

@@ -1,52 +1,79 @@
-//! A plane housing: mesh, materials, supports, degrees of freedom. Node n has the displacements
-//! 2n (x) and 2n + 1 (y).
+//! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
+//! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::ModelError;
-use super::spread::shares;
-use super::support::{Constraint, HousingSupport, PointMass, SupportShare};
-use crate::element::plane::{PlaneKind, PlaneProperties};
-use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
+use super::elements::{HousingElements, highest_dimension};
+use super::link::TiedNodes;
+use super::support::{HousingSupport, Link, PointMass};
+use super::{ModelError, RingFrame};
+use crate::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
+use crate::material::ElasticMaterial;
+use crate::mesh::{Mesh, PhysicalGroup};
+use nalgebra::DMatrix;
 
-/// Properties of the elements of one group.
+/// A group of elements and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PartProperties {
+pub struct HousingPart {
     /// The group.
     pub group: String,
-    /// Material, plane assumption, thickness.
-    pub properties: PlaneProperties,
+    /// Its material.
+    pub material: ElasticMaterial,
 }
 
-/// One element, ready for its matrices.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlaneElement {
-    /// gmsh's tag, for messages.
-    pub tag: u64,
-    /// Its kind.
-    pub kind: PlaneKind,
-    /// Node indices.
-    pub nodes: Vec<usize>,
-    /// Index into the model's parts.
-    pub part: usize,
-}
-
-/// Spring to the ground at one node: `f = -matrix u`.
+/// How a plane mesh stands for a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct NodeSpring {
-    pub node: usize,
-    pub matrix: [[f64; 2]; 2],
+pub struct PlaneModel {
+    /// What vanishes across it.
+    pub assumption: PlaneAssumption,
+    /// Thickness, m, > 0.
+    pub thickness: f64,
 }
 
-/// A housing with everything that its matrices need. Coordinates are taken from the ring's centre.
+/// Everything that a housing is beside its mesh.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HousingDescription {
+    /// What it is made of; every element of the highest dimension belongs to one part.
+    pub parts: Vec<HousingPart>,
+    /// `Some` for a plane mesh, `None` for a solid one.
+    pub plane: Option<PlaneModel>,
+    /// How element stiffness is formulated.
+    pub formulation: Formulation,
+    /// What holds it.
+    pub supports: Vec<HousingSupport>,
+    /// Masses without size.
+    pub masses: Vec<PointMass>,
+    /// Connections between its groups.
+    pub links: Vec<Link>,
+    /// Where the bearing sits.
+    pub frame: RingFrame,
+}
+
+/// A symmetric matrix on some nodes: springs, or the share of a point mass.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NodalMatrix {
+    pub nodes: Vec<usize>,
+    pub matrix: DMatrix<f64>,
+}
+
+/// A housing with everything that its matrices need.
 #[derive(Debug, Clone)]
 pub struct HousingModel {
-    /// Coordinates of all mesh nodes from the ring's centre, m.
-    pub(crate) coordinates: Vec<[f64; 2]>,
-    pub(crate) elements: Vec<PlaneElement>,
-    pub(crate) parts: Vec<PartProperties>,
-    pub(crate) springs: Vec<NodeSpring>,
-    pub(crate) masses: Vec<(usize, f64)>,
+    /// Displacement components a node, 2 or 3.
+    pub(crate) dimension: usize,
+    pub(crate) frame: RingFrame,
+    /// Coordinates of all mesh nodes in the mesh's axes, m.
+    pub(crate) coordinates: Vec<[f64; 3]>,
+    pub(crate) elements: HousingElements,
+    /// Properties of the parts, in the order asked for.
+    pub(crate) properties: Vec<ContinuumProperties>,
+    pub(crate) formulation: Formulation,
+    /// Springs: d rows a node.
+    pub(crate) springs: Vec<NodalMatrix>,
+    /// Point masses: one row a node.
+    pub(crate) masses: Vec<NodalMatrix>,
     /// Fixed components, with the index of the support that fixes them.
-    pub(crate) fixed: Vec<[Option<usize>; 2]>,
+    pub(crate) fixed: Vec<[Option<usize>; 3]>,
+    /// Nodes that a link ties.
+    pub(crate) tied: TiedNodes,
     /// Nodes that an element uses; the others have no degrees of freedom.
     pub(crate) used: Vec<bool>,
     pub(crate) supports: Vec<HousingSupport>,
@@ -56,39 +83,47 @@ pub struct HousingModel {
 }
 
 impl HousingModel {
-    /// Builds the model of a plane mesh; `centre` is the ring's, in the mesh's own axes, m.
+    /// Builds the model of a mesh.
     ///
     /// # Errors
-    /// [`ModelError`] for groups that are missing or of the wrong kind, elements in no part or in
-    /// two, a mesh that is not plane, and supports or masses that would hang on nothing.
-    pub fn new(
-        mesh: &Mesh,
-        parts: Vec<PartProperties>,
-        supports: Vec<HousingSupport>,
-        masses: &[PointMass],
-        centre: [f64; 2],
-    ) -> Result<Self, ModelError> {
+    /// [`ModelError`] for groups that are missing or of the wrong kind, elements in no part or in two, a
+    /// plane housing that is not plane, and supports, masses or links that would hang on nothing.
+    pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
         let path = mesh.source.display().to_string();
-        check_plane(mesh, &path)?;
-        let elements = assign_parts(mesh, &parts, &path)?;
+        let dimension = highest_dimension(mesh);
+        let HousingDescription {
+            parts,
+            plane,
+            formulation,
+            supports,
+            masses,
+            links,
+            frame,
+        } = description;
+        check_plane(mesh, dimension, plane, &frame, &path)?;
+        let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
+        let elements = HousingElements::of_parts(mesh, &groups, &path)?;
+        let properties = parts
+            .iter()
+            .map(|part| properties(part, plane, &path))
+            .collect::<Result<Vec<_>, _>>()?;
         let mut used = vec![false; mesh.nodes.len()];
-        for element in &elements {
-            for &node in &element.nodes {
+        for element in elements.iter() {
+            for &node in elements.nodes(element) {
                 used[node] = true;
             }
         }
-        let coordinates = mesh
-            .nodes
-            .iter()
-            .map(|node| [node[0] - centre[0], node[1] - centre[1]])
-            .collect();
         let mut model = Self {
-            coordinates,
+            dimension,
+            frame,
+            coordinates: mesh.nodes.clone(),
             elements,
-            parts,
+            properties,
+            formulation,
             springs: Vec::new(),
             masses: Vec::new(),
-            fixed: vec![[None; 2]; mesh.nodes.len()],
+            fixed: vec![[None; 3]; mesh.nodes.len()],
+            tied: TiedNodes::new(),
             used,
             supports,
             path,
@@ -97,28 +132,43 @@ impl HousingModel {
         for index in 0..model.supports.len() {
             model.attach_support(mesh, index)?;
         }
-        for mass in masses {
-            let group = model.group_on_housing(mesh, &mass.group, "the mass")?;
-            for (node, share) in shares(mesh, group, &model.used)? {
-                model.masses.push((node, share * mass.mass));
-            }
+        for mass in &masses {
+            model.attach_mass(mesh, mass)?;
+        }
+        for link in &links {
+            model.attach_link(mesh, link)?;
         }
         Ok(model)
+    }
+
+    /// Displacement components a node: 2 in the plane, 3 in space.
+    pub fn dimension(&self) -> usize {
+        self.dimension
     }
 
     /// Number of degrees of freedom, those of unused nodes included (they stay out of every
     /// partition).
     pub fn dof(&self) -> usize {
-        2 * self.coordinates.len()
+        self.dimension * self.coordinates.len()
     }
 
-    /// Coordinates of a node from the ring's centre, m.
-    pub fn coordinates(&self) -> &[[f64; 2]] {
+    /// Where the bearing sits.
+    pub fn frame(&self) -> &RingFrame {
+        &self.frame
+    }
+
+    /// Coordinates of the nodes in the mesh's axes, m.
+    pub fn coordinates(&self) -> &[[f64; 3]] {
         &self.coordinates
     }
 
+    /// Coordinates of a node in the bearing's frame, m.
+    pub fn ring_coordinates(&self, node: usize) -> [f64; 3] {
+        self.frame.point(self.coordinates[node])
+    }
+
     /// The elements.
-    pub fn elements(&self) -> &[PlaneElement] {
+    pub fn elements(&self) -> &HousingElements {
         &self.elements
     }
 
@@ -127,15 +177,23 @@ impl HousingModel {
         self.used[node]
     }
 
-    /// Nodes with a spring to the ground.
-    pub fn spring_nodes(&self) -> impl Iterator<Item = usize> + '_ {
-        self.springs.iter().map(|spring| spring.node)
+    /// Nodes with a spring, each once.
+    pub fn spring_nodes(&self) -> Vec<usize> {
+        let mut nodes: Vec<usize> = self.springs.iter().flat_map(|s| s.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
     }
 
-    /// Degrees of freedom that are neither fixed nor without an element.
+    /// Degrees of freedom that are neither fixed nor tied nor without an element.
     pub fn free_dofs(&self) -> Vec<usize> {
-        (0..self.dof())
-            .filter(|&dof| self.used[dof / 2] && self.fixed[dof / 2][dof % 2].is_none())
+        let d = self.dimension;
+        let moves = |node: &usize| self.used[*node] && !self.tied.contains_key(node);
+        (0..self.coordinates.len())
+            .filter(moves)
+            .flat_map(|node| (0..d).map(move |component| (node, component)))
+            .filter(|&(node, component)| self.fixed[node][component].is_none())
+            .map(|(node, component)| d * node + component)
             .collect()
     }
 
@@ -160,134 +218,61 @@ impl HousingModel {
             })
         }
     }
-
-    fn attach_support(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
-        let support = self.supports[index].clone();
-        let group = self.group_on_housing(mesh, &support.group, "the support")?;
-        let carried = match support.share {
-            SupportShare::PerNode => group.nodes.iter().map(|&node| (node, 1.0)).collect(),
-            SupportShare::PerGroup => shares(mesh, group, &self.used)?,
-        };
-        for (node, share) in carried.into_iter().filter(|&(node, _)| self.used[node]) {
-            let matrix = match support.constraint {
-                Constraint::Fixed(components) => {
-                    for (slot, fixed) in self.fixed[node].iter_mut().zip(components) {
-                        if fixed {
-                            *slot = Some(index);
-                        }
-                    }
-                    continue;
-                }
-                Constraint::Spring([x, y]) => [[share * x, 0.0], [0.0, share * y]],
-                Constraint::Radial(stiffness) => {
-                    let [x, y] = self.coordinates[node];
-                    let scale = share * stiffness / (x * x + y * y).max(f64::MIN_POSITIVE);
-                    [
-                        [scale * x * x, scale * x * y],
-                        [scale * x * y, scale * y * y],
-                    ]
-                }
-            };
-            self.springs.push(NodeSpring { node, matrix });
-        }
-        Ok(())
-    }
 }
 
-fn check_plane(mesh: &Mesh, path: &str) -> Result<(), ModelError> {
+fn properties(
+    part: &HousingPart,
+    plane: Option<PlaneModel>,
+    path: &str,
+) -> Result<ContinuumProperties, ModelError> {
+    let found = match plane {
+        None => Ok(ContinuumProperties::solid(&part.material)),
+        Some(plane) => {
+            ContinuumProperties::plane(&part.material, plane.assumption, plane.thickness)
+        }
+    };
+    found.map_err(|source| ModelError::Part {
+        path: path.to_owned(),
+        group: part.group.clone(),
+        source: Box::new(source),
+    })
+}
+
+/// A plane mesh has a plane model and lies in a plane z = const, a solid one has none.
+fn check_plane(
+    mesh: &Mesh,
+    dimension: usize,
+    plane: Option<PlaneModel>,
+    frame: &RingFrame,
+    path: &str,
+) -> Result<(), ModelError> {
+    let path = || path.to_owned();
+    match (dimension, plane) {
+        (3, None) => return Ok(()),
+        (3, Some(_)) => return Err(ModelError::PlaneForSolids { path: path() }),
+        (_, None) => return Err(ModelError::PlaneMissing { path: path() }),
+        _ => {}
+    }
+    let [x, y, z] = frame.axis();
+    if x.hypot(y) > 1e-9 * z.abs() {
+        return Err(ModelError::AxisInPlane {
+            path: path(),
+            axis: [x, y, z],
+        });
+    }
     let first = mesh.nodes.first().map_or(0.0, |node| node[2]);
     let size = mesh.nodes.iter().fold(0.0_f64, |size, node| {
         size.max(node[0].abs()).max(node[1].abs())
     });
     // gmsh writes 16 digits: what is off by more is meant
-    let tolerance = 1e-9 * size;
-    match mesh
-        .nodes
-        .iter()
-        .position(|node| (node[2] - first).abs() > tolerance)
-    {
+    let off = |node: &[f64; 3]| (node[2] - first).abs() > 1e-9 * size;
+    match mesh.nodes.iter().position(off) {
         Some(index) => Err(ModelError::NotPlane {
-            path: path.to_owned(),
+            path: path(),
             tag: mesh.node_tags[index],
             z: mesh.nodes[index][2],
             first,
         }),
         None => Ok(()),
-    }
-}
-
-fn assign_parts(
-    mesh: &Mesh,
-    parts: &[PartProperties],
-    path: &str,
-) -> Result<Vec<PlaneElement>, ModelError> {
-    let mut owner: Vec<Vec<Option<usize>>> = mesh
-        .blocks
-        .iter()
-        .map(|block| vec![None; block.len()])
-        .collect();
-    for (part, properties) in parts.iter().enumerate() {
-        let group = mesh.group(&properties.group)?;
-        if group.dimension != 2 {
-            return Err(ModelError::GroupDimension {
-                path: path.to_owned(),
-                group: properties.group.clone(),
-                found: ["points", "curves", "surfaces", "volumes"][group.dimension.min(3)],
-                expected: "surfaces",
-                purpose: "a part of a plane housing",
-            });
-        }
-        for element in &group.elements {
-            let slot = &mut owner[element.block][element.index];
-            if let Some(first) = slot.filter(|&first| first != part) {
-                return Err(ModelError::TwoParts {
-                    path: path.to_owned(),
-                    tag: mesh.blocks[element.block].tags[element.index],
-                    first: parts[first].group.clone(),
-                    second: properties.group.clone(),
-                });
-            }
-            *slot = Some(part);
-        }
-    }
-    let mut elements = Vec::new();
-    let (mut unassigned, mut first_tag) = (0, 0);
-    for (block, owners) in mesh.blocks.iter().zip(&owner) {
-        let Some(kind) = plane_kind(block.kind) else {
-            continue;
-        };
-        for ((nodes, &tag), owner) in block.elements().zip(&block.tags).zip(owners) {
-            match owner {
-                Some(part) => elements.push(PlaneElement {
-                    tag,
-                    kind,
-                    nodes: nodes.to_vec(),
-                    part: *part,
-                }),
-                None => {
-                    first_tag = if unassigned == 0 { tag } else { first_tag };
-                    unassigned += 1;
-                }
-            }
-        }
-    }
-    if unassigned > 0 {
-        return Err(ModelError::Unassigned {
-            path: path.to_owned(),
-            count: unassigned,
-            total: unassigned + elements.len(),
-            tag: first_tag,
-        });
-    }
-    Ok(elements)
-}
-
-fn plane_kind(kind: ElementKind) -> Option<PlaneKind> {
-    match kind {
-        ElementKind::Tri3 => Some(PlaneKind::Tri3),
-        ElementKind::Tri6 => Some(PlaneKind::Tri6),
-        ElementKind::Quad4 => Some(PlaneKind::Quad4),
-        ElementKind::Quad8 => Some(PlaneKind::Quad8),
-        ElementKind::Point | ElementKind::Line2 | ElementKind::Line3 => None,
     }
 }

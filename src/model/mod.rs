@@ -1,17 +1,31 @@
-//! Mesh and properties with degrees of freedom: the ring, the housing, their supports, and the tie
-//! between them.
+//! Mesh and properties with degrees of freedom: the ring, the housing, its supports and links, and the tie
+//! between ring and housing.
 
+mod attach;
+mod domain;
+mod elements;
 mod error;
+mod frame;
 mod housing;
+mod joint;
+mod link;
 mod partition;
 mod ring;
 mod spread;
 mod support;
+mod surface;
 mod tie;
 
+pub(crate) use elements::continuum_kind;
+pub use elements::{HousingElement, HousingElements};
 pub use error::ModelError;
-pub use housing::{HousingModel, PartProperties, PlaneElement};
+pub use frame::RingFrame;
+pub(crate) use housing::NodalMatrix;
+pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub use partition::HousingPartition;
-pub use ring::{Ring, RingError, RingRows, RingSupport, SpringShare};
-pub use support::{Constraint, HousingSupport, PointMass, SupportShare};
+pub use ring::{Ring, RingError, RingRows, RingSpaceRows, RingSupport, SpringShare};
+pub(crate) use spread::surface_kind;
+pub use support::{
+    Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare,
+};
 pub use tie::{Fit, RingTie};

@@ -1,57 +1,106 @@
-//! How much of a group's stiffness or mass each of its nodes carries.
+//! Stiffness and mass that a group shares, spread over its elements.
+//!
+//! What is spread evenly over a surface S acts through `int N_a N_b dS / S`: symmetric, positive, the same for
+//! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
-use crate::element::plane::{EdgeKind, edge_weights};
+use super::elements::continuum_kind;
+use crate::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
 use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
+use nalgebra::DMatrix;
 
-/// Nodes of a group that the housing uses, with their shares; the shares add up to 1.
-///
-/// Points share equally. Curves share by length with the consistent weights of their edges
-/// (integral of the shape functions). Surfaces share equally: plane housings have no load on faces.
+/// Nodes with the symmetric matrix of shares between them [nodes x nodes]; the entries of all blocks of a
+/// group add up to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Share {
+    pub nodes: Vec<usize>,
+    pub matrix: DMatrix<f64>,
+}
+
+/// Shares of the nodes and elements of a group that the housing uses.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an edge without length.
+/// [`ModelError::Element`] for an element without length, area or volume.
 pub(super) fn shares(
     mesh: &Mesh,
     group: &PhysicalGroup,
     used: &[bool],
-) -> Result<Vec<(usize, f64)>, ModelError> {
-    if group.dimension != 1 {
-        let nodes: Vec<usize> = group.nodes.iter().copied().filter(|&n| used[n]).collect();
-        let share = 1.0 / nodes.len() as f64;
-        return Ok(nodes.into_iter().map(|node| (node, share)).collect());
-    }
-    let mut weights = vec![0.0; mesh.nodes.len()];
-    for element in &group.elements {
-        let block = &mesh.blocks[element.block];
-        let kind = match block.kind {
-            ElementKind::Line2 => EdgeKind::Line2,
-            ElementKind::Line3 => EdgeKind::Line3,
-            _ => continue,
+) -> Result<Vec<Share>, ModelError> {
+    let elements = group.elements.iter().filter_map(|id| {
+        let block = mesh.blocks.get(id.block)?;
+        let nodes = block.element(id.index)?;
+        let on_housing = nodes.iter().all(|&node| used[node]);
+        on_housing.then_some((block.kind, nodes, block.tags[id.index]))
+    });
+    spread(mesh, elements).map(|(shares, _)| shares)
+}
+
+/// Shares of elements given by kind, nodes and tag, and their length, area or volume together; points share equally
+/// and have none.
+///
+/// # Errors
+/// [`ModelError::Element`] for an element without length, area or volume.
+pub(super) fn spread<'a>(
+    mesh: &Mesh,
+    elements: impl Iterator<Item = (ElementKind, &'a [usize], u64)>,
+) -> Result<(Vec<Share>, f64), ModelError> {
+    let mut found = Vec::new();
+    let mut total = 0.0;
+    for (kind, nodes, tag) in elements {
+        let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
+        let matrix = match Spread::of(kind) {
+            Some(Spread::Surface(kind)) => surface_matrix(kind, &coordinates),
+            Some(Spread::Volume(kind)) => measure_matrix(kind, &coordinates),
+            None => Ok(DMatrix::from_element(1, 1, 1.0)),
         };
-        let Some(nodes) = block.element(element.index) else {
-            continue;
-        };
-        let coordinates: Vec<[f64; 2]> = nodes
-            .iter()
-            .map(|&node| [mesh.nodes[node][0], mesh.nodes[node][1]])
-            .collect();
-        let edge = edge_weights(kind, &coordinates).map_err(|source| ModelError::Element {
+        let matrix = matrix.map_err(|source| ModelError::Element {
             path: mesh.source.display().to_string(),
-            tag: block.tags[element.index],
-            source,
+            tag,
+            source: Box::new(source),
         })?;
-        for (&node, weight) in nodes.iter().zip(edge) {
-            if used[node] {
-                weights[node] += weight;
-            }
+        total += matrix.sum();
+        let nodes = nodes.to_vec();
+        found.push(Share { nodes, matrix });
+    }
+    for share in &mut found {
+        share.matrix /= total;
+    }
+    Ok((found, total))
+}
+
+enum Spread {
+    Surface(SurfaceKind),
+    Volume(ContinuumKind),
+}
+
+impl Spread {
+    fn of(kind: ElementKind) -> Option<Self> {
+        match surface_kind(kind) {
+            Some(kind) => Some(Self::Surface(kind)),
+            None => continuum_kind(kind).map(Self::Volume),
         }
     }
-    let total: f64 = weights.iter().sum();
-    Ok(group
-        .nodes
-        .iter()
-        .filter(|&&node| used[node])
-        .map(|&node| (node, weights[node] / total))
-        .collect())
+}
+
+/// The curve or surface element of a mesh element; `None` for points and volumes.
+pub(crate) fn surface_kind(kind: ElementKind) -> Option<SurfaceKind> {
+    match kind {
+        ElementKind::Line2 => Some(SurfaceKind::Line2),
+        ElementKind::Line3 => Some(SurfaceKind::Line3),
+        ElementKind::Tri3 => Some(SurfaceKind::Tri3),
+        ElementKind::Tri6 => Some(SurfaceKind::Tri6),
+        ElementKind::Quad4 => Some(SurfaceKind::Quad4),
+        ElementKind::Quad8 => Some(SurfaceKind::Quad8),
+        _ => None,
+    }
+}
+
+impl Share {
+    /// A node that carries everything by itself.
+    pub fn of_node(node: usize) -> Self {
+        Self {
+            nodes: vec![node],
+            matrix: DMatrix::from_element(1, 1, 1.0),
+        }
+    }
 }

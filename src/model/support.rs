@@ -1,13 +1,20 @@
-//! Supports and point masses of a housing, as they are asked for.
+//! Supports, point masses and links of a housing, as they are asked for.
 
 /// What a support does to the nodes of its group.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Constraint {
-    /// Displacement components (x, y) that are held at zero.
-    Fixed([bool; 2]),
-    /// Springs to the ground in x and in y, N/m.
-    Spring([f64; 2]),
-    /// Springs to the ground along the radius from the ring's centre, N/m.
+    /// Displacement components (x, y, z) of the mesh's axes that are held at zero.
+    Fixed([bool; 3]),
+    /// Springs to the ground.
+    Spring(SpringStiffness),
+}
+
+/// Stiffness of a spring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpringStiffness {
+    /// Along the mesh's axes x, y, z, N/m.
+    Global([f64; 3]),
+    /// Along the radius from the bearing's axis, N/m.
     Radial(f64),
 }
 
@@ -16,7 +23,7 @@ pub enum Constraint {
 pub enum SupportShare {
     /// Each node carries the given stiffness: depends on the mesh.
     PerNode,
-    /// The group carries it, spread by length (curves) or equally (points).
+    /// The group carries it, spread by volume, area or length, equally over points.
     PerGroup,
 }
 
@@ -38,4 +45,23 @@ pub struct PointMass {
     pub group: String,
     /// Its mass, kg, > 0.
     pub mass: f64,
+}
+
+/// A connection between two groups of a housing. Nodes of one are connected to the nearest points of the other, so
+/// the meshes need not match.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Springs connect the nodes of the first to points of the second.
+    pub between: [String; 2],
+    /// How.
+    pub connection: Connection,
+}
+
+/// How two groups are connected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Connection {
+    /// By springs.
+    Spring(SpringStiffness, SupportShare),
+    /// Two surfaces move as one: the nodes of the finer follow the coarser.
+    Tie,
 }

@@ -1,14 +1,21 @@
 //! The tie of a housing's bore to the ring's own interpolation.
 //!
-//! A bore node at angle theta and radius r moves with the ring's section there,
+//! A bore node at angle theta and radius r moves with the ring's section there. In the plane,
 //!
 //! ```text
 //! u_r = w(theta)      u_t = u(theta) + (r - R_C) theta_z(theta)      bonded
 //! u_r = w(theta)      u_t free                                       sliding
 //! ```
 //!
-//! Each node takes the ring's displacement at its own angle and its own radius, so that no mesh has
-//! to match and rigid motions of ring and housing are one and the same.
+//! in space with the section's displacement and rotation `omega` about its centroid x_C,
+//!
+//! ```text
+//! u = u_C(theta) + omega(theta) x (x - x_C)                          bonded
+//! u_r of it           u_t, u_z free                                  sliding
+//! ```
+//!
+//! Each node takes the ring's displacement at its own angle, radius and axial place, so that no mesh has
+//! to match and rigid motions of ring and housing are one and the same, three or six.
 
 use super::{HousingModel, HousingPartition, ModelError, Ring};
 use crate::linalg::{SparseMatrix, TripletBuilder};
@@ -21,19 +28,19 @@ const RADIUS_TOLERANCE: f64 = 0.01;
 /// Whether the bore sticks to the ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fit {
-    /// Both displacement components follow the ring.
+    /// All displacement components follow the ring.
     Bonded,
-    /// The radial one follows, the tangential one is free.
+    /// The radial one follows, the others are free.
     Sliding,
 }
 
 /// A tie, ready to partition the housing's degrees of freedom.
 ///
-/// With a sliding fit the bore nodes' displacements are (radial, tangential) instead of (x, y).
+/// With a sliding fit the bore nodes' displacements are (radial, tangential, axial) instead of (x, y, z).
 #[derive(Debug, Clone)]
 pub struct RingTie {
     partition: HousingPartition,
-    /// Turns the partition's displacements to (x, y): `u = rotation u'` [dof x dof].
+    /// Turns the partition's displacements to the mesh's axes: `u = rotation u'` [dof x dof].
     rotation: Option<SparseMatrix>,
 }
 
@@ -42,7 +49,8 @@ impl RingTie {
     ///
     /// # Errors
     /// [`ModelError::TieRadius`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
-    /// and what finding the group reports.
+    /// [`ModelError::TiedTwice`], [`ModelError::RingDimension`] for a plane ring in a solid housing or the
+    /// other way round, and what finding the group reports.
     pub fn new(
         mesh: &Mesh,
         housing: &HousingModel,
@@ -51,36 +59,36 @@ impl RingTie {
         outer_radius: f64,
         fit: Fit,
     ) -> Result<Self, ModelError> {
+        if ring.is_in_space() != (housing.dimension == 3) {
+            return Err(ModelError::RingDimension {
+                path: housing.path.clone(),
+            });
+        }
         let bore = housing.group_on_housing(mesh, group, "the tie")?;
-        let nodes: Vec<usize> = bore
-            .nodes
-            .iter()
-            .copied()
-            .filter(|&node| housing.used[node])
-            .collect();
-        check_radius(mesh, housing, group, &nodes, outer_radius)?;
-        check_fixed(housing, group, &nodes)?;
-        let driven: Vec<usize> = nodes
-            .iter()
-            .flat_map(|&node| match fit {
-                Fit::Bonded => vec![2 * node, 2 * node + 1],
-                Fit::Sliding => vec![2 * node],
-            })
-            .collect();
-        let mut tie = TripletBuilder::new(driven.len(), ring.dof());
-        for (index, &node) in nodes.iter().enumerate() {
-            let [x, y] = housing.coordinates[node];
-            let (radius, angle) = (x.hypot(y), y.atan2(x));
-            let rows = ring.rows_at(angle);
-            let tangential = rows.tangential_at(radius - ring.section().radius);
-            let (sin, cos) = angle.sin_cos();
-            for ((dof, w), u) in rows.dofs.into_iter().zip(rows.radial).zip(tangential) {
-                match fit {
-                    Fit::Bonded => {
-                        tie.add(2 * index, dof, w * cos - u * sin);
-                        tie.add(2 * index + 1, dof, w * sin + u * cos);
-                    }
-                    Fit::Sliding => tie.add(index, dof, w),
+        let on_housing = |node: &usize| housing.used[*node];
+        let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
+        check_radius(housing, group, &nodes, outer_radius)?;
+        check_free(housing, group, &nodes)?;
+        let d = housing.dimension;
+        let components = match fit {
+            Fit::Bonded => d,
+            Fit::Sliding => 1,
+        };
+        let mut driven = Vec::with_capacity(components * nodes.len());
+        let mut tie = TripletBuilder::new(components * nodes.len(), ring.dof());
+        for &node in &nodes {
+            let polar = section_rows(housing, ring, node);
+            let axes = housing.frame.polar_axes(housing.coordinates[node]);
+            for component in 0..components {
+                let along = axes.map(|axis| axis[component]);
+                let row = driven.len();
+                driven.push(d * node + component);
+                for (dof, moves) in &polar {
+                    let factor = match fit {
+                        Fit::Bonded => (0..3).map(|k| moves[k] * along[k]).sum(),
+                        Fit::Sliding => moves[0],
+                    };
+                    tie.add(row, *dof, factor);
                 }
             }
         }
@@ -88,11 +96,8 @@ impl RingTie {
         for &dof in &driven {
             is_driven[dof] = true;
         }
-        let interior = housing
-            .free_dofs()
-            .into_iter()
-            .filter(|&dof| !is_driven[dof])
-            .collect();
+        let free = housing.free_dofs().into_iter();
+        let interior = free.filter(|&dof| !is_driven[dof]).collect();
         Ok(Self {
             partition: HousingPartition {
                 driven,
@@ -108,93 +113,130 @@ impl RingTie {
         &self.partition
     }
 
-    /// Matrix that turns the partition's displacements to (x, y), if they are not (x, y) already.
+    /// Matrix that turns the partition's displacements to the mesh's axes, if they are not along them already.
     pub fn rotation(&self) -> Option<&SparseMatrix> {
         self.rotation.as_ref()
     }
 
     /// The row of a displacement component at a node, in the partition's displacements:
-    /// pairs (degree of freedom, factor).
-    pub fn displacement_row(&self, node: usize, direction: [f64; 2]) -> Vec<(usize, f64)> {
-        let components = [2 * node, 2 * node + 1];
-        match &self.rotation {
-            None => components.into_iter().zip(direction).collect(),
-            Some(rotation) => components
-                .into_iter()
-                .map(|column| {
-                    let factor = components
-                        .into_iter()
-                        .zip(direction)
-                        .map(|(row, part)| part * rotation.get(row, column).unwrap_or(&0.0))
-                        .sum();
-                    (column, factor)
-                })
-                .collect(),
+    /// pairs (degree of freedom, factor). `direction` is in the mesh's axes; its z does not count in the plane.
+    pub fn displacement_row(
+        &self,
+        housing: &HousingModel,
+        node: usize,
+        direction: [f64; 3],
+    ) -> Vec<(usize, f64)> {
+        let d = housing.dimension;
+        let mut row = Vec::new();
+        for (component, dof, factor) in housing.tied_entries(node) {
+            let factor = factor * direction[component % d];
+            match &self.rotation {
+                None => row.push((dof, factor)),
+                Some(rotation) => {
+                    let first = dof - dof % d;
+                    row.extend((first..first + d).map(|column| {
+                        let turned = rotation.get(dof, column).copied().unwrap_or(0.0);
+                        (column, factor * turned)
+                    }));
+                }
+            }
         }
+        row
+    }
+}
+
+/// Displacement (radial, tangential, axial) of the ring's section at a bore node, for each of the ring's
+/// degrees of freedom that moves it.
+fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize, [f64; 3])> {
+    let [x, y, z] = housing.frame.point(housing.coordinates[node]);
+    let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
+    match ring.space_rows_at(angle) {
+        None => {
+            let rows = ring.rows_at(angle);
+            let tangential = rows.tangential_at(arm);
+            let pairs = rows.dofs.into_iter().zip(rows.radial).zip(tangential);
+            pairs.map(|((dof, w), u)| (dof, [w, u, 0.0])).collect()
+        }
+        Some(rows) => (0..rows.dofs.len())
+            .map(|k| {
+                // u_C + omega x (arm e_r + z e_z)
+                let moves = [
+                    rows.radial[k] + z * rows.about_tangential[k],
+                    rows.tangential[k] + arm * rows.about_axial[k] - z * rows.about_radial[k],
+                    rows.axial[k] - arm * rows.about_tangential[k],
+                ];
+                (rows.dofs[k], moves)
+            })
+            .collect(),
     }
 }
 
 fn check_radius(
-    mesh: &Mesh,
     housing: &HousingModel,
     group: &str,
     nodes: &[usize],
     outer_radius: f64,
 ) -> Result<(), ModelError> {
     let radius = |&node: &usize| {
-        let [x, y] = housing.coordinates[node];
+        let [x, y, _] = housing.frame.point(housing.coordinates[node]);
         x.hypot(y)
     };
     let nearest = nodes.iter().map(radius).fold(f64::INFINITY, f64::min);
     let farthest = nodes.iter().map(radius).fold(0.0, f64::max);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
-        let any = nodes.first().copied().unwrap_or(0);
         return Err(ModelError::TieRadius {
             path: housing.path.clone(),
             group: group.to_owned(),
             expected: outer_radius,
             nearest,
             farthest,
-            centre: [0, 1].map(|k| mesh.nodes[any][k] - housing.coordinates[any][k]),
+            frame: Box::new(housing.frame),
         });
     }
     Ok(())
 }
 
-fn check_fixed(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<(), ModelError> {
-    let clash = nodes
-        .iter()
-        .find_map(|&node| Some((node, housing.fixed[node].iter().flatten().next()?)));
-    match clash {
-        Some((node, &support)) => Err(ModelError::TiedAndFixed {
-            path: housing.path.clone(),
-            tag: housing.node_tags[node],
-            tied: group.to_owned(),
-            fixed: housing.supports[support].group.clone(),
-        }),
-        None => Ok(()),
+/// No node of the bore is fixed or tied by a link.
+fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<(), ModelError> {
+    for &node in nodes {
+        if let Some(&support) = housing.fixed[node].iter().flatten().next() {
+            return Err(ModelError::TiedAndFixed {
+                path: housing.path.clone(),
+                tag: housing.node_tags[node],
+                tied: group.to_owned(),
+                fixed: housing.supports[support].group.clone(),
+            });
+        }
+        if housing.tied.contains_key(&node) {
+            return Err(ModelError::TiedTwice {
+                path: housing.path.clone(),
+                tag: housing.node_tags[node],
+                bore: group.to_owned(),
+            });
+        }
     }
+    Ok(())
 }
 
-/// Identity but for the bore nodes, whose two displacements become (radial, tangential).
+/// Identity but for the bore nodes, whose displacements become (radial, tangential, axial).
 fn polar_rotation(housing: &HousingModel, nodes: &[usize]) -> SparseMatrix {
+    let d = housing.dimension;
     let mut polar = vec![false; housing.coordinates.len()];
     for &node in nodes {
         polar[node] = true;
     }
     let mut rotation = TripletBuilder::new(housing.dof(), housing.dof());
-    for (node, [x, y]) in housing.coordinates.iter().enumerate() {
-        let (row, column) = (2 * node, 2 * node + 1);
-        if polar[node] {
-            let (sin, cos) = y.atan2(*x).sin_cos();
-            rotation.add(row, row, cos);
-            rotation.add(row, column, -sin);
-            rotation.add(column, row, sin);
-            rotation.add(column, column, cos);
-        } else {
-            rotation.add(row, row, 1.0);
-            rotation.add(column, column, 1.0);
+    for (node, &point) in housing.coordinates.iter().enumerate() {
+        if !polar[node] {
+            (d * node..d * node + d).for_each(|dof| rotation.add(dof, dof, 1.0));
+            continue;
+        }
+        let axes = housing.frame.polar_axes(point);
+        for (k, axis) in axes.iter().enumerate().take(d) {
+            for (i, &component) in axis.iter().enumerate().take(d) {
+                rotation.add(d * node + i, d * node + k, component);
+            }
         }
     }
     rotation.build()

@@ -215,6 +215,7 @@ mod tests {
             stiffness: k.build(),
             mass: m.build(),
             weight: DenseMatrix::zeros(nodes, 2),
+            total_mass: nodes as f64,
         }
     }
 

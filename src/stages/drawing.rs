@@ -2,11 +2,16 @@
 
 use super::{HousingStage, StructureStage};
 use crate::case::{Case, SensorSpot};
-use crate::element::plane::PlaneKind;
+use crate::mesh::ElementId;
 use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 use crate::system::BearingSetup;
-use std::collections::BTreeSet;
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Angle between two faces (rad) from which on their common edge is drawn: chords of a bore of 16 faces meet at 22
+/// degrees.
+const SHARP: f64 = 0.45;
 
 /// Draws a structure, and the bearing in it if there is one.
 pub(super) fn draw(case: &Case, stage: &StructureStage, setup: Option<&BearingSetup>) -> Drawing {
@@ -47,20 +52,21 @@ pub(super) fn draw_housing(housing: &HousingStage) -> Drawing {
 
 fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
     let point = |node: usize| {
-        let [x, y] = housing.model.coordinates()[node];
+        let [x, y, _] = housing.model.ring_coordinates(node);
         Point { x, y }
     };
-    let mut drawn = BTreeSet::new();
-    for element in housing.model.elements() {
-        for edge in edges(element.kind) {
-            let nodes: Vec<usize> = edge.iter().map(|&local| element.nodes[local]).collect();
-            let ends = [nodes[0], nodes[nodes.len() - 1]];
-            if drawn.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
-                drawing
-                    .mesh_edges
-                    .push(nodes.into_iter().map(point).collect());
-            }
-        }
+    let edges = match housing.model.dimension() {
+        2 => element_edges(housing),
+        _ => feature_edges(housing),
+    };
+    for edge in edges {
+        // gmsh's order: two ends, then the middle node if there is one
+        let along = match edge.as_slice() {
+            [first, last, middle] => vec![*first, *middle, *last],
+            ends => ends.to_vec(),
+        };
+        let line = along.into_iter().map(point).collect();
+        drawing.mesh_edges.push(line);
     }
     for node in housing.model.spring_nodes() {
         let at = point(node);
@@ -71,14 +77,53 @@ fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
     }
 }
 
-/// Local nodes along every edge of an element, middle node included, in gmsh's order.
-fn edges(kind: PlaneKind) -> &'static [&'static [usize]] {
-    match kind {
-        PlaneKind::Tri3 => &[&[0, 1], &[1, 2], &[2, 0]],
-        PlaneKind::Quad4 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
-        PlaneKind::Tri6 => &[&[0, 3, 1], &[1, 4, 2], &[2, 5, 0]],
-        PlaneKind::Quad8 => &[&[0, 4, 1], &[1, 5, 2], &[2, 6, 3], &[3, 7, 0]],
+fn all_elements(housing: &HousingStage) -> impl Iterator<Item = ElementId> + '_ {
+    let dimension = housing.model.dimension();
+    let blocks = housing.mesh.blocks.iter().enumerate();
+    blocks
+        .filter(move |(_, block)| block.kind.dimension() == dimension)
+        .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
+}
+
+/// Every edge of a plane housing once.
+fn element_edges(housing: &HousingStage) -> Vec<Vec<usize>> {
+    let mut drawn = BTreeSet::new();
+    let mut edges = Vec::new();
+    for id in all_elements(housing) {
+        let block = &housing.mesh.blocks[id.block];
+        let nodes = block.element(id.index).unwrap_or_default();
+        for face in block.kind.faces() {
+            let edge: Vec<usize> = face.nodes.iter().map(|&local| nodes[local]).collect();
+            if drawn.insert([edge[0].min(edge[1]), edge[0].max(edge[1])]) {
+                edges.push(edge);
+            }
+        }
     }
+    edges
+}
+
+/// Edges between faces of a solid housing's surface that meet at an angle, as a draughtsman draws them; hidden ones too.
+fn feature_edges(housing: &HousingStage) -> Vec<Vec<usize>> {
+    // nodes of an edge, and the normals of the faces that meet there
+    type Meeting = (Vec<usize>, Vec<Vector3<f64>>);
+    let mut meeting: BTreeMap<[usize; 2], Meeting> = BTreeMap::new();
+    for face in housing.mesh.boundary_faces(all_elements(housing)) {
+        let corner = |k: usize| Vector3::from(housing.mesh.nodes[face.nodes[k]]);
+        let normal = (corner(1) - corner(0)).cross(&(corner(2) - corner(0)));
+        let normal = normal.try_normalize(0.0).unwrap_or_default();
+        for side in face.kind.faces() {
+            let edge: Vec<usize> = side.nodes.iter().map(|&local| face.nodes[local]).collect();
+            let ends = [edge[0].min(edge[1]), edge[0].max(edge[1])];
+            let entry = meeting.entry(ends).or_insert_with(|| (edge, Vec::new()));
+            entry.1.push(normal);
+        }
+    }
+    let sharp = |normals: &[Vector3<f64>]| match normals {
+        [a, b] => a.dot(b) < SHARP.cos(),
+        _ => true,
+    };
+    let edges = meeting.into_values().filter(|(_, normals)| sharp(normals));
+    edges.map(|(edge, _)| edge).collect()
 }
 
 fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
@@ -148,20 +193,16 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 stage.structure.ring().section().radius,
                 degrees.to_radians(),
             )),
-            SensorSpot::Point([x, y, _]) => {
-                let centre = case.ring.as_ref().and_then(|ring| ring.tie.as_ref());
-                let [cx, cy, _] = centre.map_or([0.0; 3], |tie| tie.centre);
-                Some(Point {
-                    x: x - cx,
-                    y: y - cy,
-                })
-            }
+            SensorSpot::Point(point) => stage.housing.as_ref().map(|housing| {
+                let [x, y, _] = housing.model.frame().point(*point);
+                Point { x, y }
+            }),
             SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
                 let nodes = &housing.mesh.group(group).ok()?.nodes;
                 let mean = |k: usize| {
                     let sum: f64 = nodes
                         .iter()
-                        .map(|&n| housing.model.coordinates()[n][k])
+                        .map(|&n| housing.model.ring_coordinates(n)[k])
                         .sum();
                     sum / nodes.len() as f64
                 };
@@ -171,7 +212,8 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 })
             }),
         };
-        let [x, y, _] = sensor.direction;
+        let frame = stage.housing.as_ref().map(|housing| housing.model.frame());
+        let [x, y, _] = frame.map_or(sensor.direction, |frame| frame.vector(sensor.direction));
         let direction_rad = if x == 0.0 && y == 0.0 {
             FRAC_PI_2
         } else {

@@ -86,7 +86,7 @@ pub enum StageError {
     },
     /// A sensor that points out of the plane.
     #[error(
-        "sensor \"{name}\": direction has no part in the plane x, y of a plane model; give direction = [0, 1, 0] or the like"
+        "sensor \"{name}\": direction has no part in the bearing's plane, in which plane housings and places on the ring (ring_deg) are measured; give direction = [0, 1, 0] or the like"
     )]
     SensorDirection {
         /// Name of the sensor.
@@ -100,14 +100,14 @@ pub enum StageError {
     Cage(#[from] CageError),
     /// A sensor that is nowhere.
     #[error(
-        "sensor \"{name}\": the nearest node of the housing to ({x:e}, {y:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
-        x = point[0], y = point[1]
+        "sensor \"{name}\": the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
+        x = point[0], y = point[1], z = point[2]
     )]
     SensorPlace {
         /// Name of the sensor.
         name: String,
         /// Where it should be, m.
-        point: [f64; 2],
+        point: [f64; 3],
         /// Distance of the nearest node, m.
         distance: f64,
     },
@@ -121,10 +121,8 @@ pub enum StageError {
         /// What it stands on.
         place: String,
     },
-    /// A frame of the tie that this version cannot take.
-    #[error(
-        "ring.tie: only axis = [0, 0, 1] and zero_deg = [1, 0, 0] are supported for a plane housing; turn the mesh in gmsh"
-    )]
+    /// Directions of the tie that make no frame.
+    #[error("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")]
     TieFrame,
     /// Craig-Bampton.
     #[error(transparent)]

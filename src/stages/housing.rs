@@ -2,12 +2,13 @@
 
 use super::{StageError, Watch};
 use crate::assembly::SystemMatrices;
-use crate::case::{self, Case, Hold, PerNodeOrGroup};
-use crate::element::plane::{PlaneAssumption, PlaneProperties};
-use crate::material::Material;
+use crate::case::{self, Case, Hold, Joint, PerNodeOrGroup};
+use crate::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
+use crate::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::mesh::Mesh;
 use crate::model::{
-    Constraint, HousingModel, HousingSupport, PartProperties, PointMass, SupportShare,
+    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
+    PlaneModel, PointMass, RingFrame, SpringStiffness, SupportShare,
 };
 
 /// A housing, assembled.
@@ -35,22 +36,7 @@ impl HousingStage {
         let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
         case.check_groups(&groups)?;
         watch.stage("assemble");
-        let centre = centre(case)?;
-        let parts = housing
-            .parts
-            .iter()
-            .map(|part| part_properties(case, housing, part))
-            .collect::<Result<_, _>>()?;
-        let supports = housing.supports.iter().flat_map(support).collect();
-        let masses: Vec<PointMass> = housing
-            .masses
-            .iter()
-            .map(|mass| PointMass {
-                group: mass.group.clone(),
-                mass: mass.mass,
-            })
-            .collect();
-        let model = HousingModel::new(&mesh, parts, supports, &masses, centre)?;
+        let model = HousingModel::new(&mesh, description(case, housing)?)?;
         let matrices = SystemMatrices::assemble(&model)?;
         Ok(Some(Self {
             mesh,
@@ -60,75 +46,136 @@ impl HousingStage {
     }
 }
 
-/// Centre of the ring in the mesh's axes, m.
-fn centre(case: &Case) -> Result<[f64; 2], StageError> {
-    let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) else {
-        return Ok([0.0; 2]);
-    };
-    let is = |given: [f64; 3], wanted: [f64; 3]| {
-        given.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12)
-    };
-    if is(tie.axis, [0.0, 0.0, 1.0]) && is(tie.zero_deg, [1.0, 0.0, 0.0]) {
-        Ok([tie.centre[0], tie.centre[1]])
-    } else {
-        Err(StageError::TieFrame)
+fn description(case: &Case, housing: &case::Housing) -> Result<HousingDescription, StageError> {
+    let parts = housing.parts.iter().map(|part| {
+        Ok(HousingPart {
+            group: part.group.clone(),
+            material: elastic_material(case, &part.material)?,
+        })
+    });
+    Ok(HousingDescription {
+        parts: parts.collect::<Result<_, StageError>>()?,
+        plane: housing.plane.map(|plane| PlaneModel {
+            assumption: match plane.assumption {
+                case::PlaneAssumption::Stress => PlaneAssumption::Stress,
+                case::PlaneAssumption::Strain => PlaneAssumption::Strain,
+            },
+            thickness: plane.thickness,
+        }),
+        formulation: formulation(housing),
+        supports: housing.supports.iter().map(support).collect(),
+        masses: housing
+            .masses
+            .iter()
+            .map(|mass| PointMass {
+                group: mass.group.clone(),
+                mass: mass.mass,
+            })
+            .collect(),
+        links: housing.links.iter().map(link).collect(),
+        frame: frame(case)?,
+    })
+}
+
+fn formulation(housing: &case::Housing) -> Formulation {
+    Formulation {
+        integration: match housing.integration {
+            case::Integration::Full => Integration::Full,
+            case::Integration::FourPoint => Integration::FourPoint,
+        },
+        linear: match housing.linear {
+            case::LinearElements::Incompatible => LinearFormulation::Incompatible,
+            case::LinearElements::Plain => LinearFormulation::Plain,
+        },
     }
 }
 
-/// A material of the case, checked.
+/// Where the ring sits; the mesh's own frame without one.
+fn frame(case: &Case) -> Result<RingFrame, StageError> {
+    match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
+        None => Ok(RingFrame::default()),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(StageError::TieFrame),
+    }
+}
+
+/// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`StageError::Material`] for values out of range; a missing name was refused with the case.
+/// [`StageError::Material`] for values out of range; a missing name or an orthotropic material was refused with
+/// the case.
 pub(super) fn material(case: &Case, name: &str) -> Result<Material, StageError> {
-    let given = case.material(name).copied();
+    let given = case.material(name).and_then(case::Material::isotropic);
     let (young, poisson, density) = given.map_or((f64::NAN, f64::NAN, f64::NAN), |given| {
         (given.young, given.poisson, given.density)
     });
-    Material::new(young, poisson, density).map_err(|source| StageError::Material {
-        name: name.to_owned(),
-        source,
-    })
+    Material::new(young, poisson, density).map_err(|source| named(name, source))
 }
 
-fn part_properties(
-    case: &Case,
-    housing: &case::Housing,
-    part: &case::Part,
-) -> Result<PartProperties, StageError> {
-    // a plane housing without `plane` was refused with the case
-    let (assumption, thickness) =
-        housing
-            .plane
-            .map_or((PlaneAssumption::Stress, f64::NAN), |plane| {
-                let assumption = match plane.assumption {
-                    case::PlaneAssumption::Stress => PlaneAssumption::Stress,
-                    case::PlaneAssumption::Strain => PlaneAssumption::Strain,
-                };
-                (assumption, plane.thickness)
-            });
-    Ok(PartProperties {
-        group: part.group.clone(),
-        properties: PlaneProperties::new(material(case, &part.material)?, assumption, thickness)?,
-    })
+fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, StageError> {
+    match case.material(name) {
+        Some(case::Material::Orthotropic(given)) => {
+            let case::OrthotropicMaterial {
+                young,
+                poisson,
+                shear,
+                density,
+                x_axis,
+                y_axis,
+            } = *given;
+            OrthotropicMaterial::new(young, poisson, shear, density, x_axis, y_axis)
+                .map(ElasticMaterial::Orthotropic)
+                .map_err(|source| named(name, source))
+        }
+        _ => material(case, name).map(ElasticMaterial::from),
+    }
 }
 
-fn support(support: &case::Support) -> Option<HousingSupport> {
-    let share = |per: PerNodeOrGroup| match per {
+fn named(name: &str, source: MaterialError) -> StageError {
+    let name = name.to_owned();
+    StageError::Material { name, source }
+}
+
+fn share(per: PerNodeOrGroup) -> SupportShare {
+    match per {
         PerNodeOrGroup::Node => SupportShare::PerNode,
         PerNodeOrGroup::Group => SupportShare::PerGroup,
-    };
+    }
+}
+
+fn along_axes(spring: case::Spring) -> SpringStiffness {
+    SpringStiffness::Global([spring.x, spring.y, spring.z])
+}
+
+fn support(support: &case::Support) -> HousingSupport {
     let (constraint, share) = match &support.hold {
         Hold::Fixed(axes) => {
-            let holds = |axis| axes.contains(&axis);
-            let fixed = [holds(case::Axis::X), holds(case::Axis::Y)];
+            let fixed =
+                [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
             (Constraint::Fixed(fixed), SupportShare::PerNode)
         }
-        Hold::Spring { spring, per } => (Constraint::Spring([spring.x, spring.y]), share(*per)),
-        Hold::Radial { stiffness, per } => (Constraint::Radial(*stiffness), share(*per)),
+        Hold::Spring { spring, per } => (Constraint::Spring(along_axes(*spring)), share(*per)),
+        Hold::Radial { stiffness, per } => (
+            Constraint::Spring(SpringStiffness::Radial(*stiffness)),
+            share(*per),
+        ),
     };
-    Some(HousingSupport {
+    HousingSupport {
         group: support.group.clone(),
         constraint,
         share,
-    })
+    }
+}
+
+fn link(link: &case::Link) -> Link {
+    let connection = match link.joint {
+        Joint::Spring { spring, per } => Connection::Spring(along_axes(spring), share(per)),
+        Joint::Radial { stiffness, per } => {
+            Connection::Spring(SpringStiffness::Radial(stiffness), share(per))
+        }
+        Joint::Tie => Connection::Tie,
+    };
+    Link {
+        between: link.between.clone(),
+        connection,
+    }
 }

@@ -49,7 +49,7 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage) -> Vec<Fact> {
                 "Housing",
                 format!(
                     "{} nodes, {} elements, {} kg",
-                    housing.model.dof() / 2,
+                    housing.model.dof() / housing.model.dimension(),
                     housing.model.elements().len(),
                     significant(housing.matrices.total_mass(), 5)
                 ),

@@ -16,7 +16,7 @@ pub struct Sensor {
     pub row: Vec<f64>,
 }
 
-/// Ring and housing in one pair of matrices; coordinates: ring displacements first (three a node),
+/// Ring and housing in one pair of matrices; coordinates: ring displacements first (three a node, six in space),
 /// then the amplitudes of the housing's fixed-interface modes.
 #[derive(Debug, Clone)]
 pub struct Structure {

@@ -1,10 +1,17 @@
 //! Computed against closed forms, published values, other methods and other programs' numbers.
 
+mod assembly;
 mod craig_bampton;
+mod element_convergence;
 mod equilibrium;
+mod grids;
 mod loaded_modes;
-mod plane_frequencies;
+mod reference_frequencies;
 mod ring_element;
+mod ring_in_space;
+mod rings_of_solids;
 mod setup;
+mod tet10_integration;
 mod tie;
+mod tie_in_space;
 mod transient;

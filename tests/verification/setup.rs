@@ -24,14 +24,15 @@ use plummer::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SpeedProfile,
 };
 use plummer::dynamics::State;
+use plummer::element::continuum::PlaneAssumption;
 use plummer::element::curved_beam::RingInterpolation;
-use plummer::element::plane::{PlaneAssumption, PlaneProperties};
 use plummer::linalg::{DenseMatrix, SparseMatrix, TripletBuilder};
 use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::mesh::Mesh;
 use plummer::model::{
-    Constraint, Fit, HousingModel, HousingPartition, HousingSupport, PartProperties, Ring,
-    RingSupport, RingTie, SpringShare, SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingPartition,
+    HousingSupport, PlaneModel, Ring, RingSupport, RingTie, SpringShare, SpringStiffness,
+    SupportShare,
 };
 use plummer::reduction::{FixedModeSelection, Superelement, craig_bampton};
 use plummer::system::{BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure};
@@ -62,6 +63,8 @@ fn layer(young: f64, poisson: f64, density: f64, size: [f64; 3]) -> RingLayer {
         material: Material::new(young, poisson, density).unwrap(),
         area,
         inertia,
+        axial_inertia: None,
+        torsion: None,
         radius,
         shear_coefficient: 5.0 / 6.0,
     }
@@ -92,7 +95,7 @@ pub fn paper_ring(nodes: usize, offset: f64) -> Ring {
     ring.add_support(&RingSupport {
         from: PI,
         to: TAU,
-        spring: [3.6e6, 3.6e6],
+        spring: [3.6e6, 3.6e6, 0.0],
         share: SpringShare::Total,
         offset,
     })
@@ -167,19 +170,27 @@ impl Housing {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("meshes/{mesh}.msh"));
         let mesh = Mesh::read_gmsh(&path, LengthUnit::parse("mm").unwrap()).unwrap();
         let aluminium = Material::new(72e9, 0.33, ALUMINIUM_DENSITY).unwrap();
-        let properties =
-            PlaneProperties::new(aluminium, PlaneAssumption::Stress, HOUSING_WIDTH).unwrap();
-        let parts = vec![PartProperties {
+        let parts = vec![HousingPart {
             group: "housing".into(),
-            properties,
+            material: aluminium.into(),
         }];
         let springs = HousingSupport {
             group: "lower".into(),
-            constraint: Constraint::Spring([3.6e6, 3.6e6]),
+            constraint: Constraint::Spring(SpringStiffness::Global([3.6e6, 3.6e6, 0.0])),
             share: SupportShare::PerGroup,
         };
         let supports = if supported { vec![springs] } else { vec![] };
-        let model = HousingModel::new(&mesh, parts, supports, &[], [0.0, 0.0]).unwrap();
+        let plane = PlaneModel {
+            assumption: PlaneAssumption::Stress,
+            thickness: HOUSING_WIDTH,
+        };
+        let description = HousingDescription {
+            parts,
+            plane: Some(plane),
+            supports,
+            ..HousingDescription::default()
+        };
+        let model = HousingModel::new(&mesh, description).unwrap();
         let ring = steel_ring();
         let tie = RingTie::new(&mesh, &model, "bore", &ring, BORE_RADIUS, fit).unwrap();
         let matrices = SystemMatrices::assemble(&model).unwrap().for_tie(&tie);

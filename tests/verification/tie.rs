@@ -46,7 +46,7 @@ fn linear_in_the_angle(housing: &Housing) -> HousingPartition {
     let (partition, ring) = (housing.tie.partition(), &housing.ring);
     let mut tie = TripletBuilder::new(partition.driven.len(), ring.dof());
     for (row, &dof) in partition.driven.iter().enumerate() {
-        let [x, y] = housing.model.coordinates()[dof / 2];
+        let [x, y, _] = housing.model.coordinates()[dof / 2];
         let (element, phi) = ring.locate(y.atan2(x));
         let share = phi * ring.nodes() as f64 / TAU + 0.5;
         let arm = x.hypot(y) - ring.section().radius;

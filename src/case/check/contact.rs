@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::{Bearing, Case, ContactStiffness};
-use super::range::{above, above_zero, below, known_material, ratio, zero_or_more};
+use super::range::{above, above_zero, below, known_isotropic, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
 
 pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
@@ -40,13 +40,13 @@ fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
         let other = "bearing.density";
         return Err(Rule::Beside { other }.at("bearing.ball_mass"));
     }
-    known_material(case, "bearing.ball_material", &bearing.ball_material)
+    known_isotropic(case, "bearing.ball_material", &bearing.ball_material)
 }
 
 fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     let races = &bearing.race_material;
-    known_material(case, "bearing.race_material", &races.inner)?;
-    known_material(case, "bearing.race_material", &races.outer)?;
+    known_isotropic(case, "bearing.race_material", &races.inner)?;
+    known_isotropic(case, "bearing.race_material", &races.outer)?;
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
     above_zero("bearing.inner_race_radius", inner)?;
     above(

@@ -55,6 +55,11 @@ pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
                 mass.group.as_str(),
             ));
         }
+        for (index, link) in housing.links.iter().enumerate() {
+            for group in &link.between {
+                groups.push((format!("housing.links[{index}].between"), group.as_str()));
+            }
+        }
     }
     if let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         groups.push(("ring.tie.group".to_owned(), tie.group.as_str()));

@@ -1,7 +1,7 @@
 //! Ranges that many keys share.
 
-use super::super::Case;
 use super::super::nearest::Choices;
+use super::super::{Case, Material};
 use super::rule::{BrokenRule, Rule};
 
 fn within(
@@ -141,6 +141,26 @@ pub(super) fn known_material(
     if case.material(name).is_some() {
         return Ok(());
     }
+    unknown_material(case, key, name)
+}
+
+/// A material that rings and contacts can be made of.
+pub(super) fn known_isotropic(
+    case: &Case,
+    key: impl Into<String>,
+    name: &str,
+) -> Result<(), BrokenRule> {
+    match case.material(name) {
+        Some(Material::Isotropic(_)) => Ok(()),
+        Some(Material::Orthotropic(_)) => {
+            let found = name.to_owned();
+            Err(Rule::NotIsotropic { found }.at(key))
+        }
+        None => unknown_material(case, key, name),
+    }
+}
+
+fn unknown_material(case: &Case, key: impl Into<String>, name: &str) -> Result<(), BrokenRule> {
     Err(Rule::UnknownMaterial {
         found: name.to_owned(),
         names: Box::new(Choices::new(name, case.materials.keys().cloned().collect())),

@@ -38,6 +38,17 @@ pub enum Rule {
         /// The materials' names.
         names: Box<Choices>,
     },
+    /// A material with directions where none can be followed.
+    #[error(
+        "\"{found}\" is orthotropic, expected an isotropic material: rings and contacts have no other"
+    )]
+    NotIsotropic {
+        /// The name as written.
+        found: String,
+    },
+    /// Constants for which a deformation would have no positive energy.
+    #[error("{0}")]
+    UnstableMaterial(crate::material::MaterialError),
     /// A name that was used before in the same list.
     #[error("\"{name}\" stands here a second time, expected each once")]
     Repeated {
@@ -153,7 +164,7 @@ impl Rule {
                     .to_owned(),
             ),
             Self::FreeToTurn => Some(
-                "use fit = \"bonded\", or add springs in x and y to `ring.supports`".to_owned(),
+                "use fit = \"bonded\", or add springs in x and y (in a solid housing in z too) to `ring.supports`".to_owned(),
             ),
             Self::Unconnected => {
                 Some("add tie = { group = \"NAME OF THE BORE\" } to [ring]".to_owned())

@@ -1,20 +1,59 @@
 //! Materials, housing and ring.
 
 use super::super::path::quoted;
-use super::super::{Axis, Bond, Case, Fit, Hold, Housing, RadiusRule, Ring, RingSupport, Spring};
+use super::super::{
+    Axis, Bond, Case, Fit, Hold, Housing, Joint, Material, OrthotropicMaterial, RadiusRule, Ring,
+    RingSupport, Spring,
+};
 use super::range::{
-    above, above_zero, direction, each_once, known_material, not_empty, poisson, share,
-    zero_or_more,
+    above, above_zero, direction, each_once, known_isotropic, known_material, not_empty, poisson,
+    share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
+use crate::material::MaterialError;
 
 pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
     for (name, material) in &case.materials {
         let at = |key: &str| format!("materials.{}.{key}", quoted(name));
-        above_zero(at("young"), material.young)?;
-        poisson(at("poisson"), material.poisson)?;
-        above_zero(at("density"), material.density)?;
+        match material {
+            Material::Isotropic(material) => {
+                above_zero(at("young"), material.young)?;
+                poisson(at("poisson"), material.poisson)?;
+            }
+            Material::Orthotropic(material) => {
+                for (key, values) in [("young", material.young), ("shear", material.shear)] {
+                    for (place, value) in values.into_iter().enumerate() {
+                        above_zero(format!("{}[{place}]", at(key)), value)?;
+                    }
+                }
+                direction(at("x_axis"), material.x_axis)?;
+                direction(at("y_axis"), material.y_axis)?;
+                stable(material).map_err(|error| {
+                    let key = match error {
+                        MaterialError::ParallelAxes { .. } => "y_axis",
+                        _ => "poisson",
+                    };
+                    Rule::UnstableMaterial(error).at(at(key))
+                })?;
+            }
+        }
+        above_zero(at("density"), material.density())?;
     }
+    Ok(())
+}
+
+/// Constants that make a material together.
+fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
+    let OrthotropicMaterial {
+        young,
+        poisson,
+        shear,
+        x_axis,
+        y_axis,
+        ..
+    } = *given;
+    // the density has its own rule
+    crate::material::OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis)?;
     Ok(())
 }
 
@@ -33,6 +72,7 @@ pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     let groups = housing.parts.iter().map(|part| part.group.as_str());
     each_once(groups, |index| format!("housing.parts[{index}].group"))?;
     housing_supports(housing)?;
+    links(housing)?;
     for (index, mass) in housing.masses.iter().enumerate() {
         above_zero(format!("housing.masses[{index}].mass"), mass.mass)?;
     }
@@ -63,6 +103,20 @@ fn housing_supports(housing: &Housing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
+fn links(housing: &Housing) -> Result<(), BrokenRule> {
+    let plane = housing.plane.is_some();
+    for (index, link) in housing.links.iter().enumerate() {
+        let at = |key: &str| format!("housing.links[{index}].{key}");
+        each_once(link.between.iter().map(String::as_str), |_| at("between"))?;
+        match &link.joint {
+            Joint::Spring { spring, .. } => springs(&at("spring"), *spring, plane)?,
+            Joint::Radial { stiffness, .. } => above_zero(at("radial"), *stiffness)?,
+            Joint::Tie => {}
+        }
+    }
+    Ok(())
+}
+
 fn springs(key: &str, spring: Spring, plane: bool) -> Result<(), BrokenRule> {
     let parts = [("x", spring.x), ("y", spring.y), ("z", spring.z)];
     for (name, stiffness) in parts {
@@ -86,7 +140,8 @@ pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
     }
     sections(case, ring)?;
     for (index, support) in ring.supports.iter().enumerate() {
-        ring_support(&format!("ring.supports[{index}]"), support)?;
+        let plane = (case.housing.as_ref()).is_none_or(|housing| housing.plane.is_some());
+        ring_support(&format!("ring.supports[{index}]"), support, plane)?;
     }
     tie(case, ring)
 }
@@ -95,9 +150,17 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     not_empty("ring.sections", ring.sections.len(), "at least one section")?;
     for (index, section) in ring.sections.iter().enumerate() {
         let at = |key: &str| format!("ring.sections[{index}].{key}");
-        known_material(case, at("material"), &section.material)?;
+        known_isotropic(case, at("material"), &section.material)?;
         above_zero(at("area"), section.area)?;
         above_zero(at("inertia"), section.inertia)?;
+        for (key, given) in [
+            ("axial_inertia", section.axial_inertia),
+            ("torsion", section.torsion),
+        ] {
+            if let Some(value) = given {
+                above_zero(at(key), value)?;
+            }
+        }
         above_zero(at("radius"), section.radius)?;
         share(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
@@ -116,7 +179,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-fn ring_support(key: &str, support: &RingSupport) -> Result<(), BrokenRule> {
+fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), BrokenRule> {
     let to = format!("{key}.to_deg");
     above(&to, support.to_deg, "`from_deg`", support.from_deg)?;
     let sector = support.to_deg - support.from_deg;
@@ -129,7 +192,7 @@ fn ring_support(key: &str, support: &RingSupport) -> Result<(), BrokenRule> {
         }
         .at(to));
     }
-    springs(&format!("{key}.spring"), support.spring, true)
+    springs(&format!("{key}.spring"), support.spring, plane)
 }
 
 fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {

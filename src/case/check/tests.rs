@@ -31,14 +31,20 @@ fn holds(text: &str, set: &[&str]) {
     }
 }
 
-const ABOVE_ZERO: [&str; 26] = [
+const ABOVE_ZERO: [&str; 32] = [
     "materials.\"my alloy\".young",
     "materials.\"my alloy\".density",
+    "materials.printed.young[1]",
+    "materials.printed.shear[2]",
+    "materials.printed.density",
+    "housing.links[2].radial",
     "housing.plane.thickness",
     "housing.supports[2].radial",
     "housing.masses[0].mass",
     "ring.sections[1].area",
     "ring.sections[1].inertia",
+    "ring.sections[1].axial_inertia",
+    "ring.sections[1].torsion",
     "ring.sections[1].radius",
     "bearing.ball_radius",
     "bearing.ball_mass",
@@ -194,7 +200,7 @@ fn materials_exist() {
         let argument = format!("bearing.ball_material=\"{name}\"");
         read(FULL, &[&argument]).unwrap_err().help().unwrap()
     };
-    let known = "materials here: aluminium, bearing steel, my alloy, steel";
+    let known = "materials here: aluminium, bearing steel, my alloy, printed, steel";
     assert_eq!(help("steal"), format!("did you mean `steel`? {known}"));
     assert_eq!(help("unobtainium"), known);
 }
@@ -221,10 +227,50 @@ fn a_plane_has_no_third_axis() {
     let rule = "found a component z, expected x and y only in a plane model";
     full("housing.supports[0].fixed=[\"x\",\"z\"]", rule);
     full("housing.supports[1].spring={z=1}", rule);
+    full("housing.links[1].spring={z=1}", rule);
     full("ring.supports[0].spring={z=1}", rule);
     let solid = FULL.replace("plane = {", "#");
     holds(&solid, &["housing.supports[0].fixed=[\"z\"]"]);
     holds(&solid, &["housing.supports[1].spring={z=1}"]);
+    holds(&solid, &["ring.supports[0].spring={z=1}"]);
+}
+
+#[test]
+fn rings_and_contacts_are_isotropic() {
+    let rule = "\"printed\" is orthotropic, expected an isotropic material: rings and contacts have no other";
+    for key in [
+        "ring.sections[0].material",
+        "bearing.ball_material",
+        "bearing.race_material",
+    ] {
+        full(&format!("{key}=printed"), rule);
+    }
+    holds(FULL, &["housing.parts[0].material=printed"]);
+}
+
+#[test]
+fn an_orthotropic_material_has_positive_energy_and_axes() {
+    full(
+        "materials.printed.poisson=[0.9,0.9,0.9]",
+        "the three Poisson's ratios do not go together: 1 - nu_xy^2 E_y/E_x - nu_yz^2 E_z/E_y - \
+         nu_xz^2 E_z/E_x - 2 nu_xy nu_yz nu_xz E_z/E_x must be positive, found -2.108375",
+    );
+    full(
+        "materials.printed.y_axis=[2,0,0]",
+        "the material axes x (1, 0, 0) and y (2, 0, 0) are parallel: two different directions are needed",
+    );
+    full(
+        "materials.printed.x_axis=[0,0,0]",
+        "found a vector of length zero, expected a direction",
+    );
+}
+
+#[test]
+fn a_link_connects_two_groups() {
+    full(
+        "housing.links[0].between=['lid','lid']",
+        "\"lid\" stands here a second time, expected each once",
+    );
 }
 
 #[test]
@@ -291,7 +337,7 @@ fn housing_and_ring_are_connected_and_held() {
     breaks(&text, &free, "ring.tie.fit", rule);
     assert_eq!(
         read(&text, &free).unwrap_err().help().unwrap(),
-        "use fit = \"bonded\", or add springs in x and y to `ring.supports`"
+        "use fit = \"bonded\", or add springs in x and y (in a solid housing in z too) to `ring.supports`"
     );
     holds(&text, &["ring.supports=[]", "ring.tie.group=bore"]);
 }

@@ -16,6 +16,7 @@
 //! however slender the section: nothing can lock. (Derived here; the force method for arcs is in
 //! Timoshenko, Strength of Materials II, 3rd ed., section 80.)
 
+use super::differences::Differences;
 use super::quadrature::over_arc;
 use crate::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
@@ -153,46 +154,5 @@ impl Arc {
         let (sin, cos) = phi.sin_cos();
         let r = self.radius;
         Matrix3::new(-sin, cos, r * sin, cos, sin, -r * cos, 0.0, 0.0, 1.0)
-    }
-}
-
-/// Differences of trigonometric functions that cancel near zero, by their power series.
-struct Differences {
-    /// phi - sin phi
-    sine: f64,
-    /// 1 - cos phi
-    cosine: f64,
-    /// (sin phi - phi cos phi) / 2, of third order
-    third: f64,
-    /// phi sin phi / 2 - (1 - cos phi), of fourth order
-    fourth: f64,
-    /// phi + phi cos phi / 2 - 3/2 sin phi, of fifth order
-    fifth: f64,
-}
-
-impl Differences {
-    /// Sixteen terms reach round-off for |phi| <= pi / 2.
-    fn at(phi: f64) -> Self {
-        let square = phi * phi;
-        let mut sums = Self {
-            sine: 0.0,
-            cosine: 0.0,
-            third: 0.0,
-            fourth: 0.0,
-            fifth: 0.0,
-        };
-        let mut power = phi; // phi^(2k-1) / (2k-1)! with the sign (-1)^(k-1)
-        for k in 1..=16 {
-            let order = f64::from(k);
-            let even = power * phi / (2.0 * order);
-            let odd = power * square / (2.0 * order * (2.0 * order + 1.0));
-            sums.cosine += even;
-            sums.fourth += (order - 1.0) * even;
-            sums.sine += odd;
-            sums.third += order * odd;
-            sums.fifth -= (order - 1.0) * odd;
-            power = -odd;
-        }
-        sums
     }
 }

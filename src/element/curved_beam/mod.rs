@@ -1,4 +1,5 @@
-//! The two-noded curved beam: shear-flexible, three degrees of freedom a node, free of locking.
+//! The two-noded curved beam: shear-flexible, free of locking; three degrees of freedom a node in its
+//! plane ([`CurvedBeam`]) and three out of it ([`OutOfPlaneArc`]), which do not mix.
 //!
 //! Polar components on an arc of radius R, angle phi counter-clockwise from the element's middle:
 //! u tangential (counter-clockwise), w radial (outward), theta the section's rotation
@@ -11,10 +12,18 @@
 //! A material point at radius r of a section moves by `w` radially and `u + (r - R) theta`
 //! tangentially. The degrees of freedom are ordered (u, w, theta) at the first node, then at the
 //! second, the first node being the one at the smaller angle.
+//!
+//! In space the polar frame is `(e_r, e_t, e_z)`, right-handed: e_r outwards, e_t counter-clockwise,
+//! e_z out of the plane towards who sees the angles count counter-clockwise. u, w and theta are then
+//! the components of displacement along e_t and e_r and of rotation about e_z.
 
+mod differences;
 mod exact_arc;
+mod out_of_plane;
 mod quadrature;
 mod raveendranath;
+
+pub use out_of_plane::OutOfPlaneArc;
 
 use crate::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};

@@ -10,6 +10,8 @@ fn section(thickness: f64) -> BeamSection {
         material: Material::new(2e11, 0.3, 7800.0).expect("valid"),
         area: 0.1 * thickness,
         inertia: 0.1 * thickness.powi(3) / 12.0,
+        axial_inertia: None,
+        torsion: None,
         radius: 1.0,
         shear_coefficient: 5.0 / 6.0,
     };

@@ -1,4 +1,4 @@
-//! Numbers one after the other, from ASCII or binary, with the place where each was found.
+//! A position in the bytes of a file: words, lines, and the place that messages name.
 
 use super::{MshError, Place};
 
@@ -14,15 +14,13 @@ pub(super) enum Encoding {
 /// A position in the bytes of a file, inside a section.
 #[derive(Debug, Clone)]
 pub(super) struct Cursor<'a> {
-    bytes: &'a [u8],
-    position: usize,
-    /// Line of `position`, from 1; counted in ASCII files and between sections.
-    line: usize,
+    pub(super) bytes: &'a [u8],
+    pub(super) position: usize,
+    /// Where the number or line read last began.
+    pub(super) mark: usize,
     pub(super) encoding: Encoding,
     /// Name of the section being read, for messages.
     pub(super) section: String,
-    /// Where the number read last began.
-    place: Place,
 }
 
 impl<'a> Cursor<'a> {
@@ -30,43 +28,38 @@ impl<'a> Cursor<'a> {
         Self {
             bytes,
             position: 0,
-            line: 1,
+            mark: 0,
             encoding: Encoding::Ascii,
             section: String::new(),
-            place: Place::Line(1),
         }
-    }
-
-    pub(super) fn position(&self) -> usize {
-        self.position
     }
 
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.bytes[self.position..]
     }
 
-    /// Where the number read last began.
-    pub(super) fn place(&self) -> Place {
-        self.place
+    pub(super) fn is_binary(&self) -> bool {
+        self.encoding != Encoding::Ascii
     }
 
-    fn here(&self) -> Place {
-        match self.encoding {
-            Encoding::Ascii => Place::Line(self.line),
-            Encoding::Binary { .. } => Place::Byte(self.position),
+    /// Where the number or line read last began. Lines are counted now, not on the way.
+    pub(super) fn place(&self) -> Place {
+        if self.is_binary() {
+            return Place::Byte(self.mark);
         }
+        let before = &self.bytes[..self.mark];
+        Place::Line(1 + before.iter().filter(|&&byte| byte == b'\n').count())
     }
 
     /// Makes the current position the place that messages name.
-    pub(super) fn mark(&mut self) {
-        self.place = self.here();
+    pub(super) fn set_mark(&mut self) {
+        self.mark = self.position;
     }
 
     /// Goes forward, never past the end, and returns what was passed over.
     pub(super) fn advance(&mut self, count: usize) -> &'a [u8] {
         let end = self.position.saturating_add(count).min(self.bytes.len());
         let passed = &self.bytes[self.position..end];
-        self.line += passed.iter().filter(|&&byte| byte == b'\n').count();
         self.position = end;
         passed
     }
@@ -74,13 +67,13 @@ impl<'a> Cursor<'a> {
     pub(super) fn skip_blanks(&mut self) {
         let rest = self.rest();
         let blanks = rest.iter().take_while(|byte| byte.is_ascii_whitespace());
-        self.advance(blanks.count());
-        self.mark();
+        self.position += blanks.count();
+        self.set_mark();
     }
 
     /// The rest of the line without its end, which is passed over.
     pub(super) fn take_line(&mut self) -> &'a [u8] {
-        self.mark();
+        self.set_mark();
         let rest = self.rest();
         let length = rest.iter().position(|&byte| byte == b'\n');
         let line = self.advance(length.map_or(rest.len(), |length| length + 1));
@@ -98,7 +91,7 @@ impl<'a> Cursor<'a> {
     pub(super) fn malformed(&self, expected: impl Into<String>, found: &[u8]) -> MshError {
         MshError::Malformed {
             section: self.section.clone(),
-            place: self.place,
+            place: self.place(),
             expected: expected.into(),
             found: quoted(found),
         }
@@ -111,125 +104,31 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    fn binary<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MshError> {
-        self.mark();
-        let bytes = self.rest().first_chunk().copied();
-        // lines are not counted inside binary numbers
-        self.position = self.position.saturating_add(N).min(self.bytes.len());
-        bytes.ok_or_else(|| self.truncated(what))
-    }
-
-    /// A decimal number that `accepts` and that fits its type.
-    fn ascii<T: std::str::FromStr>(
-        &mut self,
-        what: &str,
-        accepts: fn(&[u8]) -> bool,
-    ) -> Result<T, MshError> {
-        let word = self.take_word();
-        if word.is_empty() {
-            return Err(self.truncated(what));
+    pub(super) fn feature(&self, feature: &'static str, advice: &'static str) -> MshError {
+        MshError::Feature {
+            section: self.section.clone(),
+            place: self.place(),
+            feature,
+            advice,
         }
-        let text = std::str::from_utf8(word).ok().filter(|_| accepts(word));
-        text.and_then(|text| text.parse().ok())
-            .ok_or_else(|| self.malformed(what, word))
-    }
-
-    /// gmsh's size_t.
-    pub(super) fn size(&mut self, what: &str) -> Result<u64, MshError> {
-        match self.encoding {
-            Encoding::Ascii => self.ascii(what, |word| word.iter().all(u8::is_ascii_digit)),
-            Encoding::Binary {
-                big_endian,
-                size_bytes: 4,
-            } => {
-                let bytes = self.binary(what)?;
-                let pick = if big_endian {
-                    u32::from_be_bytes
-                } else {
-                    u32::from_le_bytes
-                };
-                Ok(u64::from(pick(bytes)))
-            }
-            Encoding::Binary { big_endian, .. } => {
-                let bytes = self.binary(what)?;
-                let pick = if big_endian {
-                    u64::from_be_bytes
-                } else {
-                    u64::from_le_bytes
-                };
-                Ok(pick(bytes))
-            }
-        }
-    }
-
-    /// gmsh's int.
-    pub(super) fn int(&mut self, what: &str) -> Result<i32, MshError> {
-        match self.encoding {
-            Encoding::Ascii => self.ascii(what, |word| {
-                let digits = word.strip_prefix(b"-").unwrap_or(word);
-                digits.iter().all(u8::is_ascii_digit)
-            }),
-            Encoding::Binary { big_endian, .. } => {
-                let bytes = self.binary(what)?;
-                let pick = if big_endian {
-                    i32::from_be_bytes
-                } else {
-                    i32::from_le_bytes
-                };
-                Ok(pick(bytes))
-            }
-        }
-    }
-
-    /// gmsh's double; may be infinite or not a number.
-    pub(super) fn float(&mut self, what: &str) -> Result<f64, MshError> {
-        match self.encoding {
-            Encoding::Ascii => self.ascii(what, |_| true),
-            Encoding::Binary { big_endian, .. } => {
-                let bytes = self.binary(what)?;
-                let pick = if big_endian {
-                    f64::from_be_bytes
-                } else {
-                    f64::from_le_bytes
-                };
-                Ok(pick(bytes))
-            }
-        }
-    }
-
-    /// A count of items that take at least `numbers` numbers each, checked against what is left of the
-    /// file: nothing is allocated for a count that cannot be true.
-    pub(super) fn count(&mut self, what: &str, numbers: usize) -> Result<usize, MshError> {
-        let declared = self.size(what)?;
-        let remaining = self.rest().len();
-        // a number takes a digit and a blank, or at least four bytes
-        let bytes = match self.encoding {
-            Encoding::Ascii => 2,
-            Encoding::Binary { .. } => 4,
-        };
-        usize::try_from(declared)
-            .ok()
-            .filter(|&count| count <= remaining / (bytes * numbers.max(1)) + 1)
-            .ok_or_else(|| MshError::Count {
-                section: self.section.clone(),
-                place: self.place,
-                what: what.to_owned(),
-                declared,
-                remaining,
-            })
     }
 }
 
 /// The beginning of some bytes, for a message.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
-    let shown: String = String::from_utf8_lossy(bytes)
+    // a character takes four bytes at most
+    let start = &bytes[..bytes.len().min(4 * LONGEST)];
+    let shown: String = String::from_utf8_lossy(start)
         .chars()
         .filter(|c| !c.is_control())
         .take(LONGEST)
         .collect();
     if bytes.is_empty() {
         "nothing".to_owned()
+    } else if shown.is_empty() {
+        let digits: Vec<String> = bytes.iter().take(8).map(|b| format!("{b:02x}")).collect();
+        format!("the bytes {}", digits.join(" "))
     } else {
         format!("\"{shown}\"")
     }

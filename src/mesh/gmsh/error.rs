@@ -4,6 +4,9 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::mesh::kind::unsupported;
+use crate::mesh::{ElementKind, Entity};
+
 /// Where in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
@@ -33,7 +36,7 @@ pub enum MshError {
     },
     /// An MSH version that is not read.
     #[error(
-        "MSH version {found}: expected 4.1; convert it with: gmsh IN.msh -save -format msh41 -o OUT.msh"
+        "MSH version {found}: expected 4.1 or 2.2; convert it with: gmsh IN.msh -save -format msh41 -o OUT.msh"
     )]
     Version {
         /// The version found.
@@ -161,29 +164,43 @@ pub enum MshError {
     },
     /// An element type that the program has no element for.
     #[error(
-        "$Elements, {place}: element type {gmsh_type} ({name}) on entity {entity_tag} of dimension \
-         {dimension}: expected one of {known}; {advice}"
+        "$Elements, {place}: element type {gmsh_type} ({}){}: expected one of {}; {}",
+        unsupported(*gmsh_type).name, on_entity(*entity), known_kinds(), unsupported(*gmsh_type).advice
     )]
     UnsupportedElement {
         /// Where.
         place: Place,
         /// gmsh's number of the type.
         gmsh_type: i32,
-        /// Its name.
-        name: &'static str,
-        /// Dimension of the entity that it lies on.
-        dimension: usize,
-        /// Tag of that entity.
-        entity_tag: i32,
-        /// Names of the types that are read.
-        known: String,
-        /// What to do.
-        advice: &'static str,
+        /// The entity that it lies on, where the file gives it before the type (MSH 4.1).
+        entity: Option<Entity>,
     },
-    /// A disagreement with the reader library on a file that passed our own walk.
+    /// Groups that would take many times the memory of the file: every entity in every one of many.
+    #[error(
+        "the physical groups would take {needed} bytes of memory or more, too many for a file of \
+         {file_bytes} bytes: expected each entity in a few groups"
+    )]
+    TooManyMembers {
+        /// Bytes that the groups counted so far would take.
+        needed: u64,
+        /// Length of the file.
+        file_bytes: usize,
+    },
+    /// A disagreement with the reader library on a `$Entities` section that passed our own walk.
     #[error("{what}: expected what the MSH 4.1 format prescribes")]
     Reader {
         /// What the library said.
         what: String,
     },
+}
+
+fn on_entity(entity: Option<Entity>) -> String {
+    entity.map_or(String::new(), |Entity { dimension, tag }| {
+        format!(" on entity {tag} of dimension {dimension}")
+    })
+}
+
+fn known_kinds() -> String {
+    let names: Vec<&str> = ElementKind::all().map(ElementKind::name).collect();
+    names.join(", ")
 }

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::parse;
-use crate::mesh::{ElementId, ElementKind, Entity, Mesh};
+use crate::mesh::{ElementId, ElementKind, Entity, Mesh, MeshError};
 use crate::units::LengthUnit;
 
 mod damage;
 mod encode;
+mod mshio_agrees;
+mod repeats;
 mod rules;
 
 /// Two quadrilaterals side by side, 2 x 1. Node tags are dense but not in order; the left edge is in two
@@ -60,7 +61,10 @@ $EndElements
 
 fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let path = Path::new("small.msh");
-    parse(bytes, path, LengthUnit::Millimetre).map_err(|fault| fault.to_string())
+    match Mesh::from_gmsh_bytes(bytes, path, LengthUnit::Millimetre) {
+        Err(MeshError::Gmsh { fault, .. }) => Err(fault.to_string()),
+        other => other.map_err(|error| error.to_string()),
+    }
 }
 
 #[test]

@@ -1,0 +1,49 @@
+//! Plane and solid continua: stiffness and consistent mass of ten elements.
+//!
+//! `K = int B^T D B dV`, `M = rho int N^T N dV`; a plane element lies in the xy plane and has its thickness t
+//! before both. Degrees of freedom node by node: (u_x, u_y, u_z) of node 0, of node 1, ...; without u_z in the
+//! plane. Nodes are in gmsh's order, see [`ContinuumKind`].
+//!
+//! From coordinates to matrix: [`shape_derivatives`] at the points of a [`QuadratureRule`] are tabulated once a
+//! kind; the Jacobian turns them into gradients, whose products are summed over the points and contracted with
+//! the elasticity of [`ContinuumProperties`]; every element is checked on the way ([`stiffness_into`],
+//! [`nodal_mass_into`]). Nothing is allocated.
+//!
+//! Frequencies from the compatible elements lie above those of the continuum and fall as the mesh is refined,
+//! as far as the integration is exact: which rule is exact for what stands with
+//! [`ContinuumKind::stiffness_rule`] and [`ContinuumKind::mass_rule`]. Quad4 and Hex8 have incompatible modes
+//! by default ([`LinearFormulation`]), which bend without locking; their frequencies may come from below.
+//!
+//! # Limitations
+//! Tri3, Tet4 and Wedge6 lock in bending, and so do the plain Quad4 and Hex8. All elements lock as
+//! Poisson's ratio comes near 1/2, except in plane stress.
+
+mod dispatch;
+mod geometry;
+mod incompatible;
+mod kernel;
+mod kind;
+mod mass;
+mod properties;
+mod quadrature;
+mod quality;
+mod rules;
+mod shape;
+mod stiffness;
+mod surface;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use kind::{ContinuumKind, MAX_NODES};
+pub use mass::{measure, measure_matrix, nodal_mass, nodal_mass_into};
+pub use properties::{ContinuumProperties, PlaneAssumption};
+pub use quadrature::{QuadraturePoint, QuadratureRule};
+pub use quality::{ShapeQuality, quality};
+pub use rules::{Formulation, Integration, LinearFormulation};
+pub use shape::{ShapeDerivatives, ShapeValues, shape_derivatives, shape_values};
+pub use stiffness::{stiffness, stiffness_into};
+pub use surface::{
+    MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues, surface_matrix,
+    surface_shape, surface_weights,
+};

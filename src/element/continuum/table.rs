@@ -1,0 +1,97 @@
+//! Shape functions at the points of the rules, evaluated once a kind.
+
+use std::sync::OnceLock;
+
+use super::{ContinuumKind, QuadraturePoint, shape_derivatives, shape_values};
+
+/// Shape functions of one kind at the points of one rule.
+#[derive(Debug)]
+pub(super) struct Table {
+    pub(super) points: Vec<QuadraturePoint>,
+    /// Point by point, node by node.
+    values: Vec<f64>,
+    /// Point by point, direction by direction, node by node.
+    derivatives: Vec<f64>,
+}
+
+impl Table {
+    pub(super) fn new(kind: ContinuumKind, points: &[QuadraturePoint]) -> Self {
+        let mut values = Vec::new();
+        let mut derivatives = Vec::new();
+        for point in points {
+            values.extend_from_slice(&shape_values(kind, point.natural)[..kind.nodes()]);
+            let at_point = shape_derivatives(kind, point.natural);
+            for direction in 0..kind.dimension() {
+                derivatives.extend(at_point[..kind.nodes()].iter().map(|d| d[direction]));
+            }
+        }
+        Self {
+            points: points.to_vec(),
+            values,
+            derivatives,
+        }
+    }
+
+    /// `N_a`, an array a point; N must be the number of nodes.
+    pub(super) fn values<const N: usize>(&self) -> &[[f64; N]] {
+        self.values.as_chunks().0
+    }
+
+    /// `dN_a/dxi_d`, an array a point and direction; N must be the number of nodes.
+    pub(super) fn derivatives<const N: usize>(&self) -> &[[f64; N]] {
+        self.derivatives.as_chunks().0
+    }
+}
+
+/// All tables of one kind.
+#[derive(Debug)]
+pub(super) struct Tables {
+    pub(super) stiffness: Table,
+    pub(super) straight_stiffness: Table,
+    pub(super) mass: Table,
+    pub(super) straight_mass: Table,
+    /// The nodes, where the Jacobian is checked; weights have no meaning.
+    pub(super) nodes: Table,
+    /// The one point where the natural coordinates are zero: the centre of Quad4 and Hex8.
+    pub(super) centre: Table,
+    /// `int N_a N_b` over the natural element, column by column: times the Jacobian of a straight
+    /// triangle or tetrahedron it is the mass.
+    pub(super) natural_mass: Vec<f64>,
+}
+
+static TABLES: [OnceLock<Tables>; ContinuumKind::ALL.len()] =
+    [const { OnceLock::new() }; ContinuumKind::ALL.len()];
+
+/// The tables of a kind, made at the first call.
+pub(super) fn tables(kind: ContinuumKind) -> &'static Tables {
+    TABLES[kind as usize].get_or_init(|| Tables::new(kind))
+}
+
+impl Tables {
+    fn new(kind: ContinuumKind) -> Self {
+        let unweighted = |&natural: &[f64; 3]| QuadraturePoint {
+            natural,
+            weight: 0.0,
+        };
+        let nodes: Vec<_> = kind.natural_nodes().iter().map(unweighted).collect();
+        let mut natural_mass = vec![0.0; kind.nodes() * kind.nodes()];
+        for point in kind.mass_rule().points() {
+            let values = shape_values(kind, point.natural);
+            let products = values[..kind.nodes()]
+                .iter()
+                .flat_map(|b| values[..kind.nodes()].iter().map(move |a| a * b));
+            for (entry, product) in natural_mass.iter_mut().zip(products) {
+                *entry += point.weight * product;
+            }
+        }
+        Self {
+            stiffness: Table::new(kind, kind.stiffness_rule().points()),
+            straight_stiffness: Table::new(kind, kind.straight_stiffness_rule().points()),
+            mass: Table::new(kind, kind.mass_rule().points()),
+            straight_mass: Table::new(kind, kind.straight_mass_rule().points()),
+            nodes: Table::new(kind, &nodes),
+            centre: Table::new(kind, &[unweighted(&[0.0; 3])]),
+            natural_mass,
+        }
+    }
+}

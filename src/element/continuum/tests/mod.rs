@@ -1,0 +1,55 @@
+//! One harness for every continuum element and formulation: a line each, all checks the same.
+
+mod beam;
+mod errors;
+mod fixtures;
+mod matrices;
+mod patch;
+mod properties;
+mod quality;
+mod rules;
+mod shapes;
+mod surface;
+
+use super::{ContinuumKind, Formulation, Integration, LinearFormulation};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const FOUR_POINT: Formulation = Formulation {
+    integration: Integration::FourPoint,
+    linear: LinearFormulation::Incompatible,
+};
+const PLAIN: Formulation = Formulation {
+    integration: Integration::Full,
+    linear: LinearFormulation::Plain,
+};
+
+/// A test an element and formulation.
+macro_rules! harness {
+    ($($name:ident: $kind:ident, $formulation:expr;)*) => {$(
+        #[test]
+        fn $name() -> Outcome {
+            let (kind, formulation) = (ContinuumKind::$kind, $formulation);
+            shapes::check(kind);
+            matrices::check(kind, formulation)?;
+            patch::check(kind, formulation)?;
+            errors::check(kind, formulation)
+        }
+    )*};
+}
+
+harness! {
+    tri3: Tri3, Formulation::default();
+    tri6: Tri6, Formulation::default();
+    quad4: Quad4, Formulation::default();
+    quad4_plain: Quad4, PLAIN;
+    quad8: Quad8, Formulation::default();
+    tet4: Tet4, Formulation::default();
+    tet10: Tet10, Formulation::default();
+    tet10_four_point: Tet10, FOUR_POINT;
+    hex8: Hex8, Formulation::default();
+    hex8_plain: Hex8, PLAIN;
+    hex20: Hex20, Formulation::default();
+    wedge6: Wedge6, Formulation::default();
+    wedge15: Wedge15, Formulation::default();
+}

@@ -1,0 +1,178 @@
+//! Faces of solids, edges of plane elements, ends of lines: the boundary of one element.
+//!
+//! Source of the node order: gmsh reference manual, section "Node ordering".
+
+use super::ElementKind;
+
+/// A face of an element kind: an element of one dimension less.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Face {
+    /// Its kind: of the same order as the element.
+    pub kind: ElementKind,
+    /// Local node indices from 0, in gmsh's order for the kind of the face. The normal of a face of a
+    /// solid, by the right-hand rule on its corners, leads out of the element; an edge of a plane
+    /// element runs counter-clockwise round it.
+    pub nodes: &'static [usize],
+}
+
+macro_rules! faces {
+    ($($kind:ident $nodes:expr),* $(,)?) => {
+        &[$(Face { kind: ElementKind::$kind, nodes: &$nodes }),*]
+    };
+}
+
+static LINE: &[Face] = faces![Point[0], Point[1]];
+static TRI3: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]];
+static TRI6: &[Face] = faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]];
+static QUAD4: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]];
+static QUAD8: &[Face] = faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]];
+static TET4: &[Face] = faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]];
+static TET10: &[Face] = faces![
+    Tri6 [0, 2, 1, 6, 5, 4],
+    Tri6 [0, 1, 3, 4, 9, 7],
+    Tri6 [0, 3, 2, 7, 8, 6],
+    Tri6 [1, 2, 3, 5, 8, 9],
+];
+static HEX8: &[Face] = faces![
+    Quad4 [0, 3, 2, 1],
+    Quad4 [0, 1, 5, 4],
+    Quad4 [0, 4, 7, 3],
+    Quad4 [1, 2, 6, 5],
+    Quad4 [2, 3, 7, 6],
+    Quad4 [4, 5, 6, 7],
+];
+static HEX20: &[Face] = faces![
+    Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
+    Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
+    Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
+    Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
+    Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
+    Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
+];
+static WEDGE6: &[Face] = faces![
+    Tri3 [0, 2, 1],
+    Tri3 [3, 4, 5],
+    Quad4 [0, 1, 4, 3],
+    Quad4 [0, 3, 5, 2],
+    Quad4 [1, 2, 5, 4],
+];
+static WEDGE15: &[Face] = faces![
+    Tri6 [0, 2, 1, 7, 9, 6],
+    Tri6 [3, 4, 5, 12, 14, 13],
+    Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
+    Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
+    Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
+];
+
+impl ElementKind {
+    /// Faces of a solid, edges of a plane element, ends of a line, none of a point.
+    pub fn faces(self) -> &'static [Face] {
+        match self {
+            Self::Point => &[],
+            Self::Line2 | Self::Line3 => LINE,
+            Self::Tri3 => TRI3,
+            Self::Tri6 => TRI6,
+            Self::Quad4 => QUAD4,
+            Self::Quad8 => QUAD8,
+            Self::Tet4 => TET4,
+            Self::Tet10 => TET10,
+            Self::Hex8 => HEX8,
+            Self::Hex20 => HEX20,
+            Self::Wedge6 => WEDGE6,
+            Self::Wedge15 => WEDGE15,
+        }
+    }
+
+    /// Number of corner nodes; they come first.
+    pub fn corners(self) -> usize {
+        match self {
+            Self::Point => 1,
+            Self::Line2 | Self::Line3 => 2,
+            Self::Tri3 | Self::Tri6 => 3,
+            Self::Quad4 | Self::Quad8 | Self::Tet4 | Self::Tet10 => 4,
+            Self::Wedge6 | Self::Wedge15 => 6,
+            Self::Hex8 | Self::Hex20 => 8,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashMap;
+
+    /// Edges in gmsh's order, from which the middle nodes follow.
+    fn edges(kind: ElementKind) -> &'static [[usize; 2]] {
+        use ElementKind as K;
+        match kind {
+            K::Line3 => &[[0, 1]],
+            K::Tri6 => &[[0, 1], [1, 2], [2, 0]],
+            K::Quad8 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            K::Tet10 => &[[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]],
+            K::Hex20 => &[
+                [0, 1],
+                [0, 3],
+                [0, 4],
+                [1, 2],
+                [1, 5],
+                [2, 3],
+                [2, 6],
+                [3, 7],
+                [4, 5],
+                [4, 7],
+                [5, 6],
+                [6, 7],
+            ],
+            K::Wedge15 => &[
+                [0, 1],
+                [0, 2],
+                [0, 3],
+                [1, 2],
+                [1, 4],
+                [2, 5],
+                [3, 4],
+                [3, 5],
+                [4, 5],
+            ],
+            _ => &[],
+        }
+    }
+
+    /// A middle node is on a face between the two corners that it is between in the element.
+    #[test]
+    fn middle_nodes_of_faces_are_those_of_the_element() {
+        for kind in ElementKind::all() {
+            assert_eq!(kind.corners() + edges(kind).len(), kind.nodes(), "{kind:?}");
+            for face in kind.faces() {
+                assert_eq!(face.kind.dimension() + 1, kind.dimension());
+                assert_eq!(face.nodes.len(), face.kind.nodes());
+                let corners = face.kind.corners();
+                for (&middle, [a, b]) in face.nodes[corners..].iter().zip(edges(face.kind)) {
+                    let mut ends = [face.nodes[*a], face.nodes[*b]];
+                    let mut expected = edges(kind)[middle - kind.corners()];
+                    ends.sort_unstable();
+                    expected.sort_unstable();
+                    assert_eq!(ends, expected, "{kind:?}, face {:?}", face.nodes);
+                }
+            }
+        }
+    }
+
+    /// Every edge of a solid occurs in two faces, once in each direction.
+    #[test]
+    fn faces_of_a_solid_are_closed_and_agree_in_orientation() {
+        for kind in ElementKind::all().filter(|kind| kind.dimension() == 3) {
+            let mut seen = HashMap::new();
+            for face in kind.faces() {
+                for edge in face.kind.faces() {
+                    let ends = [edge.nodes[0], edge.nodes[1]].map(|local| face.nodes[local]);
+                    assert!(seen.insert(ends, ()).is_none());
+                }
+            }
+            assert!(
+                seen.keys().all(|[a, b]| seen.contains_key(&[*b, *a])),
+                "{kind:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! `$Nodes`: tags unique, coordinates finite.
+//!
+//! Format: gmsh reference manual, sections "MSH file format" and "MSH file format version 2".
+
+use super::MshError;
+use super::cursor::Cursor;
+use super::numbers::Item;
+use super::tags::NodeIndex;
+
+/// Nodes in the order of the file.
+pub(super) struct NodeTable {
+    pub(super) tags: Vec<u64>,
+    /// In metres.
+    pub(super) coordinates: Vec<[f64; 3]>,
+    pub(super) index: NodeIndex,
+}
+
+impl NodeTable {
+    fn for_count(count: usize) -> Self {
+        Self {
+            tags: Vec::with_capacity(count),
+            coordinates: Vec::with_capacity(count),
+            index: NodeIndex::for_count(count),
+        }
+    }
+
+    fn add_tag(&mut self, cursor: &mut Cursor<'_>, tag: u64) -> Result<(), MshError> {
+        if tag == 0 {
+            return Err(cursor.malformed("a node tag, greater than 0", b"0"));
+        }
+        let index = u32::try_from(self.tags.len()).ok();
+        let index = index.filter(|&index| index < u32::MAX).ok_or_else(|| {
+            cursor.feature("a mesh of more than 4294967295 nodes", "mesh more coarsely")
+        })?;
+        if !self.index.insert(tag, index) {
+            let place = cursor.place();
+            return Err(MshError::DuplicateNode { place, tag });
+        }
+        self.tags.push(tag);
+        Ok(())
+    }
+
+    /// Reads the coordinates of the next node that has only a tag.
+    #[inline]
+    fn add_coordinates(&mut self, cursor: &mut Cursor<'_>, metres: f64) -> Result<(), MshError> {
+        let mut node = [0.0; 3];
+        for x in &mut node {
+            let found = cursor.float("a coordinate of a node")?;
+            if !found.is_finite() {
+                let (place, tag) = (cursor.place(), self.tags[self.coordinates.len()]);
+                return Err(MshError::NotFinite { place, tag, found });
+            }
+            *x = found * metres;
+        }
+        self.coordinates.push(node);
+        Ok(())
+    }
+
+    fn complete(self) -> Result<Self, MshError> {
+        match self.tags.is_empty() {
+            true => Err(MshError::NoElements),
+            false => Ok(self),
+        }
+    }
+}
+
+/// Nodes of MSH 4.1; a file unit is so many metres.
+pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
+    let blocks = cursor.count("the number of blocks", Item::new(1, 3, 0))?;
+    let announced = cursor.count("the number of nodes", Item::new(1, 0, 3))?;
+    tag_range(
+        cursor,
+        ["the smallest node tag", "the largest node tag"],
+        "the largest node tag, not below the smallest",
+    )?;
+    let mut nodes = NodeTable::for_count(announced);
+    for _ in 0..blocks {
+        dimension(cursor)?;
+        cursor.int("the tag of an entity")?;
+        not_parametric(cursor)?;
+        let count = cursor.count("the number of nodes of a block", Item::new(1, 0, 3))?;
+        if count > announced - nodes.tags.len() {
+            return Err(not_as_announced(
+                cursor,
+                "nodes",
+                announced,
+                nodes.tags.len() + count,
+            ));
+        }
+        for _ in 0..count {
+            let tag = cursor.size("a node tag")?;
+            nodes.add_tag(cursor, tag)?;
+        }
+        for _ in 0..count {
+            nodes.add_coordinates(cursor, metres)?;
+        }
+    }
+    if nodes.tags.len() != announced {
+        return Err(not_as_announced(
+            cursor,
+            "nodes",
+            announced,
+            nodes.tags.len(),
+        ));
+    }
+    nodes.complete()
+}
+
+/// Nodes of MSH 2.2; a file unit is so many metres.
+pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
+    let count = cursor.text_count("the number of nodes", Item::new(0, 1, 3))?;
+    let mut nodes = NodeTable::for_count(count);
+    for _ in 0..count {
+        let found = cursor.int("a node tag")?;
+        let tag = u64::try_from(found).map_err(|_| {
+            cursor.malformed("a node tag, greater than 0", found.to_string().as_bytes())
+        })?;
+        nodes.add_tag(cursor, tag)?;
+        nodes.add_coordinates(cursor, metres)?;
+    }
+    nodes.complete()
+}
+
+fn not_parametric(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
+    let what = "the flag for parametric coordinates, 0 or 1";
+    match cursor.int(what)? {
+        0 => Ok(()),
+        1 => Err(parametric(cursor)),
+        found => Err(cursor.malformed(what, found.to_string().as_bytes())),
+    }
+}
+
+/// Nodes with their parameters on curves and surfaces: of no use here.
+pub(super) fn parametric(cursor: &Cursor<'_>) -> MshError {
+    cursor.feature(
+        "parametric coordinates",
+        "set Mesh.SaveParametric = 0 in gmsh and save again",
+    )
+}
+
+/// The smallest and the largest tag at the start of a section: read for their order alone.
+pub(super) fn tag_range(
+    cursor: &mut Cursor<'_>,
+    what: [&'static str; 2],
+    expected: &'static str,
+) -> Result<(), MshError> {
+    let smallest = cursor.size(what[0])?;
+    match cursor.size(what[1])? {
+        largest if largest < smallest => {
+            Err(cursor.malformed(expected, largest.to_string().as_bytes()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Dimension of the entity of a block.
+pub(super) fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, MshError> {
+    let what = "the dimension of an entity, 0 to 3";
+    let found = cursor.int(what)?;
+    usize::try_from(found)
+        .ok()
+        .filter(|&dimension| dimension <= 3)
+        .ok_or_else(|| cursor.malformed(what, found.to_string().as_bytes()))
+}
+
+/// Blocks list more or fewer items than the section announces.
+pub(super) fn not_as_announced(
+    cursor: &Cursor<'_>,
+    what: &str,
+    announced: usize,
+    listed: usize,
+) -> MshError {
+    let expected = format!("{announced} {what} as announced at the start of the section");
+    cursor.malformed(expected, listed.to_string().as_bytes())
+}

@@ -1,0 +1,221 @@
+//! Numbers one after the other, ASCII or binary.
+//!
+//! This is where an import spends its time: nothing is allocated and no message is built unless a number
+//! is wrong. Decimal fractions go through `str::parse`, which rounds correctly and is as quick as the
+//! libraries made for it.
+
+use super::MshError;
+use super::cursor::{Cursor, Encoding};
+
+/// Numbers that an item of a list takes at least.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Item {
+    pub(super) sizes: usize,
+    pub(super) ints: usize,
+    pub(super) floats: usize,
+}
+
+impl Item {
+    pub(super) const fn new(sizes: usize, ints: usize, floats: usize) -> Self {
+        Self {
+            sizes,
+            ints,
+            floats,
+        }
+    }
+
+    /// Bytes of one item: a number in ASCII takes a digit and a blank.
+    fn bytes(self, encoding: Encoding) -> usize {
+        match encoding {
+            Encoding::Ascii => 2 * (self.sizes + self.ints + self.floats),
+            Encoding::Binary { size_bytes, .. } => {
+                size_bytes * self.sizes + 4 * self.ints + 8 * self.floats
+            }
+        }
+    }
+}
+
+/// Unsigned integer made of these bytes, `N` 4 or 8.
+fn unsigned<const N: usize>(mut bytes: [u8; N], big_endian: bool) -> u64 {
+    if big_endian {
+        bytes.reverse();
+    }
+    let mut whole = [0; 8];
+    whole[..N].copy_from_slice(&bytes);
+    u64::from_le_bytes(whole)
+}
+
+impl Cursor<'_> {
+    /// gmsh's size_t.
+    #[inline]
+    pub(super) fn size(&mut self, what: &'static str) -> Result<u64, MshError> {
+        let found = match self.encoding {
+            Encoding::Ascii => self.digits(),
+            Encoding::Binary {
+                big_endian,
+                size_bytes: 4,
+            } => self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian)),
+            Encoding::Binary { big_endian, .. } => {
+                self.chunk::<8>().map(|bytes| unsigned(bytes, big_endian))
+            }
+        };
+        match found {
+            Some(value) => Ok(value),
+            None => Err(self.no_number(what)),
+        }
+    }
+
+    /// gmsh's int.
+    #[inline]
+    pub(super) fn int(&mut self, what: &'static str) -> Result<i32, MshError> {
+        let found = match self.encoding {
+            Encoding::Ascii => self.signed_digits(),
+            Encoding::Binary { big_endian, .. } => self
+                .chunk::<4>()
+                .map(|bytes| unsigned(bytes, big_endian) as u32 as i32),
+        };
+        match found {
+            Some(value) => Ok(value),
+            None => Err(self.no_number(what)),
+        }
+    }
+
+    /// gmsh's double; may be infinite or not a number.
+    #[inline]
+    pub(super) fn float(&mut self, what: &'static str) -> Result<f64, MshError> {
+        let found = match self.encoding {
+            Encoding::Ascii => self.fraction(),
+            Encoding::Binary { big_endian, .. } => self
+                .chunk::<8>()
+                .map(|bytes| f64::from_bits(unsigned(bytes, big_endian))),
+        };
+        match found {
+            Some(value) => Ok(value),
+            None => Err(self.no_number(what)),
+        }
+    }
+
+    /// A count of items, checked against what is left of the file: nothing is allocated for a count that
+    /// cannot be true.
+    pub(super) fn count(&mut self, what: &'static str, item: Item) -> Result<usize, MshError> {
+        let declared = self.size(what)?;
+        self.check_count(what, declared, item.bytes(self.encoding))
+    }
+
+    /// The same for a count that was read by other means, of items of so many bytes.
+    pub(super) fn check_count(
+        &self,
+        what: &'static str,
+        declared: u64,
+        item_bytes: usize,
+    ) -> Result<usize, MshError> {
+        let remaining = self.rest().len();
+        // one more: nothing need follow the last number
+        let most = remaining / item_bytes.max(1) + 1;
+        usize::try_from(declared)
+            .ok()
+            .filter(|&count| count <= most)
+            .ok_or_else(|| MshError::Count {
+                section: self.section.clone(),
+                place: self.place(),
+                what: what.to_owned(),
+                declared,
+                remaining,
+            })
+    }
+
+    /// A count that is text in binary files too, on a line of its own (MSH 2.2).
+    pub(super) fn text_count(&mut self, what: &'static str, item: Item) -> Result<usize, MshError> {
+        let word = self.take_word();
+        if word.is_empty() {
+            return Err(self.truncated(what));
+        }
+        let declared = std::str::from_utf8(word).ok();
+        let declared = declared
+            .and_then(|text| text.parse().ok())
+            .ok_or_else(|| self.malformed(what, word))?;
+        let count = self.check_count(what, declared, item.bytes(self.encoding))?;
+        match self.is_binary().then(|| self.take_line()) {
+            None | Some(b"") => Ok(count),
+            Some(after) => Err(self.malformed(format!("nothing after {what}"), after)),
+        }
+    }
+
+    #[inline]
+    fn chunk<const N: usize>(&mut self) -> Option<[u8; N]> {
+        self.set_mark();
+        let bytes = self.rest().first_chunk().copied()?;
+        self.position += N;
+        Some(bytes)
+    }
+
+    /// Passes over blanks; what follows is the place that messages name.
+    #[inline]
+    fn begin_word(&mut self) {
+        let mut at = self.position;
+        while self.bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
+            at += 1;
+        }
+        self.position = at;
+        self.mark = at;
+    }
+
+    #[inline]
+    fn digits(&mut self) -> Option<u64> {
+        self.begin_word();
+        self.digits_here()
+    }
+
+    /// The digits at the position, up to a blank or the end.
+    #[inline]
+    fn digits_here(&mut self) -> Option<u64> {
+        let start = self.position;
+        let (mut at, mut value) = (start, 0_u64);
+        while let Some(byte) = self.bytes.get(at) {
+            let digit = byte.wrapping_sub(b'0');
+            if digit > 9 {
+                if !byte.is_ascii_whitespace() {
+                    return None;
+                }
+                break;
+            }
+            value = value.checked_mul(10)?.checked_add(u64::from(digit))?;
+            at += 1;
+        }
+        self.position = at;
+        (at > start).then_some(value)
+    }
+
+    fn signed_digits(&mut self) -> Option<i32> {
+        self.begin_word();
+        let negative = self.bytes.get(self.position) == Some(&b'-');
+        self.position += usize::from(negative);
+        let size = i64::try_from(self.digits_here()?).ok()?;
+        i32::try_from(if negative { -size } else { size }).ok()
+    }
+
+    #[inline]
+    fn fraction(&mut self) -> Option<f64> {
+        self.begin_word();
+        let rest = self.rest();
+        let length = rest.iter().position(u8::is_ascii_whitespace);
+        let word = &rest[..length.unwrap_or(rest.len())];
+        let value = std::str::from_utf8(word).ok()?.parse().ok()?;
+        self.position += word.len();
+        Some(value)
+    }
+
+    /// Why there is no number at the mark.
+    #[cold]
+    #[inline(never)]
+    fn no_number(&mut self, what: &'static str) -> MshError {
+        self.position = self.mark;
+        if self.is_binary() {
+            return self.truncated(what);
+        }
+        match self.take_word() {
+            [] => self.truncated(what),
+            word => self.malformed(what, word),
+        }
+    }
+}

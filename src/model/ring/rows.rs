@@ -1,0 +1,82 @@
+//! Interpolation of a ring at any angle, in its plane.
+
+use super::{NODE_DOF, Ring};
+
+/// Interpolation at one angle: six entries in the vector of ring displacements for each polar
+/// component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingRows {
+    /// Where the six entries stand in the displacement vector.
+    pub dofs: [usize; 6],
+    /// Radial displacement w = radial . d.
+    pub radial: [f64; 6],
+    /// Tangential displacement of the centroid line u = tangential . d.
+    pub tangential: [f64; 6],
+    /// Rotation of the section theta = rotation . d.
+    pub rotation: [f64; 6],
+}
+
+impl Ring {
+    /// Interpolation at any angle, rad: continuous inside an element and from one to the next.
+    pub fn rows_at(&self, angle: f64) -> RingRows {
+        let (index, phi) = self.locate(angle);
+        self.rows_in_element(index, phi)
+    }
+
+    /// Interpolation in element `index` at the angle `phi` from its middle, rad.
+    pub fn rows_in_element(&self, index: usize, phi: f64) -> RingRows {
+        let (dofs, turn) = self.frame(index);
+        let n = self.element.interpolation(phi) * turn;
+        let row = |component: usize| std::array::from_fn(|column| n[(component, column)]);
+        RingRows {
+            dofs,
+            tangential: row(0),
+            radial: row(1),
+            rotation: row(2),
+        }
+    }
+
+    /// Interpolation of the radial displacement at `phi` from an element's middle (rad) in the polar
+    /// components (tangential, radial, rotation) of its two nodes; the same for every element.
+    pub fn polar_radial_row(&self, phi: f64) -> [f64; 6] {
+        let n = self.element.interpolation(phi);
+        std::array::from_fn(|column| n[(1, column)])
+    }
+
+    /// In-plane degrees of freedom of an element and the matrix that turns them to polar components.
+    pub(super) fn frame(&self, index: usize) -> ([usize; 6], nalgebra::Matrix6<f64>) {
+        let ends = [index, (index + 1) % self.nodes];
+        let mut turn = nalgebra::Matrix6::zeros();
+        let mut dofs = [0; 6];
+        for (end, node) in ends.into_iter().enumerate() {
+            let (sin, cos) = self.node_angle(node).sin_cos();
+            let first = NODE_DOF * end;
+            turn[(first, first)] = -sin;
+            turn[(first, first + 1)] = cos;
+            turn[(first + 1, first)] = cos;
+            turn[(first + 1, first + 1)] = sin;
+            turn[(first + 2, first + 2)] = 1.0;
+            for component in 0..NODE_DOF {
+                dofs[first + component] = NODE_DOF * node + component;
+            }
+        }
+        (dofs, turn)
+    }
+}
+
+impl RingRows {
+    /// Value of one component for the ring displacements `d`.
+    pub fn apply(&self, row: &[f64; 6], d: &[f64]) -> f64 {
+        self.dofs
+            .iter()
+            .zip(row)
+            .map(|(&dof, factor)| factor * d[dof])
+            .sum()
+    }
+
+    /// Tangential displacement of the section's point at `arm` outside the node radius:
+    /// `u + arm theta`.
+    pub fn tangential_at(&self, arm: f64) -> [f64; 6] {
+        std::array::from_fn(|k| self.tangential[k] + arm * self.rotation[k])
+    }
+}
