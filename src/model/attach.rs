@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 impl HousingModel {
     pub(super) fn attach_mass(&mut self, mesh: &Mesh, mass: &PointMass) -> Result<(), ModelError> {
         let group = self.group_on_housing(mesh, &mass.group, "the mass")?;
-        for Share { nodes, matrix } in shares(mesh, group, &self.used)? {
+        for Share { nodes, matrix } in shares(mesh, group, &self.used, "the mass")? {
             let matrix = matrix * mass.mass;
             self.masses.push(NodalMatrix { nodes, matrix });
         }
@@ -36,7 +36,7 @@ impl HousingModel {
         };
         let shares = match support.share {
             SupportShare::PerNode => on_housing.map(Share::of_node).collect(),
-            SupportShare::PerGroup => shares(mesh, group, &self.used)?,
+            SupportShare::PerGroup => shares(mesh, group, &self.used, "the support")?,
         };
         for share in shares {
             let matrix = self.spring_matrix(&share, stiffness);

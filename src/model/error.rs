@@ -211,9 +211,9 @@ pub enum ModelError {
         /// Group of the support.
         fixed: String,
     },
-    /// A group of nodes that no element of the housing uses.
+    /// A group that is not, or with no whole element, on the housing.
     #[error(
-        "group \"{group}\" in {path}: none of its nodes belongs to an element of the housing, so {purpose} would hang on nothing"
+        "group \"{group}\" in {path}: no part of it belongs to an element of the housing, so {purpose} would hang on nothing"
     )]
     NotOnHousing {
         /// The mesh file.

@@ -20,11 +20,13 @@ pub(super) struct Share {
 /// Shares of the nodes and elements of a group that the housing uses.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an element without length, area or volume.
+/// [`ModelError::Element`] for an element without length, area or volume, [`ModelError::NotOnHousing`] if no whole
+/// element lies on the housing.
 pub(super) fn shares(
     mesh: &Mesh,
     group: &PhysicalGroup,
     used: &[bool],
+    purpose: &'static str,
 ) -> Result<Vec<Share>, ModelError> {
     let elements = group.elements.iter().filter_map(|id| {
         let block = mesh.blocks.get(id.block)?;
@@ -32,7 +34,15 @@ pub(super) fn shares(
         let on_housing = nodes.iter().all(|&node| used[node]);
         on_housing.then_some((block.kind, nodes, block.tags[id.index]))
     });
-    spread(mesh, elements).map(|(shares, _)| shares)
+    let (shares, _) = spread(mesh, elements)?;
+    match shares.is_empty() {
+        false => Ok(shares),
+        true => Err(ModelError::NotOnHousing {
+            path: mesh.source.display().to_string(),
+            group: group.name.clone(),
+            purpose,
+        }),
+    }
 }
 
 /// Shares of elements given by kind, nodes and tag, and their length, area or volume together; points share equally

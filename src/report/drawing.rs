@@ -50,15 +50,15 @@ pub struct Dent {
     pub label: String,
 }
 
-/// A sensor: an arrow at its place.
+/// A sensor: an arrow at its place, a ring and a dot if it measures across the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
     /// Its name.
     pub name: String,
     /// Its place.
     pub at: Point,
-    /// Direction in which it measures, rad.
-    pub direction_rad: f64,
+    /// Direction in which it measures, rad; `None`: across the drawing.
+    pub direction_rad: Option<f64>,
 }
 
 /// A drawing of the model. Whatever is empty is left out, of the key too.

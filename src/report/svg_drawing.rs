@@ -212,9 +212,21 @@ fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
     );
 }
 
-/// An arrow from the sensor's place in the direction in which it measures, with the name at its tip.
+/// An arrow from the sensor's place in the direction in which it measures, with the name at its tip; a dot in a circle,
+/// the name beside it, for one that measures across the drawing.
 fn draw_sensor(out: &mut String, [x, y]: [f64; 2], sensor: &Sensor) {
-    let angle = sensor.direction_rad;
+    let Some(angle) = sensor.direction_rad else {
+        let _ = write!(
+            out,
+            "<g class=\"sensor\"><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>\
+             <circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7.5\" style=\"fill:none;stroke:currentColor\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\">{}</text></g>",
+            x + 13.0,
+            y + 4.0,
+            escape(&sensor.name)
+        );
+        return;
+    };
     let (s, c) = angle.sin_cos();
     let tip = [x + ARROW * c, y - ARROW * s];
     let mut head = Path::default();
@@ -349,7 +361,7 @@ fn key(out: &mut String, drawing: &Drawing) {
             let right = Sensor {
                 name: String::new(),
                 at: Point { x: 0.0, y: 0.0 },
-                direction_rad: 0.0,
+                direction_rad: Some(0.0),
             };
             draw_sensor(out, [x - 28.0, y], &right);
         };
@@ -403,7 +415,7 @@ mod tests {
             sensors: vec![Sensor {
                 name: "P1".to_owned(),
                 at: CENTRE.polar(9e-3, FRAC_PI_2),
-                direction_rad: FRAC_PI_2,
+                direction_rad: Some(FRAC_PI_2),
             }],
             ..Drawing::default()
         }

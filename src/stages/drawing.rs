@@ -7,7 +7,7 @@ use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 use crate::system::BearingSetup;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Angle between two faces (rad) from which on their common edge is drawn: chords of a bore of 16 faces meet at 22
 /// degrees.
@@ -214,16 +214,16 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
         };
         let frame = stage.housing.as_ref().map(|housing| housing.model.frame());
         let [x, y, _] = frame.map_or(sensor.direction, |frame| frame.vector(sensor.direction));
-        let direction_rad = if x == 0.0 && y == 0.0 {
-            FRAC_PI_2
-        } else {
-            y.atan2(x)
-        };
+        let size = sensor
+            .direction
+            .iter()
+            .fold(0.0_f64, |size, part| size.max(part.abs()));
+        let direction_rad = (x.hypot(y) > 1e-9 * size).then(|| y.atan2(x).rem_euclid(2.0 * PI));
         if let Some(at) = at {
             drawing.sensors.push(Sensor {
                 name: sensor.name.clone(),
                 at,
-                direction_rad: direction_rad.rem_euclid(2.0 * PI),
+                direction_rad,
             });
         }
     }

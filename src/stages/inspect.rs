@@ -1,7 +1,7 @@
 //! `plummer inspect`: what a mesh contains, how large it is and how well its elements are shaped.
 
 use crate::element::continuum::{measure, quality, surface_weights};
-use crate::mesh::{BoundingBox, ElementId, ElementKind, Inventory, Mesh, MeshError};
+use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
 use crate::model::{continuum_kind, surface_kind};
 use crate::units::LengthUnit;
 use serde::Serialize;
@@ -88,16 +88,6 @@ impl Inspection {
             })
             .collect();
         Ok(found)
-    }
-
-    /// Whether every element has a valid shape.
-    pub fn is_usable(&self) -> bool {
-        self.invalid_elements == 0
-    }
-
-    /// Extent of the mesh, m.
-    pub fn bounding_box(&self) -> &BoundingBox {
-        &self.inventory.bounding_box
     }
 
     fn look_at(&mut self, mesh: &Mesh, id: ElementId) {

@@ -11,7 +11,7 @@ use plummer::assembly::SystemMatrices;
 use plummer::element::continuum::{ContinuumProperties, Formulation, nodal_mass, stiffness};
 use plummer::linalg::{SparseMatrix, TripletBuilder};
 use plummer::material::{ElasticMaterial, Material};
-use plummer::mesh::Mesh;
+use plummer::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use plummer::model::{
     Connection, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, PointMass,
     SpringStiffness, SupportShare,
@@ -153,6 +153,7 @@ fn what_is_spread_over_a_face_adds_up() {
             }
         }
     }
+    // sums of 1e5 entries, which cancel: 1e3 times the rounding of the largest
     let stiffest = loaded
         .stiffness
         .data()
@@ -160,4 +161,53 @@ fn what_is_spread_over_a_face_adds_up() {
         .fold(0.0_f64, |k, v| k.max(*v));
     assert!((force - 2e6).abs() < 1e-12 * stiffest * 1e3, "{force}");
     assert!(bending.abs() < 1e-12 * stiffest * 1e3, "{bending}");
+}
+
+/// An edge that leads away from the housing carries nothing: a stiffness spread over it would vanish silently.
+#[test]
+fn a_group_without_a_whole_element_on_the_housing_is_refused() {
+    let mut mesh = Mesh::read_gmsh(&data("one_block.msh"), LengthUnit::Millimetre).unwrap();
+    let (on, off) = (0, mesh.nodes.len());
+    mesh.nodes.push([0.0, 0.0, -1.0]);
+    mesh.node_tags.push(1_000_000);
+    let entity = Entity {
+        dimension: 1,
+        tag: 99,
+    };
+    mesh.blocks.push(ElementBlock {
+        kind: ElementKind::Line2,
+        tags: vec![1_000_000],
+        connectivity: vec![on, off],
+        entity,
+    });
+    let (block, index) = (mesh.blocks.len() - 1, 0);
+    mesh.groups.push(PhysicalGroup {
+        name: "loose end".to_owned(),
+        dimension: 1,
+        tag: 99,
+        nodes: vec![on, off],
+        elements: vec![ElementId { block, index }],
+    });
+    let refusal = |share| {
+        let stiffness = SpringStiffness::Global([1e6; 3]);
+        let description = HousingDescription {
+            parts: vec![part("block")],
+            supports: vec![HousingSupport {
+                group: "loose end".to_owned(),
+                constraint: plummer::model::Constraint::Spring(stiffness),
+                share,
+            }],
+            ..HousingDescription::default()
+        };
+        HousingModel::new(&mesh, description).map_err(|error| error.to_string())
+    };
+    let message = refusal(SupportShare::PerGroup).unwrap_err();
+    assert!(
+        message.ends_with(
+            "no part of it belongs to an element of the housing, so the support would hang on nothing"
+        ),
+        "{message}"
+    );
+    // a spring at each node finds the one that is on the housing
+    assert_eq!(refusal(SupportShare::PerNode).unwrap().spring_nodes(), [on]);
 }
