@@ -12,13 +12,14 @@
 //! 2. [`mesh`]: gmsh import with physical names and a validator.
 //! 3. [`material`], [`element`]: plane and solid elements and the curved beam; [`model`]: properties,
 //!    supports, links, the ring and the tie of the bore to its interpolation.
-//! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, ARPACK, dense problems.
+//! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, eigenpairs with a proof, dense problems.
 //! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
 //! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
 //! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
 //! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and two integrators.
 //! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
-//! 10. [`export`], [`report`], [`stages`], [`cli`]: files, one self-contained HTML page, commands.
+//! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
+//!     self-contained HTML page, commands.
 //!
 //! ```no_run
 //! use plummer::case::Case;
@@ -42,7 +43,7 @@ pub mod cli;
 pub mod closed_form;
 pub mod dynamics;
 pub mod element;
-pub mod export;
+pub mod exchange;
 pub mod linalg;
 pub mod material;
 pub mod mesh;

@@ -4,11 +4,14 @@
 //! added into it in element order, so that the sums depend on nothing but the model.
 
 mod batch;
+mod coupled;
 mod pattern;
 
 use crate::element::continuum::{nodal_mass_into, stiffness_into};
 use crate::linalg::{DenseMatrix, SparseMatrix, congruence, transpose_times_dense};
 use crate::model::{HousingModel, ModelError, NodalMatrix, RingTie};
+pub use coupled::CoupledMatrices;
+
 use batch::in_batches;
 use pattern::{BlockMatrix, Coupling, Local, NodeGraph};
 
@@ -127,7 +130,7 @@ fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelEr
 fn locals(matrices: &[NodalMatrix]) -> Vec<Local<'_>> {
     matrices
         .iter()
-        .map(|NodalMatrix { nodes, matrix }| Local {
+        .map(|NodalMatrix { nodes, matrix, .. }| Local {
             nodes,
             matrix: matrix.as_slice(),
         })

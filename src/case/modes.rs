@@ -24,12 +24,17 @@ pub enum ModeExtent {
     Count(usize),
     /// All below this frequency in Hz, > 0.
     UpToHz(f64),
+    /// All between two frequencies in Hz, 0 <= low < high.
+    BandHz([f64; 2]),
 }
+
+/// Modes computed where the case says nothing.
+const DEFAULT_COUNT: usize = 20;
 
 impl Default for Modes {
     fn default() -> Self {
         Self {
-            extent: ModeExtent::Count(20),
+            extent: ModeExtent::Count(DEFAULT_COUNT),
             expected: Vec::new(),
             linearise: Linearise::None,
             variants: Vec::new(),
@@ -78,6 +83,8 @@ struct ModesForm {
     count: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     up_to_hz: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    band_hz: Option<[f64; 2]>,
     #[serde(default)]
     expected: Vec<Expected>,
     #[serde(default)]
@@ -88,16 +95,29 @@ struct ModesForm {
 
 written_as!(Modes, ModesForm);
 
+impl ModeExtent {
+    /// The same for a model with so many degrees of freedom: fewer modes than the default if it has fewer. What was
+    /// asked for by name stays.
+    pub fn of_model(self, free_dof: usize) -> Self {
+        match self {
+            Self::Count(DEFAULT_COUNT) => Self::Count(DEFAULT_COUNT.min(free_dof).max(1)),
+            asked => asked,
+        }
+    }
+}
+
 impl TryFrom<ModesForm> for Modes {
     type Error = Mismatch;
 
     fn try_from(form: ModesForm) -> Result<Self, Mismatch> {
-        let extent = match (form.count, form.up_to_hz) {
-            (Some(count), None) => ModeExtent::Count(count),
-            (None, Some(limit)) => ModeExtent::UpToHz(limit),
-            (None, None) => Self::default().extent,
-            (Some(_), Some(_)) => {
-                return Err(Mismatch::form("both", "one of `count`, `up_to_hz`"));
+        let extent = match (form.count, form.up_to_hz, form.band_hz) {
+            (Some(count), None, None) => ModeExtent::Count(count),
+            (None, Some(limit), None) => ModeExtent::UpToHz(limit),
+            (None, None, Some(band)) => ModeExtent::BandHz(band),
+            (None, None, None) => Self::default().extent,
+            _ => {
+                let expected = "one of `count`, `up_to_hz`, `band_hz`";
+                return Err(Mismatch::form("several", expected));
             }
         };
         Ok(Self {
@@ -111,13 +131,15 @@ impl TryFrom<ModesForm> for Modes {
 
 impl From<Modes> for ModesForm {
     fn from(modes: Modes) -> Self {
-        let (count, up_to_hz) = match modes.extent {
-            ModeExtent::Count(count) => (Some(count), None),
-            ModeExtent::UpToHz(limit) => (None, Some(limit)),
+        let (count, up_to_hz, band_hz) = match modes.extent {
+            ModeExtent::Count(count) => (Some(count), None, None),
+            ModeExtent::UpToHz(limit) => (None, Some(limit), None),
+            ModeExtent::BandHz(band) => (None, None, Some(band)),
         };
         Self {
             count,
             up_to_hz,
+            band_hz,
             expected: modes.expected,
             linearise: modes.linearise,
             variants: modes.variants,

@@ -423,8 +423,14 @@ fn keys_that_exclude_each_other_are_named() {
         (
             "modes={count=1,up_to_hz=1}",
             "modes",
-            "both",
-            "one of `count`, `up_to_hz`",
+            "several",
+            "one of `count`, `up_to_hz`, `band_hz`",
+        ),
+        (
+            "modes={band_hz=[1,2],up_to_hz=1}",
+            "modes",
+            "several",
+            "one of `count`, `up_to_hz`, `band_hz`",
         ),
     ] {
         let message = format!("--set {set}: `{key}`: found {found}, expected {expected}");

@@ -1,6 +1,6 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
-use super::results::modes_json;
+use super::results::{modes_json, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::stages::{ModesResult, Reading, compute_modes, modes_report};
@@ -18,7 +18,8 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     let html = modes_report(case, &result, &command)?
         .to_html()
         .map_err(crate::stages::StageError::from)?;
-    let report = folder.write("modes-report.html", html.as_bytes())?;
+    let report = folder.write(&folder.report_name("modes"), html.as_bytes())?;
+    let shapes = write_modes(&folder, &result)?;
     let json = modes_json(
         case,
         &result,
@@ -32,7 +33,7 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     Ok(Outcome {
         summary: summary(&result),
         result: json,
-        written: vec![json_path, report],
+        written: vec![json_path, shapes, report],
         verdict: if result.passes() {
             Verdict::Good
         } else {
@@ -50,10 +51,23 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
 }
 
 fn summary(result: &ModesResult) -> String {
+    let survey = &result.survey;
+    let check = survey.basis.count_check;
     let mut lines = vec![format!(
         "{} degrees of freedom, {} rigid modes, {:.6e} kg",
-        result.dof, result.rigid_modes, result.mass_kg
+        survey.dof, survey.basis.rigid_modes, survey.mass.mass
     )];
+    lines.push(match check.above_hz {
+        Some(above) => format!(
+            "between {above:.2} and {:.2} Hz: {} modes counted, {} found",
+            check.below_hz, check.counted, check.found
+        ),
+        None => format!(
+            "below {:.2} Hz: {} modes counted, {} found",
+            check.below_hz, check.counted, check.found
+        ),
+    });
+    lines.extend(crate::stages::free_motions(result));
     lines.push(format!(
         "unloaded (Hz): {}",
         listed(&result.base.unloaded_hz)

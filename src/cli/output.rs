@@ -1,11 +1,12 @@
 //! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::{CliError, Options};
 use crate::case::Case;
+use crate::exchange;
 
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///
@@ -26,27 +27,9 @@ pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// [`CliError::Write`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
 /// name is as it was.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    let failed = |source| CliError::Write {
+    exchange::write_atomic(path, |file| file.write_all(bytes)).map_err(|source| CliError::Write {
         path: path.to_owned(),
         source,
-    };
-    let Some(name) = path.file_name() else {
-        return Err(failed(io::ErrorKind::InvalidFilename.into()));
-    };
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(hidden);
-    let written = File::create(&temporary)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        })
-        .and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|source| {
-        // The first failure is the one to report; the file may not even exist.
-        let _ = fs::remove_file(&temporary);
-        failed(source)
     })
 }
 
@@ -87,6 +70,20 @@ impl OutputFolder {
             path: self.path.clone(),
             source,
         })
+    }
+
+    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
+    #[must_use]
+    pub fn report_name(&self, command: &str) -> String {
+        let others = ["run", "modes"]
+            .into_iter()
+            .filter(|&other| other != command);
+        let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
+        if others.into_iter().any(shared) {
+            format!("{command}-report.html")
+        } else {
+            "report.html".to_owned()
+        }
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.

@@ -2,7 +2,8 @@
 
 use super::{CliError, Options, OutputFolder, Progress};
 use crate::case::Case;
-use crate::export::{NpzError, NpzWriter};
+use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
+use crate::linalg::DenseMatrix;
 use crate::stages::{ModesResult, Reading, RunEnd, RunResult, StageError};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -110,13 +111,33 @@ pub(super) fn modes_json(
     options: &Options,
 ) -> Value {
     let mut map = common("modes", case, progress, wall_s, options);
+    let survey = &result.survey;
+    let basis = &survey.basis;
     let fields = json!({
-        "dof": result.dof,
-        "free_dof": result.free_dof,
-        "mass_kg": result.mass_kg,
+        "dof": survey.dof,
+        "free_dof": survey.free_dof,
+        "mass_kg": survey.mass.mass,
+        "centroid_m": survey.mass.centroid(),
+        "mass": survey.mass,
         "frequencies_hz": result.base.unloaded_hz,
-        "rigid_modes": result.rigid_modes,
-        "residuals": result.residuals,
+        "error_bounds_hz": basis.error_bounds_hz,
+        "rigid_modes": basis.rigid_modes,
+        "residuals": basis.residuals,
+        "orthogonality": basis.orthogonality,
+        "count_check": basis.count_check,
+        "shift": basis.shift,
+        "eigen_s": {
+            "order": basis.times.order,
+            "factor": basis.times.factor,
+            "iterate": basis.times.iterate,
+            "count": basis.times.count,
+        },
+        "participation_factors": matrix(&survey.participation.factors),
+        "effective_mass": matrix(&survey.participation.effective),
+        "effective_mass_sum": survey.participation.sums,
+        "effective_mass_total": survey.participation.totals,
+        "energy_shares": survey.shares,
+        "free_motions": survey.mechanisms,
         "loaded": loaded(&result.base),
         "expected": result.base.expected,
         "variants": result.variants.iter().map(|variant| json!({
@@ -129,6 +150,26 @@ pub(super) fn modes_json(
     });
     extend(&mut map, fields);
     Value::Object(map)
+}
+
+/// Rows of a matrix.
+fn matrix(a: &DenseMatrix) -> Vec<Vec<f64>> {
+    (0..a.nrows())
+        .map(|row| a.row(row).iter().copied().collect())
+        .collect()
+}
+
+/// `modes.npz`: frequencies, nodes and shapes, ring nodes after those of the mesh.
+///
+/// # Errors
+/// [`CliError`] if it cannot be written.
+pub(super) fn write_modes(
+    folder: &OutputFolder,
+    result: &ModesResult,
+) -> Result<PathBuf, CliError> {
+    let path = folder.path().join("modes.npz");
+    write_modes_npz(&path, &result.mode_shapes()).map_err(StageError::from)?;
+    Ok(path)
 }
 
 fn loaded(reading: &Reading) -> Value {

@@ -19,7 +19,7 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     let html = run_report(case, &result, &command)?
         .to_html()
         .map_err(crate::stages::StageError::from)?;
-    let report = folder.write("report.html", html.as_bytes())?;
+    let report = folder.write(&folder.report_name("run"), html.as_bytes())?;
     let json = run_json(
         case,
         &result,

@@ -1,62 +1,51 @@
-//! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, approximate minimum degree
-//! ordering).
+//! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
-use super::{DenseMatrix, LinalgError, SparseMatrix, run_sequentially};
-use faer::Side;
-use faer::linalg::cholesky::llt::factor::LltError as PivotError;
-use faer::prelude::Solve;
-use faer::sparse::linalg::LltError;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use super::factor::Factor;
+use super::numeric::Kind;
+use super::ordering::Ordering;
+use super::symbolic::Symbolic;
+use super::symmetric::SymmetricMatrix;
+use super::{DenseMatrix, LinalgError, SparseMatrix};
+use std::sync::Arc;
 
-/// Factor of a symmetric positive definite sparse matrix; serves any number of right-hand sides.
-#[derive(Debug)]
+/// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
+#[derive(Debug, Clone)]
 pub struct SparseCholesky {
-    factor: Llt<usize, f64>,
-    order: usize,
+    ordering: Arc<Ordering>,
+    factor: Arc<Factor>,
 }
 
 impl SparseCholesky {
     /// Factorises `a` [n x n], symmetric, both triangles stored.
     ///
     /// # Errors
-    /// [`LinalgError::NotPositiveDefinite`] with the pivot at which it stopped, or
-    /// [`LinalgError::Factorisation`].
+    /// [`LinalgError::NotPositiveDefinite`] with the pivot at which it stopped, [`LinalgError::NearlySingular`] for a matrix
+    /// of which round-off leaves nothing to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
-        run_sequentially();
-        let order = a.rows();
-        if a.cols() != order || !a.is_csc() {
+        if a.cols() != a.rows() || !a.is_csc() {
             return Err(LinalgError::Shape {
                 what: "matrix to factorise (square, compressed columns)",
-                expected: order,
+                expected: a.rows(),
                 found: a.cols(),
             });
         }
-        let offsets = a.indptr();
-        let offsets = offsets.raw_storage();
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(order, order, offsets, None, a.indices());
-        let failed = |reason| LinalgError::Factorisation { order, reason };
-        let symbolic =
-            SymbolicLlt::try_new(pattern, Side::Lower).map_err(|_| failed("symbolic analysis"))?;
-        let values = SparseColMatRef::new(pattern, a.data());
-        let factor = Llt::try_new_with_symbolic(symbolic, values, Side::Lower).map_err(
-            |error| match error {
-                LltError::Numeric(PivotError::NonPositivePivot { index }) => {
-                    LinalgError::NotPositiveDefinite {
-                        order,
-                        pivot: index,
-                    }
-                }
-                LltError::Generic(_) => failed("out of memory or index overflow"),
-            },
-        )?;
-        Ok(Self { factor, order })
+        let ordering = Ordering::of(a)?;
+        let permuted = SymmetricMatrix::permuted(a, &ordering);
+        let symbolic = Arc::new(Symbolic::new(&permuted)?);
+        Ok(Self {
+            factor: Arc::new(Factor::double(&symbolic, &permuted, Kind::Definite)?),
+            ordering: Arc::new(ordering),
+        })
     }
 
     /// Number of rows of the factorised matrix.
     pub fn order(&self) -> usize {
-        self.order
+        self.ordering.old.len()
+    }
+
+    /// Order and factor, for an eigenvalue problem with the same matrix.
+    pub(super) fn shared(&self) -> (Arc<Ordering>, Arc<Factor>) {
+        (Arc::clone(&self.ordering), Arc::clone(&self.factor))
     }
 
     /// Solves `A x = b` for one right-hand side of length n, in place.
@@ -65,9 +54,9 @@ impl SparseCholesky {
     /// [`LinalgError::Shape`] if the length is not n.
     pub fn solve_vector(&self, right_hand_side: &mut [f64]) -> Result<(), LinalgError> {
         self.check(right_hand_side.len())?;
-        let order = self.order;
-        let columns = faer::MatMut::from_column_major_slice_mut(right_hand_side, order, 1);
-        self.factor.solve_in_place(columns);
+        let mut column = DenseMatrix::from_fn(self.order(), 1, |row, _| right_hand_side[row]);
+        self.solve_columns(&mut column)?;
+        right_hand_side.copy_from_slice(column.col_as_slice(0));
         Ok(())
     }
 
@@ -77,23 +66,24 @@ impl SparseCholesky {
     /// [`LinalgError::Shape`] if `B` has not n rows.
     pub fn solve_columns(&self, right_hand_sides: &mut DenseMatrix) -> Result<(), LinalgError> {
         self.check(right_hand_sides.nrows())?;
-        self.factor.solve_in_place(right_hand_sides.as_mut());
+        let mut permuted = self.ordering.forward(right_hand_sides);
+        self.factor.solve(&mut permuted);
+        self.ordering.backward(&permuted, right_hand_sides);
         Ok(())
     }
 
     fn check(&self, rows: usize) -> Result<(), LinalgError> {
-        if rows == self.order {
+        if rows == self.order() {
             Ok(())
         } else {
             Err(LinalgError::Shape {
                 what: "right-hand side",
-                expected: self.order,
+                expected: self.order(),
                 found: rows,
             })
         }
     }
 }
-
 #[cfg(test)]
 mod tests {
     use super::super::TripletBuilder;

@@ -71,6 +71,13 @@ impl DenseCholesky {
 pub fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
     run_sequentially();
     let failed = || LinalgError::DenseEigen { order: a.nrows() };
+    if a.nrows() == 0 {
+        // faer's solver expects one row at least
+        return Ok(SymmetricSpectrum {
+            values: Vec::new(),
+            vectors: DenseMatrix::zeros(0, 0),
+        });
+    }
     // faer's solver has thresholds that are not relative: entries of 1e15 cost it half its digits
     let largest = a.norm_max();
     let scale = if largest > 0.0 { largest } else { 1.0 };
@@ -87,8 +94,9 @@ pub fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError
     })
 }
 
-/// All eigenpairs of `K x = lambda M x`, `K` symmetric positive semidefinite and `M` symmetric
-/// positive definite [n x n], vectors normalised to `x^T M x = 1`.
+/// All eigenpairs of `K x = lambda M x`, `K` and `M` symmetric positive semidefinite [n x n] and not both singular in
+/// one direction, vectors normalised to `x^T M x = 1`. A motion without mass has the eigenvalue infinity, a vector of
+/// zeros, and stands last.
 ///
 /// The inverse problem `M x = mu (K + s M) x` is reduced by the Cholesky factor of `K + s M` (Golub
 /// and Van Loan, Matrix Computations, 4th ed., section 8.7.2, roles exchanged) and
@@ -122,25 +130,46 @@ pub fn symmetric_generalised_eigen(
     let inverse = symmetric_eigen(&symmetric)?;
     // mu descends as lambda ascends
     let mu = |mode: usize| inverse.values[order - 1 - mode] / shift;
-    if order > 0 && mu(order - 1) <= 0.0 {
+    let round_off =
+        order as f64 * f64::EPSILON * inverse.values.last().copied().unwrap_or(0.0) / shift;
+    if order > 0 && mu(order - 1) < -round_off {
         return Err(LinalgError::NotPositiveDefinite { order, pivot: 0 });
     }
+    let has_mass = |mode: usize| mu(mode) > round_off;
     let mut vectors = DenseMatrix::from_fn(order, order, |row, mode| {
-        inverse.vectors[(row, order - 1 - mode)] / mu(mode).sqrt()
+        if has_mass(mode) {
+            inverse.vectors[(row, order - 1 - mode)] / mu(mode).sqrt()
+        } else {
+            0.0
+        }
     });
     solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), faer::Par::Seq);
     Ok(SymmetricSpectrum {
-        values: (0..order).map(|mode| 1.0 / mu(mode) - shift).collect(),
+        values: (0..order)
+            .map(|mode| {
+                if has_mass(mode) {
+                    1.0 / mu(mode) - shift
+                } else {
+                    f64::INFINITY
+                }
+            })
+            .collect(),
         vectors,
     })
 }
 
+/// `K_ii / M_ii` beside the largest one below which it is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// A shift well below the highest and not far from the lowest elastic eigenvalue: 1e-4 of the
 /// smallest `K_ii / M_ii`. Two orders of magnitude either way change round-off, nothing else.
 fn inverse_shift(k: &DenseMatrix, m: &DenseMatrix) -> f64 {
-    let smallest = (0..k.nrows())
-        .map(|i| k[(i, i)] / m[(i, i)])
-        .filter(|ratio| *ratio > 0.0)
+    let ratios = || (0..k.nrows()).map(|i| k[(i, i)] / m[(i, i)]);
+    let finite = |ratio: &f64| ratio.is_finite();
+    let largest = ratios().filter(finite).fold(0.0, f64::max);
+    // a condensed rigid body has a diagonal of round-off
+    let smallest = ratios()
+        .filter(|ratio| *ratio > ROUND_OFF * largest)
         .fold(f64::INFINITY, f64::min);
     if smallest.is_finite() {
         1e-4 * smallest

@@ -1,224 +1,481 @@
-//! The lowest eigenpairs of a sparse symmetric problem, with a residual for each.
+//! Eigenpairs of a sparse symmetric problem, with a residual and a bound for each and a proof that none is missing.
 
-use super::complete::{BEYOND, basis_size, complete_pairs};
-use super::{
-    DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, sparse_times_dense,
-    symmetric_generalised_eigen,
-};
+use super::bound::Quality;
+use super::count::{CountCheck, count_below, count_between};
+use super::factor::Factor;
+use super::lowest::{Ritz, Search, largest_basis};
+use super::numeric::Kind;
+use super::ordering::Ordering;
+use super::symbolic::Symbolic;
+use super::symmetric::SymmetricMatrix;
+use super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, band, small};
+use std::sync::Arc;
+use std::time::Instant;
 
-/// Largest order that is solved densely: below it the dense solver is faster and needs no shift.
+/// Largest order that is solved densely whatever is asked: below it the dense solver is faster and needs no shift.
 const DENSE_LIMIT: usize = 60;
 
-/// Largest relative residual of a mode. Those of rigid modes are a ratio of round-off to the shift's
-/// term; a frequency's relative error is below the square of it.
+/// Pairs pursued beyond those wanted: among them a gap is found in which to count.
+const BEYOND: usize = 4;
+
+/// Gap in which it is counted, relative to the distance from the shift.
+const SMALLEST_GAP: f64 = 1e-5;
+
+/// How often missing pairs, or a gap, are looked for.
+const ROUNDS: usize = 5;
+
+/// Shift for a structure that can move freely, in units of the smallest `K_ii / M_ii`: far below the first elastic
+/// eigenvalue of a mesh worth computing, far above the round-off of a rigid motion.
+const FREE_SHIFT: f64 = -1e-4;
+
+/// Largest relative residual of a mode. That of a rigid mode is a ratio of round-off to the shift's term; a
+/// frequency's relative error is below the square of it.
 const LARGEST_RESIDUAL: f64 = 1e-5;
 
-/// How to find the lowest modes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EigenOptions {
-    /// Number of eigenpairs, at least 1.
-    pub count: usize,
-    /// Shift sigma in 1/s^2; `K - sigma M` must be positive definite: zero for a supported
-    /// structure, negative for a free one.
-    pub shift: f64,
+/// Where the time of an eigenvalue computation went, s.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EigenTimes {
+    /// Ordering, permutation, symbolic analysis.
+    pub order: f64,
+    /// Numerical factorisation for the iteration.
+    pub factor: f64,
+    /// Iteration.
+    pub iterate: f64,
+    /// Factorisations that count eigenvalues.
+    pub count: f64,
 }
 
-/// The lowest eigenpairs of `K x = lambda M x`.
+/// Eigenpairs of `K x = lambda M x`.
 #[derive(Debug, Clone)]
 pub struct EigenPairs {
-    /// Eigenvalues lambda = (2 pi f)^2, 1/s^2, ascending, length count.
+    /// Eigenvalues lambda = (2 pi f)^2, 1/s^2, ascending.
     pub values: Vec<f64>,
     /// Eigenvectors [n x count], `x^T M x = 1`.
     pub vectors: DenseMatrix,
-    /// `||K x - lambda M x|| / (||K x|| + |lambda - sigma| ||M x||)` of every pair.
+    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)` of every pair, sigma the shift.
     pub residuals: Vec<f64>,
+    /// How far each eigenvalue may be from the true one of these matrices, 1/s^2.
+    pub bounds: Vec<f64>,
+    /// Part of the bound that is round-off of `x^T K x`, 1/s^2: an eigenvalue that is not larger is zero.
+    pub rounding: Vec<f64>,
+    /// Largest entry of `X^T M X - 1`.
+    pub orthogonality: f64,
+    /// Eigenvalues counted and found below a value: the proof that none is missing.
+    pub count_check: CountCheck,
+    /// Shift sigma of the factor that it was iterated with, 1/s^2.
+    pub shift: f64,
+    /// Where the time went.
+    pub times: EigenTimes,
 }
 
-/// The `options.count` eigenpairs of `K x = lambda M x` nearest above the shift.
-///
-/// `factor` is the factorisation of `K - sigma M`: whoever made it for something else shares it.
-///
-/// # Errors
-/// [`LinalgError::TooManyModes`] if count exceeds the order; [`LinalgError::Residual`] for a mode that
-/// does not satisfy its equation; what ARPACK reports.
-pub fn lowest_eigenpairs(
-    k: &SparseMatrix,
-    m: &SparseMatrix,
-    factor: &SparseCholesky,
-    options: EigenOptions,
-) -> Result<EigenPairs, LinalgError> {
-    let order = k.rows();
-    let EigenOptions { count, shift } = options;
-    if count == 0 || count > order {
-        return Err(LinalgError::TooManyModes {
-            asked: count,
-            available: order,
-        });
+/// Stiffness K and mass M in the order in which they are factorised.
+#[derive(Debug, Clone)]
+pub struct EigenProblem {
+    ordering: Arc<Ordering>,
+    stiffness: SymmetricMatrix,
+    mass: SymmetricMatrix,
+    symbolic: Arc<Symbolic>,
+    /// Factor of K, if somebody has it.
+    factor: Option<Arc<Factor>>,
+    order_s: f64,
+}
+
+impl EigenProblem {
+    /// Orders and analyses `K x = lambda M x`; both matrices [n x n] symmetric, both triangles stored. Nothing of them
+    /// is kept: the caller may drop them.
+    ///
+    /// # Errors
+    /// [`LinalgError::Factorisation`] of order and analysis.
+    pub fn new(k: &SparseMatrix, m: &SparseMatrix) -> Result<Self, LinalgError> {
+        let all: Vec<usize> = (0..k.rows()).collect();
+        Self::restricted(k, m, &all)
     }
-    let asked = count + BEYOND;
-    let (values, vectors) = if order <= DENSE_LIMIT || basis_size(asked) > order {
-        dense_pairs(k, m, count)?
-    } else {
-        complete_pairs(
-            k,
-            m,
-            factor,
-            EigenOptions {
-                count: asked,
-                shift,
-            },
-        )?
-        .lowest(count)
-    };
-    let residuals = residuals(k, m, &values, &vectors, shift);
-    let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
-    let bad = residuals.iter().position(too_large);
-    if let Some(mode) = bad {
-        return Err(LinalgError::Residual {
-            mode,
-            residual: residuals[mode],
-            limit: LARGEST_RESIDUAL,
-        });
-    }
-    Ok(EigenPairs {
-        values,
-        vectors,
-        residuals,
-    })
-}
 
-fn dense_pairs(
-    k: &SparseMatrix,
-    m: &SparseMatrix,
-    count: usize,
-) -> Result<(Vec<f64>, DenseMatrix), LinalgError> {
-    let identity = DenseMatrix::identity(k.rows(), k.rows());
-    let spectrum = symmetric_generalised_eigen(
-        &sparse_times_dense(k, &identity),
-        &sparse_times_dense(m, &identity),
-    )?;
-    Ok((
-        spectrum.values[..count].to_vec(),
-        spectrum.vectors.subcols(0, count).to_owned(),
-    ))
-}
-
-fn residuals(
-    k: &SparseMatrix,
-    m: &SparseMatrix,
-    values: &[f64],
-    vectors: &DenseMatrix,
-    shift: f64,
-) -> Vec<f64> {
-    let (kx, mx) = (
-        sparse_times_dense(k, vectors),
-        sparse_times_dense(m, vectors),
-    );
-    (0..values.len())
-        .map(|mode| {
-            let difference = kx.col(mode) - mx.col(mode) * faer::Scale(values[mode]);
-            let scale =
-                kx.col(mode).norm_l2() + (values[mode] - shift).abs() * mx.col(mode).norm_l2();
-            difference.norm_l2() / scale
+    /// The same over the rows and columns `kept` alone, ascending.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::new`].
+    pub fn restricted(
+        k: &SparseMatrix,
+        m: &SparseMatrix,
+        kept: &[usize],
+    ) -> Result<Self, LinalgError> {
+        let started = Instant::now();
+        let ordering = Ordering::of_part(k, kept)?;
+        let stiffness = SymmetricMatrix::permuted(k, &ordering);
+        let mass = SymmetricMatrix::permuted(m, &ordering);
+        let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
+        Ok(Self {
+            ordering: Arc::new(ordering),
+            stiffness,
+            mass,
+            symbolic,
+            factor: None,
+            order_s: started.elapsed().as_secs_f64(),
         })
-        .collect()
+    }
+
+    /// The problem of a stiffness that is factorised already: its order and its factor are used again.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
+    pub fn with_factor(
+        k: &SparseMatrix,
+        m: &SparseMatrix,
+        factor: &SparseCholesky,
+    ) -> Result<Self, LinalgError> {
+        if factor.order() != k.rows() {
+            return Err(LinalgError::Shape {
+                what: "factor of the stiffness",
+                expected: k.rows(),
+                found: factor.order(),
+            });
+        }
+        let started = Instant::now();
+        let (ordering, factor) = factor.shared();
+        let stiffness = SymmetricMatrix::permuted(k, &ordering);
+        let mass = SymmetricMatrix::permuted(m, &ordering);
+        let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
+        Ok(Self {
+            ordering,
+            stiffness,
+            mass,
+            symbolic,
+            factor: Some(factor),
+            order_s: started.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// Number of degrees of freedom.
+    pub fn order(&self) -> usize {
+        self.stiffness.order()
+    }
+
+    /// The `count` lowest eigenpairs.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::MissingModes`] if pairs that exist were not
+    /// found; [`LinalgError::Residual`] for a pair that does not satisfy its equation; what factorisation and
+    /// iteration report.
+    pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+        let order = self.order();
+        if count == 0 || count > order {
+            return Err(LinalgError::TooManyModes {
+                asked: count,
+                available: order,
+            });
+        }
+        let mut times = EigenTimes {
+            order: self.order_s,
+            ..EigenTimes::default()
+        };
+        let mut beyond = BEYOND.min(order - count);
+        let mut check = None;
+        for round in 1..=ROUNDS {
+            if order <= DENSE_LIMIT || largest_basis(count + beyond) > order {
+                return self.by_dense_solver(count, times);
+            }
+            let (ritz, quality, shift) = self.iterate(count, beyond, round, &mut times)?;
+            let Some((gap, below)) = widest_gap(&ritz.values, count, shift) else {
+                beyond = (2 * beyond + BEYOND).min(order - count);
+                continue;
+            };
+            let started = Instant::now();
+            let (value, counted) = count_between(&self.symbolic, &self.stiffness, &self.mass, gap)?;
+            times.count += started.elapsed().as_secs_f64();
+            let found = CountCheck {
+                above: None,
+                below: value,
+                counted,
+                found: below,
+            };
+            if counted == below {
+                return self.finished(ritz, quality, count, found, shift, times);
+            }
+            check = Some(found);
+            beyond = (beyond + counted.saturating_sub(below) + BEYOND).min(order - count);
+        }
+        Err(check.map_or(LinalgError::NoGap { asked: count }, LinalgError::missing))
+    }
+
+    /// All eigenpairs below `limit`, 1/s^2, of which there may be none.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::lowest`].
+    pub fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
+        let started = Instant::now();
+        let (below, count) = self.count_near(limit)?;
+        let elapsed = started.elapsed().as_secs_f64();
+        if count == 0 {
+            let mut none = EigenPairs::none(self.order(), below);
+            none.times.order = self.order_s;
+            none.times.count = elapsed;
+            return Ok(none);
+        }
+        let mut pairs = self.lowest(count)?;
+        pairs.times.count += elapsed;
+        Ok(pairs)
+    }
+
+    /// All eigenpairs with values between `low` and `high`, 1/s^2.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::lowest`].
+    pub fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
+        let started = Instant::now();
+        let (low, before) = self.count_near(low)?;
+        let (high, below) = self.count_near(high)?;
+        let count = below.saturating_sub(before);
+        let elapsed = started.elapsed().as_secs_f64();
+        let check = CountCheck {
+            above: Some(low),
+            below: high,
+            counted: count,
+            found: count,
+        };
+        if count == 0 {
+            let mut none = EigenPairs::none(self.order(), high);
+            none.count_check = check;
+            none.times.count = elapsed;
+            return Ok(none);
+        }
+        let mut times = EigenTimes {
+            order: self.order_s,
+            count: elapsed,
+            ..EigenTimes::default()
+        };
+        if self.order() <= DENSE_LIMIT || band::largest_basis(count) > self.order() {
+            let mut pairs = self.by_dense_solver(below, times)?;
+            pairs.drop_first(before);
+            pairs.count_check = check;
+            return Ok(pairs);
+        }
+        let started = Instant::now();
+        let middle = self.middle_factor(low, high)?;
+        times.factor = started.elapsed().as_secs_f64();
+        let started = Instant::now();
+        let ritz = band::between(&self.stiffness, &self.mass, &middle, [low, high], count)?;
+        let quality = Quality::of(
+            &self.stiffness,
+            &self.mass,
+            &middle.1,
+            middle.0,
+            &ritz,
+            count,
+        );
+        times.iterate = started.elapsed().as_secs_f64();
+        self.finished(ritz, quality, count, check, middle.0, times)
+    }
+
+    /// Eigenvalues below a value that is moved a little if it is an eigenvalue itself.
+    fn count_near(&self, value: f64) -> Result<(f64, usize), LinalgError> {
+        let attempt = |value: f64| count_below(&self.symbolic, &self.stiffness, &self.mass, value);
+        match attempt(value) {
+            Ok(count) => Ok((value, count)),
+            Err(LinalgError::NearlySingular { .. }) => {
+                let width = 1e-6 * value.abs();
+                count_between(
+                    &self.symbolic,
+                    &self.stiffness,
+                    &self.mass,
+                    [value, value + width],
+                )
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn middle_factor(&self, low: f64, high: f64) -> Result<(f64, Factor), LinalgError> {
+        let mut failed = LinalgError::NoGap { asked: 1 };
+        for place in [0.5, 0.47, 0.53, 0.44] {
+            let sigma = low + place * (high - low);
+            let shifted = self.stiffness.shifted(sigma, &self.mass);
+            match Factor::double(&self.symbolic, &shifted, Kind::Indefinite) {
+                Ok(factor) => return Ok((sigma, factor)),
+                Err(error) => failed = error,
+            }
+        }
+        Err(failed)
+    }
+
+    /// Factor of K, or of K less a shift below zero if K is not positive definite.
+    fn definite_factor(&self) -> Result<(f64, Arc<Factor>), LinalgError> {
+        if let Some(factor) = self.factor.as_ref().filter(|factor| factor.is_sharp()) {
+            return Ok((0.0, Arc::clone(factor)));
+        }
+        let attempt = |sigma: f64| -> Result<(f64, Arc<Factor>), LinalgError> {
+            let shifted = self.stiffness.shifted(sigma, &self.mass);
+            let factor = Factor::new(&self.symbolic, &shifted, Kind::Definite)?;
+            Ok((sigma, Arc::new(factor)))
+        };
+        let mut tried = attempt(0.0);
+        if let Ok((_, factor)) = &tried
+            && !factor.is_sharp()
+        {
+            tried = Err(LinalgError::NearlySingular {
+                order: self.order(),
+                contraction: factor.contraction,
+            });
+        }
+        let first = self.free_shift();
+        for larger in [1.0, 1e2, 1e4] {
+            match tried {
+                Err(LinalgError::Factorisation { .. }) | Ok(_) => break,
+                Err(_) => tried = attempt(larger * first),
+            }
+        }
+        tried
+    }
+
+    fn free_shift(&self) -> f64 {
+        let (k, m) = (self.stiffness.diagonal(), self.mass.diagonal());
+        let smallest = k
+            .iter()
+            .zip(&m)
+            .map(|(k, m)| k / m)
+            .filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        if smallest.is_finite() {
+            FREE_SHIFT * smallest
+        } else {
+            -1.0
+        }
+    }
+
+    fn iterate(
+        &self,
+        count: usize,
+        beyond: usize,
+        rounds: usize,
+        times: &mut EigenTimes,
+    ) -> Result<(Ritz, Quality, f64), LinalgError> {
+        let started = Instant::now();
+        let (mut shift, mut factor) = self.definite_factor()?;
+        times.factor += started.elapsed().as_secs_f64();
+        let started = Instant::now();
+        let mut search = Search::new(&self.stiffness, &self.mass, shift, count, beyond);
+        for _ in 0..rounds {
+            search.explore(&factor)?;
+        }
+        // a shift far below the wanted values makes all of them look alike
+        let last = search.value(count - 1)?;
+        if shift < 0.0 && last > 0.0 && last < -0.1 * shift {
+            let nearer = self.stiffness.shifted(-last, &self.mass);
+            if let Ok(better) = Factor::new(&self.symbolic, &nearer, Kind::Definite) {
+                (shift, factor) = (-last, Arc::new(better));
+                search.shift = shift;
+                search.explore(&factor)?;
+            }
+        }
+        let ritz = search.converge(&factor)?;
+        drop(search);
+        let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+        times.iterate += started.elapsed().as_secs_f64();
+        Ok((ritz, quality, shift))
+    }
+
+    fn finished(
+        &self,
+        ritz: Ritz,
+        quality: Quality,
+        count: usize,
+        count_check: CountCheck,
+        shift: f64,
+        times: EigenTimes,
+    ) -> Result<EigenPairs, LinalgError> {
+        let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
+        if let Some(mode) = quality.residuals.iter().position(too_large) {
+            return Err(LinalgError::Residual {
+                mode,
+                residual: quality.residuals[mode],
+                limit: LARGEST_RESIDUAL,
+            });
+        }
+        let mut vectors = DenseMatrix::zeros(self.order(), count);
+        let found = ritz.vectors.subcols(0, count).to_owned();
+        self.ordering.backward(&found, &mut vectors);
+        Ok(EigenPairs {
+            values: quality.values,
+            vectors,
+            residuals: quality.residuals,
+            bounds: quality.bounds,
+            rounding: quality.rounding,
+            orthogonality: quality.orthogonality,
+            count_check,
+            shift,
+            times,
+        })
+    }
+
+    fn by_dense_solver(
+        &self,
+        count: usize,
+        mut times: EigenTimes,
+    ) -> Result<EigenPairs, LinalgError> {
+        let started = Instant::now();
+        let (ritz, check) = small::all_pairs(&self.stiffness, &self.mass, count)?;
+        let shift = self.free_shift();
+        let shifted = self.stiffness.shifted(shift, &self.mass);
+        let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
+        let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+        times.iterate += started.elapsed().as_secs_f64();
+        self.finished(ritz, quality, count, check, shift, times)
+    }
+}
+
+impl EigenPairs {
+    fn none(order: usize, below: f64) -> Self {
+        Self {
+            values: Vec::new(),
+            vectors: DenseMatrix::zeros(order, 0),
+            residuals: Vec::new(),
+            bounds: Vec::new(),
+            rounding: Vec::new(),
+            orthogonality: 0.0,
+            count_check: CountCheck {
+                above: None,
+                below,
+                counted: 0,
+                found: 0,
+            },
+            shift: 0.0,
+            times: EigenTimes::default(),
+        }
+    }
+
+    fn drop_first(&mut self, dropped: usize) {
+        for list in [
+            &mut self.values,
+            &mut self.residuals,
+            &mut self.bounds,
+            &mut self.rounding,
+        ] {
+            list.drain(..dropped);
+        }
+        self.vectors = self
+            .vectors
+            .subcols(dropped, self.vectors.ncols() - dropped)
+            .to_owned();
+    }
+}
+
+/// The widest gap between the last wanted value and the last pursued one, relative to the distance from the shift,
+/// and how many values lie below it; `None` if all are too narrow to count in.
+fn widest_gap(values: &[f64], count: usize, shift: f64) -> Option<([f64; 2], usize)> {
+    let width = |place: usize| (values[place] - values[place - 1]) / (values[place] - shift);
+    let widest = (count..values.len()).max_by(|&a, &b| width(a).total_cmp(&width(b)));
+    match widest {
+        Some(place) if width(place) > SMALLEST_GAP => {
+            Some(([values[place - 1], values[place]], place))
+        }
+        Some(_) => None,
+        // every eigenvalue of the problem was asked for
+        None => values
+            .last()
+            .map(|&last| ([last, 2.0 * last - shift], values.len())),
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::TripletBuilder;
-    use super::*;
-
-    /// Chain of unit masses and unit springs fixed at both ends:
-    /// lambda_j = 2 - 2 cos(j pi / (n + 1)).
-    fn chain(order: usize) -> (SparseMatrix, SparseMatrix) {
-        let mut k = TripletBuilder::new(order, order);
-        let mut m = TripletBuilder::new(order, order);
-        for row in 0..order {
-            k.add(row, row, 2.0);
-            m.add(row, row, 1.0);
-            if row + 1 < order {
-                k.add(row, row + 1, -1.0);
-                k.add(row + 1, row, -1.0);
-            }
-        }
-        (k.build(), m.build())
-    }
-
-    fn lowest(order: usize, count: usize) -> Result<EigenPairs, LinalgError> {
-        let (k, m) = chain(order);
-        let factor = SparseCholesky::new(&k)?;
-        lowest_eigenpairs(&k, &m, &factor, EigenOptions { count, shift: 0.0 })
-    }
-
-    #[test]
-    fn arpack_and_the_dense_solver_find_the_chain() {
-        for (order, count) in [(30, 8), (200, 8)] {
-            let pairs = lowest(order, count).expect("converges");
-            for (index, value) in pairs.values.iter().enumerate() {
-                let angle = (index + 1) as f64 * std::f64::consts::PI / (order + 1) as f64;
-                let exact = 4.0 * (0.5 * angle).sin().powi(2);
-                // eigenvalues converge with the square of the tolerance 1e-10: round-off is left
-                assert!(
-                    (value / exact - 1.0).abs() < 1e-11,
-                    "{order} {index} {value} {exact}"
-                );
-                assert!(pairs.residuals[index] < 1e-9);
-            }
-        }
-    }
-
-    /// Six equal chains beside each other: every eigenvalue six times, of which one vector sees one.
-    #[test]
-    fn repeated_eigenvalues_are_found_as_often_as_they_occur() {
-        let (copies, length) = (6, 60);
-        let (k, m) = chain(length);
-        let order = copies * length;
-        let beside = |one: &SparseMatrix| {
-            let mut all = TripletBuilder::new(order, order);
-            for copy in 0..copies {
-                for (&value, (row, column)) in one.iter() {
-                    all.add(copy * length + row, copy * length + column, value);
-                }
-            }
-            all.build()
-        };
-        let (k, m) = (beside(&k), beside(&m));
-        let factor = SparseCholesky::new(&k).expect("held at both ends");
-        for count in [6, 9, 12] {
-            let options = EigenOptions { count, shift: 0.0 };
-            let pairs = lowest_eigenpairs(&k, &m, &factor, options).expect("converges");
-            for (index, value) in pairs.values.iter().enumerate() {
-                let angle = (index / copies + 1) as f64 * std::f64::consts::PI / 61.0;
-                let exact = 4.0 * (0.5 * angle).sin().powi(2);
-                assert!(
-                    (value / exact - 1.0).abs() < 1e-11,
-                    "{count} {index} {value}"
-                );
-            }
-            let mass = sparse_times_dense(&m, &pairs.vectors);
-            let gram = pairs.vectors.transpose() * mass - DenseMatrix::identity(count, count);
-            assert!(gram.norm_max() < 1e-8, "{:e}", gram.norm_max());
-        }
-    }
-
-    #[test]
-    fn a_run_repeats_to_the_bit() {
-        let (first, second) = (lowest(150, 5), lowest(150, 5));
-        assert_eq!(
-            first.expect("converges").values,
-            second.expect("converges").values
-        );
-    }
-
-    #[test]
-    fn more_modes_than_degrees_of_freedom_is_an_error() {
-        assert_eq!(
-            lowest(5, 6).err(),
-            Some(LinalgError::TooManyModes {
-                asked: 6,
-                available: 5
-            })
-        );
-    }
-}
+#[path = "eigen_tests.rs"]
+mod tests;

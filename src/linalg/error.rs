@@ -23,6 +23,24 @@ pub enum LinalgError {
         /// What the library said.
         reason: &'static str,
     },
+    /// A factorisation went through, but its factor does not solve the system.
+    #[error(
+        "the {order} x {order} matrix is singular to working precision: iterative refinement with its factor reduces an error only by {contraction:.1e}"
+    )]
+    NearlySingular {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Factor by which refinement changes an error.
+        contraction: f64,
+    },
+    /// Eigenvalues in such a crowd that there is no place to count.
+    #[error(
+        "the {asked} modes asked for end in a crowd of equal frequencies, so that they cannot be counted; ask for a few more"
+    )]
+    NoGap {
+        /// Number asked for.
+        asked: usize,
+    },
     /// Matrices that should fit together do not.
     #[error("{what}: expected {expected} rows, found {found}")]
     Shape {
@@ -91,4 +109,15 @@ pub enum LinalgError {
         /// Number of rows of the matrix.
         order: usize,
     },
+}
+
+impl LinalgError {
+    /// The error of a count that does not agree.
+    pub(super) fn missing(check: super::CountCheck) -> Self {
+        Self::MissingModes {
+            below_hz: check.below.max(0.0).sqrt() / std::f64::consts::TAU,
+            counted: check.counted,
+            found: check.found,
+        }
+    }
 }

@@ -1,26 +1,41 @@
 //! Linear algebra between the libraries and the mechanics: one sparse type, one dense type, one
-//! factorisation, one eigensolver for sparse and one for dense problems.
+//! factorisation, one eigensolver for sparse problems (block Krylov for the lowest pairs, ARPACK for a band) and one for
+//! dense ones.
 //!
 //! The sparse currency is [`SparseMatrix`] (compressed columns, both triangles stored), the dense
-//! one is [`faer::Mat`]. Everything runs sequentially inside a call, so that results do not depend
-//! on the number of threads.
+//! one is [`faer::Mat`]. What is dense runs sequentially inside a call; sparse solves and products share their columns among
+//! the threads of the pool.
+//!
+//! **Limitations**: real symmetric problems; a factor has at most 2^31 entries.
 
 #[allow(unsafe_code)]
 mod arpack;
+mod band;
+mod basis;
+mod bound;
 mod cholesky;
-mod complete;
+mod count;
 mod dense;
 mod eigen;
 mod error;
-mod inertia;
+mod factor;
+mod lowest;
+#[allow(unsafe_code)]
+mod metis;
+mod numeric;
+mod ordering;
+mod small;
 mod sparse;
+mod symbolic;
+mod symmetric;
 
 pub use cholesky::SparseCholesky;
+pub use count::CountCheck;
 pub use dense::{
     DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum, symmetric_eigen,
     symmetric_generalised_eigen,
 };
-pub use eigen::{EigenOptions, EigenPairs, lowest_eigenpairs};
+pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, sparse_times_dense, submatrix, transpose_times_dense,
@@ -34,4 +49,21 @@ fn run_sequentially() {
     use std::sync::Once;
     static ONCE: Once = Once::new();
     ONCE.call_once(|| faer::set_global_parallelism(faer::Par::Seq));
+}
+
+/// Numbers in (-1/2, 1/2) without pattern (xorshift, Marsaglia, J. Stat. Soft. 8 (2003) 14), the same for the same
+/// `start`: no mode is orthogonal to them by accident, and every run repeats.
+fn pseudo_random(rows: usize, columns: usize, start: u64) -> DenseMatrix {
+    let mut state = 0x9e37_79b9_7f4a_7c15 ^ start.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut matrix = DenseMatrix::zeros(rows, columns);
+    for column in 0..columns {
+        matrix.col_as_slice_mut(column).fill_with(&mut next);
+    }
+    matrix
 }

@@ -28,6 +28,7 @@ pub use faces::Face;
 pub use format::{MshFormat, MshVersion};
 pub use gmsh::{MshError, Place};
 pub use group::PhysicalGroup;
+pub(crate) use inventory::Sets;
 pub use inventory::{
     BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part,
     UnusedNodes,

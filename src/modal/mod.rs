@@ -1,7 +1,37 @@
-//! Modes of a housing by itself, and how many of a structure's modes are rigid.
+//! Modes of a housing by itself, and what can be said of modes: which are rigid and why, the mass that each sets in
+//! motion, where its energy is, which mode of another set it is, and how far the mesh is from its limit.
+//!
+//! Everything takes matrices, shapes and lists, and returns data; modes are columns over all degrees of freedom, zero
+//! where the model is fixed, tied nodes filled in ([`over_all_dofs`]).
 
+mod basis;
+mod comparison;
+mod convergence;
+mod energy_shares;
+mod energy_sums;
+mod error;
 mod housing_modes;
+mod mass_properties;
+mod mechanisms;
+mod membership;
+mod motions;
+mod participation;
 mod rigid;
+#[cfg(test)]
+mod samples;
 
-pub use housing_modes::{HousingModes, housing_modes};
-pub use rigid::rigid_mode_count;
+pub use basis::{FrequencyCount, ModalBasis, ModeRange};
+pub use comparison::{
+    ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet, PointMatch,
+};
+pub use convergence::{
+    Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson,
+};
+pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
+pub use error::ModalError;
+pub use housing_modes::housing_modes;
+pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
+pub use mechanisms::{Body, Joint, Mechanisms, Piece};
+pub use motions::{over_all_dofs, rigid_motions};
+pub use participation::Participation;
+pub use rigid::{ModeEnergy, mode_energies, rigid_mode_count, rigid_modes};

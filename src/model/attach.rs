@@ -1,18 +1,23 @@
 //! Supports and point masses on the nodes of a housing.
 
 use super::ModelError;
-use super::housing::{HousingModel, NodalMatrix};
+use super::housing::{HousingModel, NodalMatrix, NodalSource};
 use super::spread::{Share, shares};
-use super::support::{Constraint, PointMass, SpringStiffness, SupportShare};
+use super::support::{Constraint, SpringStiffness, SupportShare};
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
 impl HousingModel {
-    pub(super) fn attach_mass(&mut self, mesh: &Mesh, mass: &PointMass) -> Result<(), ModelError> {
+    pub(super) fn attach_mass(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
+        let mass = self.point_masses[index].clone();
         let group = self.group_on_housing(mesh, &mass.group, "the mass")?;
         for Share { nodes, matrix } in shares(mesh, group, &self.used, "the mass")? {
             let matrix = matrix * mass.mass;
-            self.masses.push(NodalMatrix { nodes, matrix });
+            self.masses.push(NodalMatrix {
+                nodes,
+                matrix,
+                source: NodalSource::Mass(index),
+            });
         }
         Ok(())
     }
@@ -43,6 +48,7 @@ impl HousingModel {
             self.springs.push(NodalMatrix {
                 nodes: share.nodes,
                 matrix,
+                source: NodalSource::Support(index),
             });
         }
         Ok(())

@@ -52,6 +52,16 @@ pub struct HousingDescription {
 pub(crate) struct NodalMatrix {
     pub nodes: Vec<usize>,
     pub matrix: DMatrix<f64>,
+    /// What asked for it.
+    pub source: NodalSource,
+}
+
+/// What a nodal matrix belongs to; indices into the lists of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum NodalSource {
+    Support(usize),
+    Link(usize),
+    Mass(usize),
 }
 
 /// A housing with everything that its matrices need.
@@ -65,6 +75,8 @@ pub struct HousingModel {
     pub(crate) elements: HousingElements,
     /// Properties of the parts, in the order asked for.
     pub(crate) properties: Vec<ContinuumProperties>,
+    /// Groups of the parts, in the same order.
+    pub(crate) part_groups: Vec<String>,
     pub(crate) formulation: Formulation,
     /// Springs: d rows a node.
     pub(crate) springs: Vec<NodalMatrix>,
@@ -77,6 +89,8 @@ pub struct HousingModel {
     /// Nodes that an element uses; the others have no degrees of freedom.
     pub(crate) used: Vec<bool>,
     pub(crate) supports: Vec<HousingSupport>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) point_masses: Vec<PointMass>,
     /// The mesh file, for messages.
     pub(crate) path: String,
     pub(crate) node_tags: Vec<u64>,
@@ -119,6 +133,7 @@ impl HousingModel {
             coordinates: mesh.nodes.clone(),
             elements,
             properties,
+            part_groups: parts.iter().map(|part| part.group.clone()).collect(),
             formulation,
             springs: Vec::new(),
             masses: Vec::new(),
@@ -126,17 +141,19 @@ impl HousingModel {
             tied: TiedNodes::new(),
             used,
             supports,
+            links,
+            point_masses: masses,
             path,
             node_tags: mesh.node_tags.clone(),
         };
         for index in 0..model.supports.len() {
             model.attach_support(mesh, index)?;
         }
-        for mass in &masses {
-            model.attach_mass(mesh, mass)?;
+        for index in 0..model.point_masses.len() {
+            model.attach_mass(mesh, index)?;
         }
-        for link in &links {
-            model.attach_link(mesh, link)?;
+        for index in 0..model.links.len() {
+            model.attach_link(mesh, index)?;
         }
         Ok(model)
     }
@@ -170,6 +187,11 @@ impl HousingModel {
     /// The elements.
     pub fn elements(&self) -> &HousingElements {
         &self.elements
+    }
+
+    /// Groups of the parts, in the order asked for: an element's part is an index into them.
+    pub fn part_names(&self) -> &[String] {
+        &self.part_groups
     }
 
     /// Whether an element uses a node.

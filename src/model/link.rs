@@ -1,9 +1,9 @@
 //! Connections between two groups of a housing: springs, and ties of surfaces that do not match.
 
-use super::housing::{HousingModel, NodalMatrix};
+use super::housing::{HousingModel, NodalMatrix, NodalSource};
 use super::joint::Side;
 use super::spread::{Share, spread};
-use super::support::{Connection, Link, SpringStiffness, SupportShare};
+use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::{Foot, Surface};
 use super::{ModelError, elements::dimension_name};
 use crate::linalg::{SparseMatrix, TripletBuilder};
@@ -24,14 +24,16 @@ pub(crate) struct TiedNode {
 
 impl HousingModel {
     /// Adds what a link asks for.
-    pub(super) fn attach_link(&mut self, mesh: &Mesh, link: &Link) -> Result<(), ModelError> {
+    pub(super) fn attach_link(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
+        let link = self.links[index].clone();
         let [first, second] = &link.between;
         let first = self.group_on_housing(mesh, first, "the link")?;
         let second = self.group_on_housing(mesh, second, "the link")?;
         let sides = Side::both(mesh, [first, second], &self.used, &self.path)?;
         match link.connection {
             Connection::Spring(stiffness, share) => {
-                self.attach_link_springs(mesh, &sides, stiffness, share)
+                let source = NodalSource::Link(index);
+                self.attach_link_springs(mesh, &sides, stiffness, share, source)
             }
             Connection::Tie => {
                 for side in &sides {
@@ -72,6 +74,7 @@ impl HousingModel {
         [side, other]: &[Side; 2],
         stiffness: SpringStiffness,
         share: SupportShare,
+        source: NodalSource,
     ) -> Result<(), ModelError> {
         let shares = match share {
             SupportShare::PerGroup => side.spread(mesh)?.0,
@@ -89,7 +92,7 @@ impl HousingModel {
                 .filter_map(|&node| surface.nearest(mesh.nodes[node]))
                 .collect();
             self.springs
-                .push(self.relative_springs(&share, &feet, stiffness));
+                .push(self.relative_springs(&share, &feet, stiffness, source));
         }
         Ok(())
     }
@@ -100,6 +103,7 @@ impl HousingModel {
         share: &Share,
         feet: &[Foot],
         stiffness: SpringStiffness,
+        source: NodalSource,
     ) -> NodalMatrix {
         let d = self.dimension;
         let mut nodes = share.nodes.clone();
@@ -120,7 +124,11 @@ impl HousingModel {
         }
         let spring = self.spring_matrix(share, stiffness);
         let matrix = relative.transpose() * spring * &relative;
-        NodalMatrix { nodes, matrix }
+        NodalMatrix {
+            nodes,
+            matrix,
+            source,
+        }
     }
 
     /// The nodes of a side with the faces of the other that they follow.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Drawing, Plot, Table};
+use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Table};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -47,6 +47,10 @@ pub struct Report {
     pub version: String,
     /// When the results were computed, as it is to be printed.
     pub date: Option<String>,
+    /// Where the results come from and who answers for them.
+    pub document: Option<Document>,
+    /// The result as a whole: a few words and whether it is as it should be.
+    pub judgement: Option<Headline>,
     /// The results in a few figures, on top.
     pub headlines: Vec<Headline>,
     /// The body.
@@ -90,6 +94,12 @@ pub enum Block {
     Plot(Plot),
     /// A drawing of the model.
     Drawing(Drawing),
+    /// A structure in space with its mode shapes.
+    Shapes(Box<ModeShapeView>),
+    /// A bar chart.
+    Bars(Bars),
+    /// A matrix in colours.
+    Matrix(Matrix),
 }
 
 /// A property of the model: name, value, and where it comes from or what it means.
@@ -166,6 +176,24 @@ impl Section {
     pub fn drawing(self, drawing: Drawing) -> Self {
         self.block(Block::Drawing(drawing))
     }
+
+    /// The section with a structure in space more.
+    #[must_use]
+    pub fn shapes(self, view: ModeShapeView) -> Self {
+        self.block(Block::Shapes(Box::new(view)))
+    }
+
+    /// The section with a bar chart more.
+    #[must_use]
+    pub fn bars(self, bars: Bars) -> Self {
+        self.block(Block::Bars(bars))
+    }
+
+    /// The section with a matrix in colours more.
+    #[must_use]
+    pub fn matrix(self, matrix: Matrix) -> Self {
+        self.block(Block::Matrix(matrix))
+    }
 }
 
 impl Report {
@@ -181,6 +209,8 @@ impl Report {
             command: command.into(),
             version: version.into(),
             date: None,
+            document: None,
+            judgement: None,
             headlines: Vec::new(),
             sections: Vec::new(),
             assumptions: Vec::new(),
@@ -199,6 +229,29 @@ impl Report {
     #[must_use]
     pub fn date(mut self, text: impl Into<String>) -> Self {
         self.date = Some(text.into());
+        self
+    }
+
+    /// The report with where its results come from and who answers for them.
+    #[must_use]
+    pub fn document(mut self, document: Document) -> Self {
+        self.document = Some(document);
+        self
+    }
+
+    /// The report with its result as a whole: what was judged, the outcome in a few words, and the verdict.
+    #[must_use]
+    pub fn judgement(
+        mut self,
+        label: impl Into<String>,
+        value: impl Into<String>,
+        verdict: Verdict,
+    ) -> Self {
+        self.judgement = Some(Headline {
+            label: label.into(),
+            value: value.into(),
+            verdict,
+        });
         self
     }
 

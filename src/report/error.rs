@@ -72,10 +72,72 @@ pub enum ReportError {
         /// Title of the drawing.
         drawing: String,
     },
-    /// The plot data could not be written as JSON.
-    #[error("plot \"{plot}\": data cannot be embedded: {source}")]
+    /// A shape without triangles, or with all points in one place.
+    #[error("shape \"{view}\" has no surface with an extent")]
+    EmptyShape {
+        /// Title of the view.
+        view: String,
+    },
+    /// An index of a shape that points at nothing.
+    #[error("shape \"{view}\": {what} is {index}, there are {count}")]
+    ShapeIndex {
+        /// Title of the view.
+        view: String,
+        /// Which index.
+        what: &'static str,
+        /// Index found, from 0.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A mode shape that has not one displacement a point.
+    #[error("shape \"{view}\": mode \"{mode}\" has {found} displacements for {expected} points")]
+    ShapeLength {
+        /// Title of the view.
+        view: String,
+        /// Label of the mode.
+        mode: String,
+        /// Displacements found.
+        found: usize,
+        /// Points of the view.
+        expected: usize,
+    },
+    /// A number of a shape that is not finite or out of its range.
+    #[error("shape \"{view}\": {what} is not a number in range")]
+    ShapeNumber {
+        /// Title of the view.
+        view: String,
+        /// Which number.
+        what: String,
+    },
+    /// A matrix or a bar chart whose values do not fit its labels.
+    #[error("\"{chart}\": row {row} has {found} values for {expected} labels")]
+    ChartLength {
+        /// Title of the chart.
+        chart: String,
+        /// Row or series, counted from 1; one past the last where a whole row is missing.
+        row: usize,
+        /// Values found.
+        found: usize,
+        /// Labels.
+        expected: usize,
+    },
+    /// A value of a matrix or a bar chart that cannot be shown.
+    #[error("\"{chart}\": value {column} of row {row} is {value}")]
+    ChartValue {
+        /// Title of the chart.
+        chart: String,
+        /// Row or series, counted from 1.
+        row: usize,
+        /// Place in it, counted from 1.
+        column: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The data of a plot or a shape could not be written as JSON.
+    #[error("\"{plot}\": data cannot be embedded: {source}")]
     Embed {
-        /// Title of the plot.
+        /// Its title.
         plot: String,
         /// What the library said.
         source: serde_json::Error,

@@ -1,21 +1,28 @@
 //! Puts the page together: checks the contents, draws, fills the template.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
-use super::content::{Block, Fact, Headline, Report, Section};
-use super::embed;
-use super::layout::Layout;
-use super::plot::{CurveStyle, Plot};
-use super::svg_plot::COLOURS;
-use super::table::{Cell, Column};
-use super::{ReportError, svg_drawing, svg_plot};
+use super::blocks::{self, Numbers, SectionView};
+use super::content::{Headline, Report};
+use super::document::{Document, css_string};
+use super::{ReportError, shapes};
 
 const TEMPLATE: &str = include_str!("templates/report.html");
+const BLOCKS: &str = include_str!("templates/blocks.html");
+const SHAPES: &str = include_str!("templates/shapes.html");
 const STYLE: &str = include_str!("templates/report.css");
-const SCRIPT: &str = include_str!("templates/plot.js");
+const SHAPES_STYLE: &str = include_str!("templates/shapes.css");
+const PLOT_SCRIPT: &str = include_str!("templates/plot.js");
+const SHAPES_SCRIPT: &str = include_str!("templates/shapes.js");
+/// three.js r170 as published (npm package `three` 0.170.0, `build/three.module.min.js`), the last release whose module
+/// is one file.
+const LIBRARY: &str = include_str!("assets/three.module.min.js");
+const LIBRARY_LICENCE: &str = include_str!("assets/three.LICENSE");
 
 #[derive(Debug, Serialize)]
 struct Page<'a> {
@@ -24,97 +31,64 @@ struct Page<'a> {
     command: &'a str,
     version: &'a str,
     date: Option<&'a str>,
+    document: Option<&'a Document>,
+    judgement: Option<&'a Headline>,
     headlines: &'a [Headline],
     sections: Vec<SectionView<'a>>,
     assumptions: &'a [String],
     warnings: &'a [String],
-    style: &'a str,
-    script: &'a str,
+    style: String,
+    script: String,
+    library: Option<Library>,
 }
 
+/// A library of others, with its licence.
 #[derive(Debug, Serialize)]
-struct SectionView<'a> {
-    title: &'a str,
-    blocks: Vec<BlockView<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-enum BlockView<'a> {
-    Paragraph {
-        text: &'a str,
-    },
-    Facts {
-        facts: &'a [Fact],
-    },
-    Table {
-        number: usize,
-        caption: &'a str,
-        columns: &'a [Column],
-        rows: &'a [Vec<Cell>],
-        footnotes: &'a [String],
-    },
-    Plot {
-        number: usize,
-        title: &'a str,
-        caption: Option<&'a str>,
-        svg: String,
-        data: String,
-        legend: Vec<Entry<'a>>,
-    },
-    Drawing {
-        number: usize,
-        title: &'a str,
-        caption: Option<&'a str>,
-        svg: String,
-    },
-}
-
-/// A curve in the legend.
-#[derive(Debug, Serialize)]
-struct Entry<'a> {
-    name: &'a str,
-    colour: usize,
-    style: &'static str,
-}
-
-/// Numbers that figures and tables have had so far.
-#[derive(Debug, Default)]
-struct Numbers {
-    figure: usize,
-    table: usize,
+struct Library {
+    licence: &'static str,
+    packed: String,
 }
 
 impl Report {
     /// The report as one HTML file, complete in itself: styles, drawings, data and script are inside, nothing is
-    /// fetched. The plots' data take at most 3.8 MB together; longer curves are thinned such that spikes survive.
+    /// fetched. The plots' data take at most 3.8 MB together; longer curves are thinned such that spikes survive. Shapes
+    /// in space take 7.5 MB together; what is left out is said under them.
     ///
     /// # Errors
     /// [`ReportError`] for contents that do not fit together; nothing that depends on the machine.
     pub fn to_html(&self) -> Result<String, ReportError> {
-        let blocks = self.sections.iter().flat_map(|s| &s.blocks);
-        let share = embed::share(blocks.filter_map(|block| match block {
-            Block::Plot(plot) => Some(plot),
-            _ => None,
-        }));
-        let mut numbers = Numbers::default();
+        let mut numbers = Numbers::new(&self.sections);
         let sections = self
             .sections
             .iter()
-            .map(|section| section_view(section, share, &mut numbers))
+            .map(|section| blocks::section_view(section, &mut numbers))
             .collect::<Result<_, _>>()?;
+        let live = self
+            .sections
+            .iter()
+            .any(|section| section.blocks.iter().any(blocks::is_live));
         let page = Page {
             title: &self.title,
             subtitle: self.subtitle.as_deref(),
             command: &self.command,
             version: &self.version,
             date: self.date.as_deref(),
+            document: self.document.as_ref(),
+            judgement: self.judgement.as_ref(),
             headlines: &self.headlines,
             sections,
             assumptions: &self.assumptions,
             warnings: &self.warnings,
-            style: STYLE,
-            script: SCRIPT,
+            style: format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),
+            script: if live {
+                format!("{PLOT_SCRIPT}{SHAPES_SCRIPT}")
+            } else {
+                PLOT_SCRIPT.to_owned()
+            },
+            library: live.then(|| Library {
+                licence: LIBRARY_LICENCE,
+                packed: library(),
+            }),
         };
         let mut environment = Environment::new();
         environment.set_undefined_behavior(UndefinedBehavior::Strict);
@@ -122,82 +96,29 @@ impl Report {
         environment.set_syntax(syntax);
         // The name's ending turns escaping on.
         environment.add_template("report.html", TEMPLATE)?;
+        environment.add_template("blocks.html", BLOCKS)?;
+        environment.add_template("shapes.html", SHAPES)?;
         Ok(environment
             .get_template("report.html")?
             .render(Serde(page))?)
     }
 }
 
-fn section_view<'a>(
-    section: &'a Section,
-    share: usize,
-    numbers: &mut Numbers,
-) -> Result<SectionView<'a>, ReportError> {
-    let blocks = section
-        .blocks
-        .iter()
-        .map(|block| block_view(block, share, numbers))
-        .collect::<Result<_, _>>()?;
-    Ok(SectionView {
-        title: &section.title,
-        blocks,
-    })
+/// Margins of a printed page with what stands in them: title, program, date and the page's number. A browser that does
+/// not know margin boxes leaves them empty.
+fn page_rule(report: &Report) -> String {
+    let program = css_string(&format!("plummer {}", report.version));
+    let date = css_string(report.date.as_deref().unwrap_or(""));
+    format!(
+        "@page {{ @top-left {{ content: {}; }} @top-right {{ content: {program}; }} @bottom-left {{ content: {date}; }} \
+         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }}",
+        css_string(&report.title)
+    )
 }
 
-fn block_view<'a>(
-    block: &'a Block,
-    share: usize,
-    numbers: &mut Numbers,
-) -> Result<BlockView<'a>, ReportError> {
-    Ok(match block {
-        Block::Paragraph(text) => BlockView::Paragraph { text },
-        Block::Facts(facts) => BlockView::Facts { facts },
-        Block::Table(table) => {
-            table.check()?;
-            numbers.table += 1;
-            BlockView::Table {
-                number: numbers.table,
-                caption: &table.caption,
-                columns: &table.columns,
-                rows: &table.rows,
-                footnotes: &table.footnotes,
-            }
-        }
-        Block::Plot(plot) => {
-            numbers.figure += 1;
-            plot_view(plot, share, numbers.figure)?
-        }
-        Block::Drawing(drawing) => {
-            numbers.figure += 1;
-            BlockView::Drawing {
-                number: numbers.figure,
-                title: &drawing.title,
-                caption: drawing.caption.as_deref(),
-                svg: svg_drawing::draw(drawing)?,
-            }
-        }
-    })
-}
-
-fn plot_view(plot: &Plot, share: usize, number: usize) -> Result<BlockView<'_>, ReportError> {
-    let layout = Layout::of(plot)?;
-    let legend = plot.curves.iter().enumerate().map(|(k, curve)| Entry {
-        name: &curve.name,
-        colour: k % COLOURS,
-        style: match curve.style {
-            CurveStyle::Line => "line",
-            CurveStyle::Dashed => "dashed",
-            CurveStyle::Points => "points",
-        },
-    });
-    Ok(BlockView::Plot {
-        number,
-        title: &plot.title,
-        caption: plot.caption.as_deref(),
-        svg: svg_plot::draw(plot, &layout, &format!("figure-{number}")),
-        data: embed::json(plot, &layout, share)?,
-        legend: legend.collect(),
-    })
+/// The library for shapes, as the page carries it: zlib, then base64.
+fn library() -> String {
+    STANDARD.encode(shapes::compressed(LIBRARY.as_bytes()))
 }
 
 #[cfg(test)]
@@ -276,7 +197,7 @@ mod tests {
         assert!(html.starts_with("<!DOCTYPE html>"));
         assert_eq!(count("<section id=\"section-"), 2);
         assert_eq!(count("<figure class=\"plot\">"), 2);
-        assert_eq!(count("<figure class=\"drawing\">"), 1);
+        assert_eq!(count("<figure class=\"picture drawing\">"), 1);
         assert_eq!(count("<script type=\"application/json\">"), 2);
         assert_eq!(count("class=\"curve c0\""), 2);
         for text in [
@@ -289,7 +210,8 @@ mod tests {
             "<li>5 &lt; 6</li>",
             "<th class=\"right\">Found<span class=\"unit\">Hz</span></th>",
             "<dt>Balls</dt><dd>7<span class=\"note\">R &amp; r</span></dd>",
-            "<h2>Assumptions</h2>",
+            "<h2><span class=\"number\">3</span>Assumptions</h2>",
+            "<h2><span class=\"number\">4</span>How to reproduce</h2>",
             "<h2>Warnings</h2>",
             "<div class=\"headline bad\">",
             "id=\"figure-3-clip\"",

@@ -1,30 +1,43 @@
 //! The report: one HTML file that opens without a network, for an engineer to hand on.
 //!
-//! The caller fills plain data ([`Report`] of [`Section`]s of paragraphs, [`Fact`]s, [`Table`]s, [`Plot`]s and
-//! [`Drawing`]s); [`Report::to_html`] checks it at one door and gives the file as a string. Plots are drawn as SVG, so
-//! that they print and show without scripts, and carry their data (thinned such that spikes survive) for a small script
-//! to zoom in. All text is escaped.
+//! The caller fills plain data ([`Report`] of [`Section`]s of paragraphs, [`Fact`]s, [`Table`]s, [`Plot`]s,
+//! [`Drawing`]s, [`Bars`], [`Matrix`] and [`ModeShapeView`]s); [`Report::to_html`] checks it at one door and gives the
+//! file as a string. Plots are drawn as SVG, so that they print and show without scripts, and carry their data (thinned
+//! such that spikes survive) for a small script to zoom in. Mode shapes are still pictures in print and without WebGL;
+//! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped.
 //!
-//! **Limitations**: plots have one x axis and one y axis; drawings are plane.
+//! **Limitations**: plots have one x axis and one y axis; drawings are plane; mode shapes are real.
 
+mod bars;
+mod blocks;
 mod content;
+mod csv;
 mod decimate;
+mod document;
 mod drawing;
 mod embed;
 mod error;
 mod html;
 mod layout;
+mod matrix;
 mod number;
 mod plot;
+mod shapes;
 mod svg;
 mod svg_drawing;
 mod svg_plot;
 mod table;
 mod ticks;
 
+pub use bars::{BarSeries, Bars};
 pub use content::{Block, Fact, Headline, Report, Section, Verdict};
+pub use document::{Document, MeshFile};
 pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub use error::ReportError;
+pub use matrix::Matrix;
 pub use number::{pretty_unit, significant};
 pub use plot::{Abscissa, Axis, Curve, CurveStyle, Marker, Plot, Scale};
-pub use table::{Align, Cell, Column, Table};
+pub use shapes::{
+    ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
+};
+pub use table::{Align, Cell, CellLook, Column, Table};

@@ -285,7 +285,7 @@ fn scale_bar(out: &mut String, view: &View) {
 }
 
 /// The nearest of 1, 2 or 5 times a power of ten.
-fn round_length(wanted: f64) -> f64 {
+pub(super) fn round_length(wanted: f64) -> f64 {
     let power = 10_f64.powf(wanted.log10().floor());
     let far = |nice: f64| (nice * power / wanted).ln().abs();
     let nearest = [1.0, 2.0, 5.0, 10.0]

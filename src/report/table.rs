@@ -35,6 +35,21 @@ pub struct Cell {
     pub verdict: Verdict,
     /// Footnote that belongs to it, counted from 1.
     pub footnote: Option<usize>,
+    /// The number that it shows, in the column's unit, for files; `None`: its text is all there is.
+    pub value: Option<f64>,
+    /// How it looks.
+    pub look: CellLook,
+}
+
+/// How a cell looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CellLook {
+    /// As text; a verdict colours the cell.
+    #[default]
+    Plain,
+    /// As a badge in the verdict's colour.
+    Badge,
 }
 
 /// A table. Every row has one cell a column.
@@ -48,6 +63,9 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Remarks under it, numbered from 1.
     pub footnotes: Vec<String>,
+    /// Mode that each row speaks of, an index into the modes of the report's shapes: the row then shows that mode.
+    /// Rows beyond the list speak of none.
+    pub modes: Vec<Option<usize>>,
 }
 
 impl Column {
@@ -77,12 +95,35 @@ impl Cell {
             text: text.into(),
             verdict: Verdict::None,
             footnote: None,
+            value: None,
+            look: CellLook::Plain,
         }
     }
 
-    /// A cell with a number, written with so many significant digits (1 to 17), not judged.
+    /// A cell with a number, written with so many significant digits (1 to 17), not judged. Files get it whole.
     pub fn number(value: f64, digits: usize) -> Self {
-        Self::text(significant(value, digits))
+        Self::text(significant(value, digits)).value(value)
+    }
+
+    /// A badge: "pass", "fail", or a dash where nothing was judged.
+    pub fn badge(verdict: Verdict) -> Self {
+        let text = match verdict {
+            Verdict::Ok => "pass",
+            Verdict::Bad => "fail",
+            Verdict::None => "–",
+        };
+        Self {
+            verdict,
+            look: CellLook::Badge,
+            ..Self::text(text)
+        }
+    }
+
+    /// The cell with the number that its text shows, in the column's unit, as files get it.
+    #[must_use]
+    pub fn value(mut self, value: f64) -> Self {
+        self.value = Some(value);
+        self
     }
 
     /// The cell with a verdict.
@@ -108,7 +149,15 @@ impl Table {
             columns: columns.into_iter().collect(),
             rows: Vec::new(),
             footnotes: Vec::new(),
+            modes: Vec::new(),
         }
+    }
+
+    /// The table with each row tied to the mode that it speaks of, in the order of the report's shapes.
+    #[must_use]
+    pub fn showing_modes(mut self, modes: impl IntoIterator<Item = Option<usize>>) -> Self {
+        self.modes = modes.into_iter().collect();
+        self
     }
 
     /// The table with a row more.

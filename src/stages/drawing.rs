@@ -1,8 +1,9 @@
 //! The picture of the model: mesh, ring, supports, balls, dents, sensors.
 
-use super::{HousingStage, StructureStage};
+use super::StructureStage;
 use crate::case::{Case, SensorSpot};
-use crate::mesh::ElementId;
+use crate::mesh::{ElementId, Mesh};
+use crate::model::HousingModel;
 use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 use crate::system::BearingSetup;
 use nalgebra::Vector3;
@@ -30,7 +31,7 @@ pub(super) fn draw(case: &Case, stage: &StructureStage, setup: Option<&BearingSe
         ..Drawing::default()
     };
     if let Some(housing) = &stage.housing {
-        add_housing(&mut drawing, housing);
+        add_housing(&mut drawing, &housing.mesh, &housing.model);
     }
     add_ring_springs(&mut drawing, case, stage);
     if let Some(setup) = setup {
@@ -40,24 +41,14 @@ pub(super) fn draw(case: &Case, stage: &StructureStage, setup: Option<&BearingSe
     drawing
 }
 
-/// Draws a housing by itself.
-pub(super) fn draw_housing(housing: &HousingStage) -> Drawing {
-    let mut drawing = Drawing {
-        title: "Model".to_owned(),
-        ..Drawing::default()
-    };
-    add_housing(&mut drawing, housing);
-    drawing
-}
-
-fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
+fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
     let point = |node: usize| {
-        let [x, y, _] = housing.model.ring_coordinates(node);
+        let [x, y, _] = model.ring_coordinates(node);
         Point { x, y }
     };
-    let edges = match housing.model.dimension() {
-        2 => element_edges(housing),
-        _ => feature_edges(housing),
+    let edges = match model.dimension() {
+        2 => element_edges(mesh),
+        _ => feature_edges(mesh),
     };
     for edge in edges {
         // gmsh's order: two ends, then the middle node if there is one
@@ -68,7 +59,7 @@ fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
         let line = along.into_iter().map(point).collect();
         drawing.mesh_edges.push(line);
     }
-    for node in housing.model.spring_nodes() {
+    for node in model.spring_nodes() {
         let at = point(node);
         drawing.springs.push(Spring {
             at,
@@ -77,20 +68,20 @@ fn add_housing(drawing: &mut Drawing, housing: &HousingStage) {
     }
 }
 
-fn all_elements(housing: &HousingStage) -> impl Iterator<Item = ElementId> + '_ {
-    let dimension = housing.model.dimension();
-    let blocks = housing.mesh.blocks.iter().enumerate();
+/// Elements of one dimension.
+pub(super) fn elements_of(mesh: &Mesh, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
+    let blocks = mesh.blocks.iter().enumerate();
     blocks
         .filter(move |(_, block)| block.kind.dimension() == dimension)
         .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
 }
 
 /// Every edge of a plane housing once.
-fn element_edges(housing: &HousingStage) -> Vec<Vec<usize>> {
+fn element_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut drawn = BTreeSet::new();
     let mut edges = Vec::new();
-    for id in all_elements(housing) {
-        let block = &housing.mesh.blocks[id.block];
+    for id in elements_of(mesh, 2) {
+        let block = &mesh.blocks[id.block];
         let nodes = block.element(id.index).unwrap_or_default();
         for face in block.kind.faces() {
             let edge: Vec<usize> = face.nodes.iter().map(|&local| nodes[local]).collect();
@@ -103,12 +94,12 @@ fn element_edges(housing: &HousingStage) -> Vec<Vec<usize>> {
 }
 
 /// Edges between faces of a solid housing's surface that meet at an angle, as a draughtsman draws them; hidden ones too.
-fn feature_edges(housing: &HousingStage) -> Vec<Vec<usize>> {
+fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     // nodes of an edge, and the normals of the faces that meet there
     type Meeting = (Vec<usize>, Vec<Vector3<f64>>);
     let mut meeting: BTreeMap<[usize; 2], Meeting> = BTreeMap::new();
-    for face in housing.mesh.boundary_faces(all_elements(housing)) {
-        let corner = |k: usize| Vector3::from(housing.mesh.nodes[face.nodes[k]]);
+    for face in mesh.boundary_faces(elements_of(mesh, 3)) {
+        let corner = |k: usize| Vector3::from(mesh.nodes[face.nodes[k]]);
         let normal = (corner(1) - corner(0)).cross(&(corner(2) - corner(0)));
         let normal = normal.try_normalize(0.0).unwrap_or_default();
         for side in face.kind.faces() {

@@ -4,10 +4,11 @@ use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
 use crate::case::CaseError;
 use crate::element::ElementError;
-use crate::export::NpzError;
+use crate::exchange::NpzError;
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
 use crate::mesh::MeshError;
+use crate::modal::ModalError;
 use crate::model::{ModelError, RingError};
 use crate::reduction::ReductionError;
 use crate::report::ReportError;
@@ -43,6 +44,9 @@ pub enum StageError {
     /// A ring section out of range.
     #[error("ring.sections: {0}")]
     Section(#[from] SectionError),
+    /// Modes that cannot be analysed.
+    #[error(transparent)]
+    Modal(#[from] ModalError),
     /// The ring.
     #[error("ring: {0}")]
     Ring(#[from] RingError),
@@ -172,6 +176,7 @@ impl StageError {
             ),
             Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),
             Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),
+            Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::Signal(_) => true,
             Self::Series(_) | Self::Npz(_) | Self::Report(_) => false,
             _ => true,

@@ -10,11 +10,14 @@ mod drawing;
 mod error;
 mod housing;
 mod inspect;
+mod modal_tables;
 mod modes;
 mod modes_report;
 mod run;
 mod run_report;
+mod shape_view;
 mod structure;
+mod survey;
 mod tables;
 
 pub use analysis::{WindowAnalysis, analyse};
@@ -22,11 +25,13 @@ pub use bearing::{bearing_setup, contact_table};
 pub use error::StageError;
 pub use housing::HousingStage;
 pub use inspect::{ElementShape, GroupSize, Inspection};
+pub use modal_tables::free_motions;
 pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
 pub use modes_report::modes_report;
 pub use run::{RunEnd, RunResult, compute_run};
 pub use run_report::run_report;
 pub use structure::StructureStage;
+pub use survey::{ModalSurvey, RingShapes};
 
 /// Where a computation tells how far it is.
 pub trait Watch {

@@ -1,9 +1,12 @@
 //! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded, and the
 //! verification against expected ones.
 
-use super::{HousingStage, StageError, StructureStage, Watch, bearing_setup};
+use super::shape_view::{shape_view, shown_places};
+use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
 use crate::case::{Case, Expected, Linearise, ModeExtent};
-use crate::modal::{housing_modes, rigid_mode_count};
+use crate::exchange::ModeShapes;
+use crate::mesh::Mesh;
+use crate::model::HousingModel;
 use crate::system::{Equilibrium, LoadedMode, LoadedModes};
 use serde::Serialize;
 
@@ -48,23 +51,51 @@ pub struct ModesResult {
     pub base: Reading,
     /// Its variants, in order.
     pub variants: Vec<Reading>,
-    /// Degrees of freedom before condensation, ring and housing.
-    pub dof: usize,
-    /// Coordinates that the eigenproblem was solved for.
-    pub free_dof: usize,
-    /// Number of rigid modes among the unloaded ones.
-    pub rigid_modes: usize,
-    /// Mass of ring and housing, kg.
-    pub mass_kg: f64,
-    /// Residuals of the modes, for a housing alone.
-    pub residuals: Vec<f64>,
-    /// The linear model, for the picture; `None` for a housing alone.
+    /// Modes without contact in full, with their proof.
+    pub survey: ModalSurvey,
+    /// The linear model of a case with a ring, its housing condensed.
     pub structure: Option<StructureStage>,
-    /// The housing, for the picture, if it stands alone.
-    pub housing: Option<HousingStage>,
+    /// Mesh and model of a housing alone.
+    pub housing: Option<(Mesh, HousingModel)>,
 }
 
 impl ModesResult {
+    /// Mesh and model of the housing, if there is one.
+    pub fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
+        let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
+        let coupled = self
+            .structure
+            .as_ref()
+            .and_then(|stage| stage.housing.as_ref());
+        alone.or(coupled.map(|housing| (&housing.mesh, &housing.model)))
+    }
+
+    /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
+    pub fn mode_shapes(&self) -> ModeShapes {
+        let view = shape_view(self);
+        let tags = match (&self.survey.ring, self.mesh_and_model()) {
+            (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
+            _ => None,
+        };
+        ModeShapes {
+            frequencies_hz: self.survey.basis.frequencies_hz.clone(),
+            node_tags: tags,
+            points: Some(view.points),
+            shapes: shown_places(&self.survey)
+                .into_iter()
+                .flatten()
+                .map(|place| {
+                    view.modes[place]
+                        .displacement
+                        .iter()
+                        .flatten()
+                        .copied()
+                        .collect()
+                })
+                .collect(),
+        }
+    }
+
     /// Whether every expected frequency was found.
     pub fn passes(&self) -> bool {
         self.base.expected.iter().all(|expected| expected.ok)
@@ -103,8 +134,12 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
     let Some(stage) = StructureStage::build(case, watch)? else {
         return housing_alone(case, watch);
     };
+    let survey = ModalSurvey::of_structure(&stage, case.modes.extent, watch)?;
     watch.stage("linearise");
-    let base = reading(case, &stage, String::new(), Vec::new())?;
+    let mut base = reading(case, &stage, String::new(), Vec::new())?;
+    // in full where the others are condensed
+    base.unloaded_hz.clone_from(&survey.basis.frequencies_hz);
+    base.expected = judge(&base, &case.modes.expected);
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
@@ -116,24 +151,10 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
             variants.push(reading(&variant.case, &built, variant.what.clone(), set)?);
         }
     }
-    let rigid = stage.structure.ring().rigid_motion(1.0, 0.0, 0.0);
-    let ring_mass: f64 = mass_of(stage.structure.ring().mass(), &rigid);
-    let housing_mass = stage
-        .housing
-        .as_ref()
-        .map_or(0.0, |housing| housing.matrices.total_mass());
-    let housing_dof = stage
-        .housing
-        .as_ref()
-        .map_or(0, |housing| housing.model.dof());
     Ok(ModesResult {
         base,
         variants,
-        dof: stage.structure.ring().dof() + housing_dof,
-        free_dof: stage.structure.dof(),
-        rigid_modes: rigid_mode_count(&stage.modes.squared_frequencies),
-        mass_kg: ring_mass + housing_mass,
-        residuals: Vec::new(),
+        survey,
         structure: Some(stage),
         housing: None,
     })
@@ -148,29 +169,16 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         }
         .into());
     };
-    watch.stage("eigen");
-    let free = housing.model.free_dofs();
-    let mut count = match case.modes.extent {
-        ModeExtent::Count(count) => count,
-        ModeExtent::UpToHz(_) => 20,
-    };
-    let modes = loop {
-        let modes = housing_modes(&housing.matrices, &free, count.min(free.len()))?;
-        match case.modes.extent {
-            ModeExtent::UpToHz(hz) if count < free.len() => {
-                if modes.frequencies_hz.last().is_some_and(|&last| last > hz) {
-                    break modes;
-                }
-                count *= 2;
-            }
-            _ => break modes,
-        }
-    };
-    let unloaded_hz = limited(&modes.frequencies_hz, case.modes.extent);
+    let HousingStage {
+        mesh,
+        model,
+        matrices,
+    } = housing;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
     let mut base = Reading {
         what: String::new(),
         set: Vec::new(),
-        unloaded_hz,
+        unloaded_hz: survey.basis.frequencies_hz.clone(),
         loaded: None,
         equilibrium: None,
         expected: Vec::new(),
@@ -179,13 +187,9 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
     Ok(ModesResult {
         base,
         variants: Vec::new(),
-        dof: housing.model.dof(),
-        free_dof: free.len(),
-        rigid_modes: rigid_mode_count(&modes.eigenvalues),
-        mass_kg: housing.matrices.total_mass(),
-        residuals: modes.residuals,
+        survey,
         structure: None,
-        housing: Some(housing),
+        housing: Some((mesh, model)),
     })
 }
 
@@ -227,6 +231,9 @@ fn limited(frequencies_hz: &[f64], extent: ModeExtent) -> Vec<f64> {
     match extent {
         ModeExtent::Count(count) => ascending.take(count).collect(),
         ModeExtent::UpToHz(hz) => ascending.take_while(|&frequency| frequency <= hz).collect(),
+        ModeExtent::BandHz([low, high]) => ascending
+            .filter(|&frequency| frequency >= low && frequency <= high)
+            .collect(),
     }
 }
 
@@ -246,15 +253,4 @@ fn judge(reading: &Reading, expected: &[Expected]) -> Vec<ExpectedMode> {
             }
         })
         .collect()
-}
-
-/// `r^T M r`.
-fn mass_of(mass: &crate::linalg::DenseMatrix, motion: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (column, right) in motion.iter().enumerate() {
-        for (row, left) in motion.iter().enumerate() {
-            sum += left * mass[(row, column)] * right;
-        }
-    }
-    sum
 }

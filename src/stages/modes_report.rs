@@ -1,12 +1,20 @@
-//! The report of `plummer modes`.
+//! The report of `plummer modes`: a modal verification report.
 
-use super::drawing::{draw, draw_housing};
+use super::drawing::draw;
+use super::modal_tables::{
+    complete, effective_mass_bars, effective_mass_table, energy_table, free_motions,
+    frequency_table, mass_facts, material_table, proof_facts,
+};
+use super::shape_view::shape_view;
 use super::tables::{
     assumptions, bearing_table, equilibrium_table, expected_table, mode_table, model_facts,
 };
 use super::{ModesResult, Reading, StageError, bearing_setup, contact_table};
 use crate::case::Case;
-use crate::report::{Cell, Column, Report, Section, Table, Verdict, significant};
+use crate::report::{
+    Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,
+    significant,
+};
 
 /// Composes the report; `command` is the line that made it.
 ///
@@ -17,45 +25,45 @@ pub fn modes_report(
     result: &ModesResult,
     command: &str,
 ) -> Result<Report, StageError> {
-    let setup = bearing_setup(case)?;
-    let hertz = contact_table(case)?;
-    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle("Eigenfrequencies and their verification");
-    for expected in &result.base.expected {
-        let found = expected.found_hz.map_or_else(
-            || "none".to_owned(),
-            |hz| format!("{} Hz", significant(hz, 4)),
-        );
-        report = report.headline(&expected.what, found, Verdict::of(expected.ok));
+    let view = shape_view(result);
+    let mut report = head(case, result, command);
+    report = report
+        .section(purpose(result))
+        .section(model(case, result, &view)?);
+    let mass = Section::new("Mass properties")
+        .paragraph("From the mass matrix itself, point masses included.")
+        .facts(mass_facts(&result.survey));
+    report = report.section(mass).section(frequencies(result));
+    let proof = Section::new("Completeness and accuracy")
+        .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
+        .facts(proof_facts(&result.survey));
+    report = report.section(proof);
+    if result.survey.basis.count() > 0 {
+        let mut mass = Section::new("Effective mass")
+            .bars(effective_mass_bars(&result.survey))
+            .table(effective_mass_table(&result.survey));
+        if let Some(table) = energy_table(&result.survey) {
+            mass = mass.table(table);
+        }
+        let shapes = ModeShapeView {
+            figures: ShapeFigures::Modes,
+            ..view
+        };
+        report = report
+            .section(mass)
+            .section(Section::new("Mode shapes").shapes(shapes));
     }
-    let mut frequencies = Section::new("Eigenfrequencies");
-    if !result.base.expected.is_empty() {
-        frequencies = frequencies.table(expected_table(&result.base.expected));
-    }
-    frequencies = frequencies.table(mode_table(
-        &result.base.unloaded_hz,
-        result.base.loaded.as_ref(),
-    ));
-    report = report.section(frequencies);
     if !result.variants.is_empty() {
         report = report.section(
             Section::new("What each choice does")
-                .paragraph("The same case with one choice changed at a time, nearest mode to each expected frequency.")
+                .paragraph("The same case with one choice changed at a time, nearest mode to each expected frequency; housings condensed.")
                 .table(variant_table(&result.base, &result.variants)),
         );
     }
-    let mut model = Section::new("Model");
-    if let Some(stage) = &result.structure {
-        model = model
-            .drawing(draw(case, stage, setup.as_ref()))
-            .facts(model_facts(case, stage));
-    }
-    if let Some(housing) = &result.housing {
-        model = model.drawing(draw_housing(housing));
-    }
-    report = report.section(model);
+    let setup = bearing_setup(case)?;
     if let Some(setup) = &setup {
-        let mut section = Section::new("Bearing").table(bearing_table(setup, hertz.as_ref()));
+        let mut section =
+            Section::new("Bearing").table(bearing_table(setup, contact_table(case)?.as_ref()));
         if let Some(equilibrium) = &result.base.equilibrium {
             section = section.table(equilibrium_table(equilibrium));
         }
@@ -64,7 +72,115 @@ pub fn modes_report(
     for text in assumptions(case, setup.as_ref()) {
         report = report.assumption(text);
     }
+    for text in free_motions(result) {
+        report = report.warning(text);
+    }
     Ok(report)
+}
+
+fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
+    let mut document = Document::new()
+        .case(case.source.path.display().to_string())
+        .signed_by("Prepared by")
+        .signed_by("Checked by");
+    if let Some(housing) = &case.housing {
+        document = document.mesh(housing.mesh.display().to_string(), None);
+    }
+    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Modal verification report")
+        .document(document);
+    for expected in &result.base.expected {
+        let found = expected.found_hz.map_or_else(
+            || "none".to_owned(),
+            |hz| format!("{} Hz", significant(hz, 4)),
+        );
+        report = report.headline(&expected.what, found, Verdict::of(expected.ok));
+    }
+    let basis = &result.survey.basis;
+    let modes = format!(
+        "{} of {}",
+        basis.count_check.found, basis.count_check.counted
+    );
+    report = report.headline(
+        "Modes found of those that exist",
+        modes,
+        complete(&result.survey),
+    );
+    if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
+        let first = format!("{} Hz", significant(*first, 5));
+        report = report.headline("First elastic mode", first, Verdict::None);
+    }
+    report
+}
+
+fn purpose(result: &ModesResult) -> Section {
+    let survey = &result.survey;
+    let what = match (&result.structure, result.mesh_and_model()) {
+        (Some(_), Some(_)) => {
+            "a housing and the ring in its bore, coupled in full (nothing condensed)"
+        }
+        (Some(_), None) => "a ring on its springs",
+        _ => "a housing",
+    };
+    let mut text = format!(
+        "Eigenfrequencies and mode shapes of {what}: {} modes of {} free degrees of freedom",
+        survey.basis.count(),
+        survey.free_dof
+    );
+    text.push_str(match survey.basis.rigid_modes {
+        0 => ". ",
+        1 => ", one of them without strain. ",
+        _ => ", the first ones without strain. ",
+    });
+    text.push_str("Each frequency comes with a bound on the error of its computation, and the number of modes is proved by a count.");
+    let mut section = Section::new("Purpose").paragraph(text);
+    if !result.base.expected.is_empty() {
+        section = section.table(expected_table(&result.base.expected));
+    }
+    section
+}
+
+fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, StageError> {
+    let mut section = Section::new("Model");
+    if let Some((mesh, model)) = result.mesh_and_model() {
+        let inventory = mesh.inventory();
+        let extent = inventory.bounding_box.extent().map(|length| 1e3 * length);
+        section = section.facts([
+            Fact::new("Mesh", mesh.source.display().to_string()),
+            Fact::new(
+                "Size",
+                format!("{:.3} x {:.3} x {:.3} mm", extent[0], extent[1], extent[2]),
+            ),
+            Fact::new("Elements", model.elements().len().to_string()),
+            Fact::new("Degrees of freedom", result.survey.dof.to_string()),
+            Fact::new("Free ones", result.survey.free_dof.to_string()),
+        ]);
+    }
+    if let Some(stage) = &result.structure {
+        let setup = bearing_setup(case)?;
+        section = section
+            .drawing(draw(case, stage, setup.as_ref()))
+            .facts(model_facts(case, stage));
+    }
+    section = section.table(material_table(case));
+    if result.mesh_and_model().is_some() {
+        let still = ModeShapeView {
+            title: "Mesh and groups".to_owned(),
+            figures: ShapeFigures::Mesh,
+            modes: Vec::new(),
+            ..view.clone()
+        };
+        section = section.shapes(still);
+    }
+    Ok(section)
+}
+
+fn frequencies(result: &ModesResult) -> Section {
+    let section = Section::new("Eigenfrequencies").table(frequency_table(&result.survey));
+    match &result.base.loaded {
+        Some(loaded) => section.table(mode_table(&result.base.unloaded_hz, Some(loaded))),
+        None => section,
+    }
 }
 
 fn variant_table(base: &Reading, variants: &[Reading]) -> Table {

@@ -27,6 +27,8 @@ const SENSOR_TOLERANCE: f64 = 0.02;
 pub struct StructureStage {
     /// The housing, if the case has one.
     pub housing: Option<HousingStage>,
+    /// How the ring sits in the housing, if there is one.
+    pub tie: Option<RingTie>,
     /// Number of fixed-interface modes of the condensed housing.
     pub fixed_interface_modes: usize,
     /// Ring and housing with the case's sensors.
@@ -51,7 +53,7 @@ impl StructureStage {
         let housing = HousingStage::build(case, watch)?;
         let in_space = (housing.as_ref()).is_some_and(|housing| housing.model.dimension() == 3);
         let ring = ring(case, asked, in_space)?;
-        let (structure, fixed_interface_modes) = match (&housing, &asked.tie) {
+        let (structure, fixed_interface_modes, tie) = match (&housing, &asked.tie) {
             (Some(housing), Some(tie)) => {
                 let fit = match tie.fit {
                     case::Fit::Bonded => Fit::Bonded,
@@ -70,7 +72,7 @@ impl StructureStage {
                     let sensor = housing_sensor(&structure, housing, &tie, &condensed, sensor)?;
                     structure.add_sensor(sensor)?;
                 }
-                (structure, condensed.fixed_interface_modes())
+                (structure, condensed.fixed_interface_modes(), Some(tie))
             }
             _ => {
                 let mut structure = Structure::ring_alone(ring, gravity);
@@ -78,13 +80,14 @@ impl StructureStage {
                     let sensor = ring_sensor(&structure, sensor, &RingFrame::default())?;
                     structure.add_sensor(sensor)?;
                 }
-                (structure, 0)
+                (structure, 0, None)
             }
         };
         watch.stage("eigen");
         let modes = structure.modes()?;
         Ok(Some(Self {
             housing,
+            tie,
             fixed_interface_modes,
             structure,
             modes,

@@ -6,6 +6,7 @@ mod element_convergence;
 mod equilibrium;
 mod grids;
 mod loaded_modes;
+mod modal_runs;
 mod reference_frequencies;
 mod ring_element;
 mod ring_in_space;

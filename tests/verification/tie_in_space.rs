@@ -21,9 +21,7 @@ use crate::reference_frequencies::data;
 use crate::setup::{Housing, column};
 use plummer::assembly::SystemMatrices;
 use plummer::element::curved_beam::RingInterpolation;
-use plummer::linalg::{
-    DenseMatrix, EigenOptions, SparseCholesky, lowest_eigenpairs, sparse_times_dense,
-};
+use plummer::linalg::{DenseMatrix, EigenProblem, sparse_times_dense};
 use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::mesh::Mesh;
 use plummer::modal::{housing_modes, rigid_mode_count};
@@ -184,12 +182,11 @@ fn six_motions_of_the_whole_need_no_force() {
 fn eighty_modes_of_a_pedestal() {
     let held = pedestal(vec![fixed("feet")], RingFrame::default(), Fit::Bonded);
     let (k, m) = held.full(held.tie.partition());
-    let factor = SparseCholesky::new(&k).unwrap();
-    let options = EigenOptions {
-        count: 10,
-        shift: 0.0,
-    };
-    let full = lowest_eigenpairs(&k, &m, &factor, options).unwrap().values;
+    let full = EigenProblem::new(&k, &m)
+        .unwrap()
+        .lowest(10)
+        .unwrap()
+        .values;
     for (kept, limit) in [(20, 3e-2), (80, 3e-3)] {
         let reduced = condensed(&held, kept);
         let errors = reduced

@@ -100,6 +100,7 @@ pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
     match case.modes.extent {
         ModeExtent::Count(count) => at_least_one("modes.count", count)?,
         ModeExtent::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
+        ModeExtent::BandHz(band) => band_of("modes.band_hz", band)?,
     }
     for (index, expected) in case.modes.expected.iter().enumerate() {
         above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
@@ -110,6 +111,12 @@ pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
         not_empty(key, variant.set.len(), "at least one KEY=VALUE")?;
     }
     Ok(())
+}
+
+/// A band begins at zero or above and ends above its beginning.
+fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
+    zero_or_more(format!("{key}[0]"), lowest)?;
+    above(format!("{key}[1]"), highest, "the lowest frequency", lowest)
 }
 
 pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
@@ -125,14 +132,7 @@ pub(super) fn accuracy(case: &Case) -> Result<(), BrokenRule> {
     let Some(accuracy) = &case.accuracy else {
         return Ok(());
     };
-    let [lowest, highest] = accuracy.band_hz;
-    zero_or_more("accuracy.band_hz[0]", lowest)?;
-    above(
-        "accuracy.band_hz[1]",
-        highest,
-        "the lowest frequency",
-        lowest,
-    )?;
+    band_of("accuracy.band_hz", accuracy.band_hz)?;
     fraction("accuracy.target", accuracy.target)
 }
 

@@ -19,6 +19,7 @@ pub use extent::BoundingBox;
 pub use groups::{GroupOverlap, GroupSummary};
 pub use nodes::{DuplicateNodes, UnusedNodes};
 pub use parts::Part;
+pub(crate) use parts::Sets;
 
 /// How many elements of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

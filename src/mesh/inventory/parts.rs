@@ -18,11 +18,17 @@ pub struct Part {
     pub bounding_box: BoundingBox,
 }
 
-/// Sets of nodes, each a tree that leads to its root (union-find with path halving).
-struct Sets(Vec<u32>);
+/// Sets of nodes or elements, each a tree that leads to its root (union-find with path halving).
+pub(crate) struct Sets(Vec<u32>);
 
 impl Sets {
-    fn root(&mut self, mut node: usize) -> usize {
+    /// Each by itself; fewer than 2^32.
+    pub fn new(count: usize) -> Self {
+        Self((0..).take(count).collect())
+    }
+
+    /// The lowest of the set.
+    pub fn root(&mut self, mut node: usize) -> usize {
         while self.0[node] as usize != node {
             let above = self.0[node] as usize;
             self.0[node] = self.0[above];
@@ -32,7 +38,7 @@ impl Sets {
     }
 
     /// Makes one set of two; its root is the lower of theirs.
-    fn join(&mut self, a: usize, b: usize) {
+    pub fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;
     }
@@ -45,7 +51,7 @@ pub(super) fn parts(mesh: &Mesh, dimension: usize) -> Vec<Part> {
             .iter()
             .filter(|block| block.kind.dimension() == dimension)
     };
-    let mut sets = Sets((0..).take(mesh.nodes.len()).collect());
+    let mut sets = Sets::new(mesh.nodes.len());
     let mut used = vec![false; mesh.nodes.len()];
     for element in own().flat_map(|block| block.elements()) {
         for &node in element {

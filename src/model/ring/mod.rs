@@ -164,6 +164,13 @@ impl Ring {
         (index, (turns - index as f64 - 0.5) * width)
     }
 
+    /// Displacement (x, y, z) of a node for the displacements `d` \[dof\]; z is zero for a ring in its plane.
+    pub fn node_displacement(&self, node: usize, d: &[f64]) -> [f64; 3] {
+        let first = NODE_DOF * node;
+        let across = d.get(NODE_DOF * (self.nodes + node)).copied();
+        [d[first], d[first + 1], across.unwrap_or(0.0)]
+    }
+
     /// Rigid motion of all nodes: translation (x, y) plus rotation about the origin \[dof\]; in space
     /// the second block is zero.
     pub fn rigid_motion(&self, x: f64, y: f64, rotation: f64) -> Vec<f64> {

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::super::ModeShapesError;
+
 /// Why an archive cannot be written.
 #[derive(Debug, Error)]
 pub enum NpzError {
@@ -53,5 +55,17 @@ pub enum NpzError {
         expected: usize,
         /// Values given, or given so far when they became too many.
         found: usize,
+    },
+    /// Mode shapes that contradict themselves.
+    #[error("{fault}")]
+    Modes {
+        /// What is wrong.
+        fault: ModeShapesError,
+    },
+    /// A label that the archive's whole numbers do not reach.
+    #[error("expected labels up to {}, found {label}", i64::MAX)]
+    Label {
+        /// The label.
+        label: u64,
     },
 }

@@ -1,42 +1,56 @@
-//! NumPy `.npz` archives of named arrays of f64, stored without compression.
+//! NumPy `.npz` archives of named arrays: written without compression, read with and without.
 //!
-//! Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
+//! Written are arrays of f64, i32, i64, text and a string of bytes, and sparse matrices as SciPy has them; read are arrays
+//! of f64 and i64. Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
 //! version, header length, Python dictionary with descr, fortran_order, shape) followed by the values, little-endian.
 //! Read back with `numpy.load(path)["NAME"]`.
 
+mod element;
 mod error;
 mod header;
+mod modes;
+mod read_error;
+mod reader;
+#[cfg(test)]
+mod reader_tests;
+mod sparse;
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
+use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+pub use element::NpzElement;
 pub use error::NpzError;
 use header::header;
+pub use modes::{read_modes_npz, write_modes_npz};
+pub use read_error::NpzReadError;
+pub use reader::{NpzReader, NpzValues};
+pub use sparse::write_sparse_npz;
+
+use super::AtomicFile;
 
 /// Writes an archive under a temporary name (`NAME.npz.partial` beside the target) and renames it in
 /// [`finish`](Self::finish); dropped before that, it removes the temporary file and leaves an earlier archive alone.
 /// The same arrays give the same bytes.
 ///
 /// ```
-/// use plummer::export::NpzWriter;
+/// use plummer::exchange::NpzWriter;
 /// let path = std::env::temp_dir().join("plummer-doc.npz");
 /// let mut npz = NpzWriter::create(&path)?;
 /// npz.array("time_s", &[0.0, 0.5, 1.0])?;
 /// npz.matrix("ball_radius", 2, 3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
 /// npz.finish()?;
 /// # std::fs::remove_file(&path).ok();
-/// # Ok::<(), plummer::export::NpzError>(())
+/// # Ok::<(), plummer::exchange::NpzError>(())
 /// ```
 #[derive(Debug)]
 pub struct NpzWriter {
-    path: PathBuf,
     partial: PathBuf,
     /// `None` only after `finish`.
-    archive: Option<ZipWriter<BufWriter<File>>>,
+    archive: Option<ZipWriter<AtomicFile>>,
     names: Vec<String>,
     /// Array begun and not ended.
     incomplete: Option<String>,
@@ -45,8 +59,9 @@ pub struct NpzWriter {
 /// An array that is being written piece by piece; made by [`NpzWriter::begin`].
 #[derive(Debug)]
 #[must_use = "an array is complete only after `end`"]
-pub struct NpzArray<'a> {
+pub struct NpzArray<'a, T> {
     writer: &'a mut NpzWriter,
+    element: PhantomData<T>,
     name: String,
     shape: Vec<usize>,
     expected: usize,
@@ -59,18 +74,15 @@ impl NpzWriter {
     /// # Errors
     /// [`NpzError::Io`] if the temporary file cannot be made.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, NpzError> {
-        let path = path.as_ref().to_owned();
-        let mut partial = path.clone().into_os_string();
-        partial.push(".partial");
-        let partial = PathBuf::from(partial);
-        let file = File::create(&partial).map_err(|source| NpzError::Io {
+        let path = path.as_ref();
+        let partial = AtomicFile::partial_of(path);
+        let file = AtomicFile::create(path).map_err(|source| NpzError::Io {
             path: partial.clone(),
             source,
         })?;
         Ok(Self {
-            path,
             partial,
-            archive: Some(ZipWriter::new(BufWriter::with_capacity(1 << 18, file))),
+            archive: Some(ZipWriter::new(file)),
             names: Vec::new(),
             incomplete: None,
         })
@@ -80,7 +92,7 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn array(&mut self, name: &str, values: &[f64]) -> Result<(), NpzError> {
+    pub fn array<T: NpzElement>(&mut self, name: &str, values: &[T]) -> Result<(), NpzError> {
         let mut array = self.begin(name, &[values.len()])?;
         array.extend(values)?;
         array.end()
@@ -90,12 +102,12 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin), and [`NpzError::Shape`] unless there are rows x columns values.
-    pub fn matrix(
+    pub fn matrix<T: NpzElement>(
         &mut self,
         name: &str,
         rows: usize,
         columns: usize,
-        values: &[f64],
+        values: &[T],
     ) -> Result<(), NpzError> {
         let mut array = self.begin(name, &[rows, columns])?;
         array.extend(values)?;
@@ -107,7 +119,59 @@ impl NpzWriter {
     /// # Errors
     /// [`NpzError::Name`], [`NpzError::Duplicate`], [`NpzError::Incomplete`] if an earlier array is, [`NpzError::Io`],
     /// [`NpzError::Archive`].
-    pub fn begin(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_>, NpzError> {
+    pub fn begin<T: NpzElement>(
+        &mut self,
+        name: &str,
+        shape: &[usize],
+    ) -> Result<NpzArray<'_, T>, NpzError> {
+        let expected = shape.iter().product();
+        self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
+        Ok(NpzArray {
+            writer: self,
+            element: PhantomData,
+            name: name.to_owned(),
+            shape: shape.to_vec(),
+            expected,
+            written: 0,
+        })
+    }
+
+    /// Writes a one-dimensional array of text (NumPy `<U`), each as long as the longest.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    pub fn texts(&mut self, name: &str, values: &[&str]) -> Result<(), NpzError> {
+        let lengths = values.iter().map(|text| text.chars().count());
+        // NumPy has no text of length 0
+        let length = lengths.max().unwrap_or(0).max(1);
+        let head = header(&format!("<U{length}"), &[values.len()]);
+        self.start(name, &head, 4 * length * values.len())?;
+        for text in values {
+            let padded = text.chars().map(u32::from).chain(std::iter::repeat(0));
+            let bytes: Vec<u8> = padded.take(length).flat_map(u32::to_le_bytes).collect();
+            self.write(&bytes)?;
+        }
+        self.incomplete = None;
+        Ok(())
+    }
+
+    /// Writes a single string of bytes (NumPy `|S`, an array without dimensions).
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    pub fn bytes(&mut self, name: &str, value: &[u8]) -> Result<(), NpzError> {
+        // NumPy has no string of length 0
+        let length = value.len().max(1);
+        self.start(name, &header(&format!("|S{length}"), &[]), length)?;
+        let mut padded = value.to_vec();
+        padded.resize(length, 0);
+        self.write(&padded)?;
+        self.incomplete = None;
+        Ok(())
+    }
+
+    /// Begins an entry whose values, `length` bytes, will follow its header.
+    fn start(&mut self, name: &str, header: &[u8], length: usize) -> Result<(), NpzError> {
         let allowed = |c: char| c.is_alphanumeric() || "_-. ".contains(c);
         if name.is_empty() || !name.chars().all(allowed) {
             return Err(NpzError::Name { name: name.into() });
@@ -118,10 +182,8 @@ impl NpzWriter {
         self.check_complete()?;
         self.names.push(name.to_owned());
         self.incomplete = Some(name.to_owned());
-        let expected: usize = shape.iter().product();
-        let header = header(shape);
         // ZIP counts in 32 bits unless told otherwise.
-        let bytes = header.len() as u64 + 8 * expected as u64;
+        let bytes = header.len() as u64 + length as u64;
         let options = SimpleFileOptions::DEFAULT
             .compression_method(CompressionMethod::Stored)
             .large_file(bytes > u64::from(u32::MAX) - (1 << 16));
@@ -129,14 +191,7 @@ impl NpzWriter {
         self.archive()?
             .start_file(format!("{name}.npy"), options)
             .map_err(|source| NpzError::Archive { path, source })?;
-        self.write(&header)?;
-        Ok(NpzArray {
-            writer: self,
-            name: name.to_owned(),
-            shape: shape.to_vec(),
-            expected,
-            written: 0,
-        })
+        self.write(header)
     }
 
     /// Completes the archive and gives it its name, in place of an earlier one.
@@ -146,28 +201,17 @@ impl NpzWriter {
     pub fn finish(mut self) -> Result<(), NpzError> {
         self.check_complete()?;
         let partial = self.partial.clone();
-        let io_error = |source| NpzError::Io {
+        let Some(archive) = self.archive.take() else {
+            return Ok(());
+        };
+        let file = archive.finish().map_err(|source| NpzError::Archive {
             path: partial.clone(),
             source,
-        };
-        if let Some(archive) = self.archive.take() {
-            let completed = archive
-                .finish()
-                .map_err(|source| NpzError::Archive {
-                    path: partial.clone(),
-                    source,
-                })
-                .and_then(|buffer| buffer.into_inner().map_err(|e| io_error(e.into_error())))
-                .and_then(|file| file.sync_all().map_err(io_error));
-            let renamed =
-                completed.and_then(|()| fs::rename(&partial, &self.path).map_err(io_error));
-            if renamed.is_err() {
-                // The first error is the one to tell.
-                let _ = fs::remove_file(&partial);
-            }
-            return renamed;
-        }
-        Ok(())
+        })?;
+        file.commit().map_err(|source| NpzError::Io {
+            path: partial,
+            source,
+        })
     }
 
     fn check_complete(&self) -> Result<(), NpzError> {
@@ -177,7 +221,7 @@ impl NpzWriter {
         }
     }
 
-    fn archive(&mut self) -> Result<&mut ZipWriter<BufWriter<File>>, NpzError> {
+    fn archive(&mut self) -> Result<&mut ZipWriter<AtomicFile>, NpzError> {
         let path = &self.partial;
         self.archive.as_mut().ok_or_else(|| NpzError::Io {
             path: path.clone(),
@@ -193,32 +237,23 @@ impl NpzWriter {
     }
 }
 
-impl Drop for NpzWriter {
-    fn drop(&mut self) {
-        if let Some(archive) = self.archive.take() {
-            drop(archive);
-            // Nothing to tell anybody from here; a left-over carries no valid name.
-            let _ = fs::remove_file(&self.partial);
-        }
-    }
-}
-
-impl NpzArray<'_> {
+impl<T: NpzElement> NpzArray<'_, T> {
     /// Writes the next values.
     ///
     /// # Errors
     /// [`NpzError::Shape`] if there are more than the shape holds, [`NpzError::Io`].
-    pub fn extend(&mut self, values: &[f64]) -> Result<(), NpzError> {
+    pub fn extend(&mut self, values: &[T]) -> Result<(), NpzError> {
         self.written += values.len();
         if self.written > self.expected {
             return Err(self.shape_error());
         }
-        let mut bytes = [0_u8; 8 * 512];
+        let mut bytes = Vec::with_capacity(512 * T::BYTES);
         for piece in values.chunks(512) {
-            for (slot, value) in bytes.chunks_exact_mut(8).zip(piece) {
-                slot.copy_from_slice(&value.to_le_bytes());
+            bytes.clear();
+            for &value in piece {
+                value.extend_bytes(&mut bytes);
             }
-            self.writer.write(&bytes[..8 * piece.len()])?;
+            self.writer.write(&bytes)?;
         }
         Ok(())
     }
@@ -249,6 +284,7 @@ impl NpzArray<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs::{self, File};
     use std::io::Read;
 
     /// A directory of its own for each test, removed at the end.
@@ -302,7 +338,7 @@ mod tests {
         let mut npz = NpzWriter::create(&path).expect("create");
         npz.array("time_s", &time).expect("array");
         npz.matrix("ball radius.1", 2, 3, &matrix).expect("matrix");
-        npz.array("nothing", &[]).expect("empty array");
+        npz.array::<f64>("nothing", &[]).expect("empty array");
         let mut pieces = npz.begin("pieces", &[7, 100]).expect("begin");
         for piece in time[..700].chunks(33) {
             pieces.extend(piece).expect("piece");

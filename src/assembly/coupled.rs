@@ -1,0 +1,107 @@
+//! A housing and the ring in its bore in one system of sparse matrices, nothing condensed.
+
+use super::SystemMatrices;
+use crate::linalg::{
+    DenseMatrix, SparseMatrix, TripletBuilder, congruence, sparse_times_dense,
+    transpose_times_dense,
+};
+use crate::model::{HousingModel, Ring, RingTie};
+
+/// Stiffness and mass over the housing's degrees of freedom, then the ring's. Rows and columns of what the tie drives
+/// are empty: their share is with the ring.
+#[derive(Debug, Clone)]
+pub struct CoupledMatrices {
+    /// Stiffness [n x n], N/m.
+    pub stiffness: SparseMatrix,
+    /// Mass [n x n], kg.
+    pub mass: SparseMatrix,
+    /// Free degrees of freedom, ascending: the housing's interior and the ring.
+    pub free_dofs: Vec<usize>,
+    /// Housing displacements in the mesh's axes from all coordinates [housing dof x n].
+    recovery: SparseMatrix,
+    housing_dof: usize,
+}
+
+impl CoupledMatrices {
+    /// Couples a housing to a ring.
+    pub fn new(matrices: &SystemMatrices, tie: &RingTie, ring: &Ring) -> Self {
+        let partition = tie.partition();
+        let housing_dof = matrices.stiffness.rows();
+        let order = housing_dof + ring.dof();
+        let mut driven = vec![false; housing_dof];
+        let mut expand = TripletBuilder::new(housing_dof, order);
+        for &dof in &partition.driven {
+            driven[dof] = true;
+        }
+        for (column, entries) in partition.tie.outer_iterator().enumerate() {
+            for (row, &value) in entries.iter() {
+                expand.add(partition.driven[row], housing_dof + column, value);
+            }
+        }
+        for dof in (0..housing_dof).filter(|&dof| !driven[dof]) {
+            expand.add(dof, dof, 1.0);
+        }
+        let mut recovery = expand.build();
+        if let Some(rotation) = tie.rotation() {
+            recovery = (rotation * &recovery).to_csc();
+        }
+        let with_ring = |housing: &SparseMatrix, ring: &DenseMatrix| {
+            &congruence(housing, &recovery) + &placed(ring, housing_dof, order)
+        };
+        let ring_dofs = housing_dof..order;
+        Self {
+            stiffness: with_ring(&matrices.stiffness, ring.stiffness()),
+            mass: with_ring(&matrices.mass, ring.mass()),
+            free_dofs: partition
+                .interior
+                .iter()
+                .copied()
+                .chain(ring_dofs)
+                .collect(),
+            recovery,
+            housing_dof,
+        }
+    }
+
+    /// Displacements of the housing in the mesh's axes [housing dof x k] for coordinates x [n x k], tied nodes filled
+    /// in.
+    pub fn housing(&self, model: &HousingModel, x: &DenseMatrix) -> DenseMatrix {
+        let moved = sparse_times_dense(&self.recovery, x);
+        match model.tie_matrix() {
+            Some(tie) => sparse_times_dense(&tie, &moved),
+            None => moved,
+        }
+    }
+
+    /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
+    pub fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
+        let rows = x.nrows() - self.housing_dof;
+        x.submatrix(self.housing_dof, 0, rows, x.ncols()).to_owned()
+    }
+
+    /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the ring
+    /// [ring dof x k]. What the tie drives follows the ring.
+    pub fn coordinates(&self, housing: &DenseMatrix, ring: &DenseMatrix) -> DenseMatrix {
+        // the recovery's columns of the housing are orthonormal or empty
+        let mut x = transpose_times_dense(&self.recovery, housing);
+        for column in 0..x.ncols() {
+            for row in 0..ring.nrows() {
+                x[(self.housing_dof + row, column)] = ring[(row, column)];
+            }
+        }
+        x
+    }
+}
+
+/// A dense matrix at a place on the diagonal of an empty one.
+fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
+    let mut whole = TripletBuilder::new(order, order);
+    for column in 0..part.ncols() {
+        for row in 0..part.nrows() {
+            if part[(row, column)] != 0.0 {
+                whole.add(first + row, first + column, part[(row, column)]);
+            }
+        }
+    }
+    whole.build()
+}

@@ -1,0 +1,52 @@
+//! What can go wrong with a table of mode shapes.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::super::ModeShapesError;
+
+/// Why a table of mode shapes cannot be written or read.
+#[derive(Debug, Error)]
+pub enum CsvError {
+    /// The file system refused.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Nothing says where the displacements are.
+    #[error("expected mode shapes with node labels or points, found neither")]
+    NoPlaces,
+    /// The file cannot be opened or read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Something in the file is not what the format has there.
+    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: u64,
+        /// What the format has there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// Mode shapes that contradict themselves.
+    #[error("{}: {fault}", path.display())]
+    Modes {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        fault: ModeShapesError,
+    },
+}

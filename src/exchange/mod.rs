@@ -1,0 +1,33 @@
+//! Files that other programs read and write.
+//!
+//! | format | ending | written | read |
+//! |---|---|---|---|
+//! | VTK XML unstructured grid ([`vtu`]) | `.vtu` | mesh, fields | |
+//! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes | mode shapes |
+//! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
+//! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
+//! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices | |
+//!
+//! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.
+//! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
+
+mod atomic;
+pub mod csv;
+pub mod matrix_market;
+mod mode_shapes;
+pub mod npz;
+mod read_modes;
+pub mod uff;
+pub mod vtu;
+
+pub use atomic::{AtomicFile, write_atomic};
+pub use csv::{CsvError, read_modes_csv, write_modes_csv};
+pub use matrix_market::{MatrixMarketError, write_matrix_market};
+pub use mode_shapes::{ModeShapes, ModeShapesError};
+pub use npz::{
+    NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, read_modes_npz, write_modes_npz,
+    write_sparse_npz,
+};
+pub use read_modes::{ReadModesError, read_mode_shapes};
+pub use uff::{UffError, read_modes_uff, write_modes_uff, write_uff};
+pub use vtu::{Field, FieldValues, VtuError, write_vtu};

@@ -1,0 +1,215 @@
+//! Reads arrays out of an archive.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use zip::ZipArchive;
+
+use super::NpzReadError;
+use super::header::{Header, parse};
+
+/// An array that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NpzValues<T> {
+    /// Length in each dimension.
+    pub shape: Vec<usize>,
+    /// Values, last index fastest (C order) however the file had them.
+    pub values: Vec<T>,
+}
+
+/// Reads arrays of f64 and i64 of up to three dimensions from an archive, stored or deflated, in C or Fortran order.
+///
+/// An array's values are read as they arrive, whatever the file says of their number: memory stays below 8 times the file's
+/// size where arrays are stored, and 4200 times where they are deflated (which packs 1032 to 1 at best), and 1 MiB.
+#[derive(Debug)]
+pub struct NpzReader {
+    path: PathBuf,
+    archive: ZipArchive<BufReader<File>>,
+}
+
+/// Longest header that is believed, bytes.
+const LONGEST_HEADER: usize = 1 << 16;
+
+impl NpzReader {
+    /// Opens an archive.
+    ///
+    /// # Errors
+    /// [`NpzReadError::Io`], [`NpzReadError::Archive`].
+    pub fn open(path: &Path) -> Result<Self, NpzReadError> {
+        let file = File::open(path).map_err(|source| NpzReadError::Io {
+            path: path.to_owned(),
+            source,
+        })?;
+        let archive =
+            ZipArchive::new(BufReader::new(file)).map_err(|source| NpzReadError::Archive {
+                path: path.to_owned(),
+                source,
+            })?;
+        Ok(Self {
+            path: path.to_owned(),
+            archive,
+        })
+    }
+
+    /// Names of the arrays.
+    pub fn names(&self) -> Vec<String> {
+        let names = self.archive.file_names().flatten();
+        names
+            .filter_map(|name| Some(name.strip_suffix(".npy")?.to_owned()))
+            .collect()
+    }
+
+    /// Whether there is an array of this name.
+    pub fn has(&self, name: &str) -> bool {
+        let mut names = self.archive.file_names().flatten();
+        names.any(|own| own.strip_suffix(".npy") == Some(name))
+    }
+
+    /// Reads an array of f64 (`<f8`).
+    ///
+    /// # Errors
+    /// [`NpzReadError`] if there is none of this name, it is damaged, of another type, or has more than three dimensions.
+    pub fn f64(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
+        self.values(name, "<f8", "numbers of type '<f8'", f64::from_le_bytes)
+    }
+
+    /// Reads an array of i64 (`<i8`).
+    ///
+    /// # Errors
+    /// As [`f64`](Self::f64).
+    pub fn i64(&mut self, name: &str) -> Result<NpzValues<i64>, NpzReadError> {
+        self.values(name, "<i8", "numbers of type '<i8'", i64::from_le_bytes)
+    }
+
+    fn values<T: Copy>(
+        &mut self,
+        name: &str,
+        type_name: &str,
+        expected_type: &'static str,
+        decode: impl Fn([u8; 8]) -> T,
+    ) -> Result<NpzValues<T>, NpzReadError> {
+        if !self.has(name) {
+            return Err(NpzReadError::Missing {
+                path: self.path.clone(),
+                name: name.to_owned(),
+                known: self.names(),
+            });
+        }
+        let wrong = |expected, found| NpzReadError::Array {
+            path: self.path.clone(),
+            name: name.to_owned(),
+            expected,
+            found,
+        };
+        let damaged = |source| NpzReadError::Damaged {
+            path: self.path.clone(),
+            name: name.to_owned(),
+            source,
+        };
+        let entry = self.archive.by_name(&format!("{name}.npy"));
+        let mut entry = entry.map_err(|source| damaged(source.into()))?;
+        let text = header_text(&mut entry).map_err(damaged)?;
+        let Some(header) = text.as_deref().and_then(parse) else {
+            return Err(wrong("a NumPy array", "a damaged header".to_owned()));
+        };
+        if header.type_name != type_name {
+            return Err(wrong(expected_type, format!("'{}'", header.type_name)));
+        }
+        let shape = &header.shape;
+        if shape.len() > 3 {
+            return Err(wrong("up to three dimensions", shape.len().to_string()));
+        }
+        let product = shape.iter().try_fold(1_usize, |n, &m| n.checked_mul(m));
+        let Some(count) = product else {
+            return Err(wrong("a shape that memory can hold", format!("{shape:?}")));
+        };
+        let (values, more) = numbers(&mut entry, count, decode).map_err(damaged)?;
+        if values.len() != count || more {
+            let found = if more { "more" } else { "fewer" };
+            let found = format!("{found} values than shape {shape:?} has");
+            return Err(wrong("as many values as the shape has", found));
+        }
+        Ok(header.in_c_order(values))
+    }
+}
+
+/// Text of the header; none if it does not begin as one or is too long.
+fn header_text(from: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
+    let mut start = [0; 8];
+    from.read_exact(&mut start)?;
+    let length = match start {
+        [0x93, b'N', b'U', b'M', b'P', b'Y', 1, _] => {
+            let mut length = [0; 2];
+            from.read_exact(&mut length)?;
+            usize::from(u16::from_le_bytes(length))
+        }
+        [0x93, b'N', b'U', b'M', b'P', b'Y', 2 | 3, _] => {
+            let mut length = [0; 4];
+            from.read_exact(&mut length)?;
+            u32::from_le_bytes(length) as usize
+        }
+        _ => return Ok(None),
+    };
+    if length > LONGEST_HEADER {
+        return Ok(None);
+    }
+    let mut text = vec![0; length];
+    from.read_exact(&mut text)?;
+    Ok(Some(text))
+}
+
+/// Up to `count` numbers of 8 bytes, and whether anything follows them.
+fn numbers<T>(
+    from: &mut impl Read,
+    count: usize,
+    decode: impl Fn([u8; 8]) -> T,
+) -> io::Result<(Vec<T>, bool)> {
+    let mut values = Vec::new();
+    let mut bytes = vec![0_u8; 1 << 16];
+    while values.len() < count {
+        let wanted = (count - values.len()).saturating_mul(8).min(bytes.len());
+        let found = fill(from, &mut bytes[..wanted])?;
+        let (whole, _) = bytes[..found].as_chunks::<8>();
+        values.extend(whole.iter().map(|&bytes| decode(bytes)));
+        if found < wanted {
+            return Ok((values, false));
+        }
+    }
+    // reading on to the end also compares the checksum
+    let more = fill(from, &mut bytes[..1])? > 0;
+    Ok((values, more))
+}
+
+/// Reads until the buffer is full or there is no more; returns how much.
+fn fill(from: &mut impl Read, buffer: &mut [u8]) -> io::Result<usize> {
+    let mut filled = 0;
+    while filled < buffer.len() {
+        match from.read(&mut buffer[filled..]) {
+            Ok(0) => break,
+            Ok(more) => filled += more,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(filled)
+}
+
+impl Header {
+    /// Puts values in the order of the file into C order.
+    fn in_c_order<T: Copy>(self, values: Vec<T>) -> NpzValues<T> {
+        let shape = self.shape;
+        // without values a size may be anything
+        if !self.fortran_order || shape.len() < 2 || values.is_empty() {
+            return NpzValues { shape, values };
+        }
+        let mut sizes = [1; 3];
+        sizes[..shape.len()].copy_from_slice(&shape);
+        let [a, b, c] = sizes;
+        let places = (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k))));
+        let values = places
+            .map(|(i, j, k)| values[i + a * (j + b * k)])
+            .collect();
+        NpzValues { shape, values }
+    }
+}

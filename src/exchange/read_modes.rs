@@ -1,0 +1,72 @@
+//! Mode shapes from a file of any format that the program reads.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::{CsvError, ModeShapes, NpzReadError, UffError};
+use super::{read_modes_csv, read_modes_npz, read_modes_uff};
+
+/// Why a file gives no mode shapes.
+#[derive(Debug, Error)]
+pub enum ReadModesError {
+    /// An ending that is none of a format.
+    #[error("expected a file of mode shapes (.npz, .csv, .uff or .unv), found {}", path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A NumPy archive.
+    #[error(transparent)]
+    Npz(#[from] NpzReadError),
+    /// A table.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
+    /// A universal file.
+    #[error(transparent)]
+    Uff(#[from] UffError),
+}
+
+/// Reads mode shapes; the ending of the file's name tells its format: `.npz`, `.csv`, `.uff` or `.unv`.
+///
+/// # Errors
+/// [`ReadModesError`] for another ending, and what the reader of the format says.
+pub fn read_mode_shapes(path: &Path) -> Result<ModeShapes, ReadModesError> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    match ending.unwrap_or_default().to_lowercase().as_str() {
+        "npz" => Ok(read_modes_npz(path)?),
+        "csv" => Ok(read_modes_csv(path)?),
+        "uff" | "unv" => Ok(read_modes_uff(path)?),
+        _ => Err(ReadModesError::Ending {
+            path: path.to_owned(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mode_shapes::samples::two_modes;
+    use super::super::{write_modes_csv, write_modes_npz, write_modes_uff};
+    use super::*;
+
+    #[test]
+    fn the_ending_picks_the_format() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        write_modes_npz(&at("a.npz"), &two_modes()).unwrap();
+        write_modes_csv(&at("a.CSV"), &two_modes()).unwrap();
+        write_modes_uff(&at("a.unv"), "a", &two_modes()).unwrap();
+        write_modes_uff(&at("a.uff"), "a", &two_modes()).unwrap();
+        for name in ["a.npz", "a.CSV", "a.unv", "a.uff"] {
+            let modes = read_mode_shapes(&at(name)).unwrap();
+            assert_eq!(modes.node_tags, two_modes().node_tags, "{name}");
+        }
+        let error = read_mode_shapes(Path::new("a.op2"))
+            .unwrap_err()
+            .to_string();
+        assert_eq!(
+            error,
+            "expected a file of mode shapes (.npz, .csv, .uff or .unv), found a.op2"
+        );
+    }
+}

@@ -1,0 +1,136 @@
+//! Lines of a universal file, with their numbers.
+
+use super::number::{columns, real};
+
+/// What is wrong in which line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Fault {
+    pub(super) line: usize,
+    pub(super) expected: &'static str,
+    pub(super) found: String,
+}
+
+/// A line and its number, counted from 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Line {
+    pub(super) number: usize,
+    pub(super) text: String,
+}
+
+impl Line {
+    /// Whether the line begins or ends a dataset.
+    pub(super) fn is_delimiter(&self) -> bool {
+        self.text.trim() == "-1"
+    }
+
+    pub(super) fn fault(&self, expected: &'static str) -> Fault {
+        let text = self.text.trim();
+        let mut found: String = text.chars().take(60).collect();
+        if found.len() < text.len() {
+            found.push_str("...");
+        }
+        Fault {
+            line: self.number,
+            expected,
+            found: format!("\"{found}\""),
+        }
+    }
+
+    /// Whole numbers, in columns of 10 where they run together.
+    pub(super) fn integers(&self, expected: &'static str) -> Result<Vec<i64>, Fault> {
+        const WIDTH: usize = 10;
+        let words: Vec<&str> = self.text.split_ascii_whitespace().collect();
+        let words = if words.iter().any(|word| word.len() > WIDTH) {
+            columns(&self.text, WIDTH)
+        } else {
+            words
+        };
+        let numbers: Option<Vec<i64>> = words.iter().map(|word| word.parse().ok()).collect();
+        numbers.ok_or_else(|| self.fault(expected))
+    }
+
+    /// Real numbers, in columns of `width` where they run together.
+    pub(super) fn reals(&self, width: usize, expected: &'static str) -> Result<Vec<f64>, Fault> {
+        let words: Option<Vec<f64>> = self.text.split_ascii_whitespace().map(real).collect();
+        let columns = || columns(&self.text, width).into_iter().map(real).collect();
+        words.or_else(columns).ok_or_else(|| self.fault(expected))
+    }
+}
+
+/// Where reading is. Bytes, not text: a dataset 58b has binary numbers, comments may be in any encoding.
+#[derive(Debug)]
+pub(super) struct Cursor<'a> {
+    rest: &'a [u8],
+    line: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            rest: bytes,
+            line: 0,
+        }
+    }
+
+    /// The next line, if there is one.
+    pub(super) fn next(&mut self) -> Option<Line> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let end = self.rest.iter().position(|&byte| byte == b'\n');
+        let (line, rest) = match end {
+            Some(end) => (&self.rest[..end], &self.rest[end + 1..]),
+            None => (self.rest, &[][..]),
+        };
+        self.rest = rest;
+        self.line += 1;
+        Some(Line {
+            number: self.line,
+            text: String::from_utf8_lossy(line).into_owned(),
+        })
+    }
+
+    /// The next line, or what was expected there.
+    pub(super) fn expect(&mut self, expected: &'static str) -> Result<Line, Fault> {
+        let line = self.line + 1;
+        self.next().ok_or_else(|| Fault {
+            line,
+            expected,
+            found: "the end of the file".to_owned(),
+        })
+    }
+
+    /// The next line that is not blank, or what was expected there.
+    pub(super) fn expect_text(&mut self, expected: &'static str) -> Result<Line, Fault> {
+        loop {
+            let line = self.expect(expected)?;
+            if !line.text.trim().is_empty() {
+                return Ok(line);
+            }
+        }
+    }
+
+    /// Real numbers from one or more lines, `count` of them; what follows them in the last line is left out.
+    pub(super) fn reals(
+        &mut self,
+        count: usize,
+        width: usize,
+        expected: &'static str,
+    ) -> Result<Vec<f64>, Fault> {
+        let mut numbers = Vec::new();
+        while numbers.len() < count {
+            let line = self.expect_text(expected)?;
+            if line.is_delimiter() {
+                return Err(line.fault(expected));
+            }
+            numbers.extend(line.reals(width, expected)?);
+        }
+        numbers.truncate(count);
+        Ok(numbers)
+    }
+
+    /// Goes past bytes that are no text.
+    pub(super) fn skip(&mut self, bytes: usize) {
+        self.rest = self.rest.get(bytes..).unwrap_or_default();
+    }
+}

@@ -1,0 +1,297 @@
+//! Reads mode shapes: datasets 55, with nodes from 2411, 781 or 15 and the unit of length from 164.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::path::Path;
+
+use super::super::ModeShapes;
+use super::UffError;
+use super::cursor::{Cursor, Fault, Line};
+use super::mode::{Mode, read_mode};
+
+/// What a file has gathered so far.
+#[derive(Default)]
+struct Content {
+    points: HashMap<u64, [f64; 3]>,
+    /// Nodes whose displacements are along axes of their own system, with the line that says so.
+    own_axes: Vec<(u64, i64, usize)>,
+    /// Coordinate systems that turn the axes.
+    turned: HashSet<i64>,
+    /// File's units of length in a metre.
+    per_metre: Option<f64>,
+    modes: Vec<Mode>,
+}
+
+/// Reads the mode shapes of a universal file.
+///
+/// - Modes are datasets 55 of analysis type 2 (normal), 3 or 7 (complex) with three translations a node, or three
+///   translations and three rotations, which are left out. Others, and all datasets of other numbers, are passed over.
+/// - Complex shapes are turned by the angle that makes their imaginary part least, then their real part is taken; their
+///   frequency is `|lambda| / 2 pi`. Of a pair of conjugates the one with the negative imaginary part is left out.
+/// - A node that a mode does not mention does not move in it, as the format has it.
+/// - Points are there if the file has a node for each label, in metres if the file has units (dataset 164).
+///
+/// # Errors
+/// [`UffError`] with file and line, what was found and what was expected; without modes; and for displacements along axes
+/// that datasets 18, 2420 turn against the global ones.
+pub fn read_modes_uff(path: &Path) -> Result<ModeShapes, UffError> {
+    let bytes = fs::read(path).map_err(|source| UffError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    modes_from_bytes(&bytes, path)
+}
+
+/// As [`read_modes_uff`], of a file that is in memory; `path` is for messages.
+///
+/// # Errors
+/// As [`read_modes_uff`].
+pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, UffError> {
+    let content = read(bytes).map_err(|fault| UffError::Content {
+        path: path.to_owned(),
+        line: fault.line,
+        expected: fault.expected,
+        found: fault.found,
+    })?;
+    if content.modes.is_empty() {
+        return Err(UffError::NoModes {
+            path: path.to_owned(),
+        });
+    }
+    let modes = content.mode_shapes();
+    modes.check().map_err(|fault| UffError::Modes {
+        path: path.to_owned(),
+        fault,
+    })?;
+    Ok(modes)
+}
+
+fn read(bytes: &[u8]) -> Result<Content, Fault> {
+    let mut cursor = Cursor::new(bytes);
+    let mut content = Content::default();
+    while let Some(line) = cursor.next() {
+        // Text between datasets means nothing.
+        if line.is_delimiter() {
+            content.dataset(&mut cursor)?;
+        }
+    }
+    let mentioned: HashSet<u64> = content
+        .modes
+        .iter()
+        .flat_map(|mode| mode.displacements.iter().map(|&(tag, _)| tag))
+        .collect();
+    let mut own_axes = content.own_axes.iter();
+    let own = own_axes
+        .find(|(tag, system, _)| content.turned.contains(system) && mentioned.contains(tag));
+    match own {
+        Some(&(tag, system, line)) => Err(Fault {
+            line,
+            expected: "displacements along the global axes",
+            found: format!("node {tag} in the turned coordinate system {system}"),
+        }),
+        None => Ok(content),
+    }
+}
+
+impl Content {
+    /// Reads what follows the line that begins a dataset, to the line that ends it.
+    fn dataset(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        const NUMBER: &str = "the number of a dataset";
+        let Some(mut head) = cursor.next() else {
+            // a file may end in one delimiter too many
+            return Ok(());
+        };
+        while head.text.trim().is_empty() {
+            let Some(line) = cursor.next() else {
+                return Ok(());
+            };
+            head = line;
+        }
+        let words: Vec<&str> = head.text.split_ascii_whitespace().collect();
+        match words.as_slice() {
+            ["2411" | "781", ..] => self.nodes_on_two_lines(cursor),
+            ["15", ..] => self.nodes_on_one_line(cursor),
+            ["164", ..] => self.units(cursor),
+            ["2420", ..] => self.systems(cursor),
+            ["18", ..] => self.old_systems(cursor),
+            ["55", ..] => {
+                self.modes.extend(read_mode(cursor)?);
+                Ok(())
+            }
+            ["58b", rest @ ..] => {
+                // fields after 58b: byte order, number format, lines of text, bytes of numbers
+                let number = |place: usize| rest.get(place).and_then(|word| word.parse().ok());
+                let (Some(lines), Some(bytes)) = (number(2), number(3)) else {
+                    return Err(head.fault("lines and bytes of a dataset 58b"));
+                };
+                for _ in 0..usize::min(lines, 20) {
+                    cursor.expect("text of a dataset 58b")?;
+                }
+                cursor.skip(bytes);
+                skip(cursor)
+            }
+            [number, ..] if number.parse::<u32>().is_ok() => skip(cursor),
+            _ => Err(head.fault(NUMBER)),
+        }
+    }
+
+    fn node(&mut self, line: &Line, numbers: &[i64], point: [f64; 3]) -> Result<(), Fault> {
+        const NODE: &str = "label, two coordinate systems and colour of a node";
+        let &[label, _, system, ..] = numbers else {
+            return Err(line.fault(NODE));
+        };
+        let tag = u64::try_from(label).map_err(|_| line.fault(NODE))?;
+        self.own_axes.push((tag, system, line.number));
+        self.points.insert(tag, point);
+        Ok(())
+    }
+
+    fn nodes_on_two_lines(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        loop {
+            let line = cursor.expect_text("a node or -1")?;
+            if line.is_delimiter() {
+                return Ok(());
+            }
+            let numbers = line.integers("label, two coordinate systems and colour of a node")?;
+            let point = cursor.reals(3, 25, "three coordinates of a node")?;
+            self.node(&line, &numbers, [point[0], point[1], point[2]])?;
+        }
+    }
+
+    fn nodes_on_one_line(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        const NODE: &str = "label, two coordinate systems, colour and three coordinates of a node";
+        loop {
+            let line = cursor.expect_text("a node or -1")?;
+            if line.is_delimiter() {
+                return Ok(());
+            }
+            // 4I10, 3E13.5
+            let columns = line.text.split_at_checked(40);
+            let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
+            let (numbers, point) = match (words.as_slice(), columns) {
+                ([_, _, _, _, ..], _) if words.len() == 7 => {
+                    (words[..4].join(" "), words[4..].join(" "))
+                }
+                (_, Some((numbers, point))) => (numbers.to_owned(), point.to_owned()),
+                _ => return Err(line.fault(NODE)),
+            };
+            let part = |text: String| Line {
+                number: line.number,
+                text,
+            };
+            let numbers = part(numbers).integers(NODE)?;
+            let point = part(point).reals(13, NODE)?;
+            let [x, y, z] = point[..] else {
+                return Err(line.fault(NODE));
+            };
+            self.node(&line, &numbers, [x, y, z])?;
+        }
+    }
+
+    fn units(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        const LENGTH: &str = "units of length in a metre, > 0";
+        cursor.expect_text("the code of the units")?;
+        let line = cursor.expect_text(LENGTH)?;
+        let factors = line.reals(25, LENGTH)?;
+        match factors.first() {
+            Some(&factor) if factor > 0.0 => self.per_metre = Some(factor),
+            _ => return Err(line.fault(LENGTH)),
+        }
+        skip(cursor)
+    }
+
+    /// Dataset 2420: part, name, then for each system its label, its name and four lines of a matrix, of which the first
+    /// three turn the axes.
+    fn systems(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        const SYSTEM: &str = "label, type and colour of a coordinate system";
+        cursor.expect_text("the part of the coordinate systems")?;
+        cursor.expect("the part's name")?;
+        loop {
+            let line = cursor.expect_text(SYSTEM)?;
+            if line.is_delimiter() {
+                return Ok(());
+            }
+            let numbers = line.integers(SYSTEM)?;
+            let &[label, kind, ..] = numbers.as_slice() else {
+                return Err(line.fault(SYSTEM));
+            };
+            cursor.expect("the name of a coordinate system")?;
+            let mut matrix = Vec::new();
+            for _ in 0..4 {
+                matrix.extend(cursor.reals(3, 25, "three components of a coordinate system")?);
+            }
+            // Axes written with few digits are still the global ones.
+            let unit = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+            let same = matrix
+                .iter()
+                .zip(unit)
+                .all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-5);
+            if kind != 0 || !same {
+                self.turned.insert(label);
+            }
+        }
+    }
+
+    /// Dataset 18: label, type, reference, colour, method; name; six and three numbers. All count as turned unless their
+    /// numbers are origin, a point on +x and a point in the xz plane of the global axes.
+    fn old_systems(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
+        const SYSTEM: &str = "label and type of a coordinate system";
+        loop {
+            let line = cursor.expect_text(SYSTEM)?;
+            if line.is_delimiter() {
+                return Ok(());
+            }
+            let numbers = line.integers(SYSTEM)?;
+            let &[label, kind, ..] = numbers.as_slice() else {
+                return Err(line.fault(SYSTEM));
+            };
+            cursor.expect("the name of a coordinate system")?;
+            let points = cursor.reals(9, 13, "nine numbers of a coordinate system")?;
+            let [ox, oy, oz, ax, ay, az, _, py, _] = points[..] else {
+                return Err(line.fault(SYSTEM));
+            };
+            let length = (ax - ox).abs().max(f64::MIN_POSITIVE);
+            // Points written with few digits are still on the global axes.
+            let small = |value: f64| value.abs() <= 1e-5 * length;
+            let same = ax > ox && small(ay - oy) && small(az - oz) && small(py - oy);
+            if kind != 0 || !same {
+                self.turned.insert(label);
+            }
+        }
+    }
+
+    /// Gives every mode the same nodes, in the order of first mention.
+    fn mode_shapes(self) -> ModeShapes {
+        let mut places: HashMap<u64, usize> = HashMap::new();
+        let mut tags = Vec::new();
+        for &(tag, _) in self.modes.iter().flat_map(|mode| &mode.displacements) {
+            places.entry(tag).or_insert_with(|| {
+                tags.push(tag);
+                tags.len() - 1
+            });
+        }
+        let shape = |mode: &Mode| {
+            let mut shape = vec![0.0; 3 * tags.len()];
+            for (tag, displacement) in &mode.displacements {
+                if let Some(&place) = places.get(tag) {
+                    shape[3 * place..][..3].copy_from_slice(displacement);
+                }
+            }
+            shape
+        };
+        let per_metre = self.per_metre.unwrap_or(1.0);
+        let point = |tag: &u64| Some(self.points.get(tag)?.map(|value| value / per_metre));
+        ModeShapes {
+            frequencies_hz: self.modes.iter().map(|mode| mode.frequency_hz).collect(),
+            points: tags.iter().map(point).collect(),
+            shapes: self.modes.iter().map(shape).collect(),
+            node_tags: Some(tags),
+        }
+    }
+}
+
+/// Goes past the line that ends a dataset.
+pub(super) fn skip(cursor: &mut Cursor) -> Result<(), Fault> {
+    while !cursor.expect("-1 at the end of a dataset")?.is_delimiter() {}
+    Ok(())
+}

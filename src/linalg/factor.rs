@@ -1,0 +1,232 @@
+//! A factor with a measure of how good it is, in single precision where that serves.
+
+use super::numeric::{Kind, NumericFactor};
+use super::symbolic::Symbolic;
+use super::symmetric::SymmetricMatrix;
+use super::{DenseMatrix, LinalgError, pseudo_random};
+use std::sync::Arc;
+
+/// Contraction above which a factor is refused. Its inverse is then right to a tenth, and its inertia is that of the
+/// matrix.
+const LARGEST_CONTRACTION: f64 = 0.1;
+
+/// Contraction of a factor in double precision above which the matrix is so ill-conditioned (1e8) that round-off in its
+/// lowest modes is felt: a shift helps.
+const DULL: f64 = 1e-8;
+
+/// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
+const SMALL: usize = 1 << 22;
+
+/// Vectors with which the contraction is measured, and how often it is applied to them: the first time brings out
+/// the factor's worst directions, the second measures them.
+const PROBES: (usize, usize) = (4, 2);
+
+#[derive(Debug)]
+enum Numbers {
+    Single(NumericFactor<f32>),
+    Double(NumericFactor<f64>),
+}
+
+/// Factor F of a symmetric matrix A, in an order of its own.
+///
+/// **Quality.** The contraction is the factor by which one step of iterative refinement, `G = I - F^-1 A`, reduces an
+/// error, estimated by powers of G. It judges the inertia too: on the way from F to A, `A_t = F - t (F - A)` for t
+/// from 0 to 1, a sign can change only where `A_t` is singular, that is where G has the eigenvalue 1/t >= 1. A
+/// spectral radius below 1 therefore proves that F and A have equally many negative eigenvalues, whatever the
+/// precision in which F was computed.
+#[derive(Debug)]
+pub(super) struct Factor {
+    symbolic: Arc<Symbolic>,
+    numbers: Numbers,
+    /// Estimate of the spectral radius of `I - F^-1 A`.
+    pub contraction: f64,
+}
+
+impl Factor {
+    /// Factorises `a`: in single precision if it is large, in double precision if it is small or single does not
+    /// suffice.
+    ///
+    /// # Errors
+    /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
+    /// the factor in double precision does not solve its own system either.
+    pub fn new(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        kind: Kind,
+    ) -> Result<Self, LinalgError> {
+        if symbolic.entries() > SMALL {
+            match NumericFactor::<f32>::new(symbolic, a, kind) {
+                Ok(numbers) => {
+                    let factor = Self::measured(symbolic, a, Numbers::Single(numbers));
+                    if factor.contraction <= LARGEST_CONTRACTION {
+                        return Ok(factor);
+                    }
+                }
+                Err(LinalgError::NotPositiveDefinite { .. }) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Self::double(symbolic, a, kind)
+    }
+
+    /// Factorises `a` in double precision.
+    ///
+    /// # Errors
+    /// As [`Factor::new`].
+    pub fn double(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        kind: Kind,
+    ) -> Result<Self, LinalgError> {
+        let numbers = Numbers::Double(NumericFactor::new(symbolic, a, kind)?);
+        let factor = Self::measured(symbolic, a, numbers);
+        if factor.contraction <= LARGEST_CONTRACTION {
+            Ok(factor)
+        } else {
+            Err(LinalgError::NearlySingular {
+                order: a.order(),
+                contraction: factor.contraction,
+            })
+        }
+    }
+
+    fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
+        let mut factor = Self {
+            symbolic: Arc::clone(symbolic),
+            numbers,
+            contraction: f64::INFINITY,
+        };
+        let mut error = pseudo_random(a.order(), PROBES.0, 0);
+        for _ in 0..PROBES.1 {
+            let before = error.norm_l2();
+            let mut step = a.times(error.as_ref());
+            factor.solve(&mut step);
+            error -= &step;
+            let after = error.norm_l2();
+            factor.contraction = if before > 0.0 { after / before } else { 0.0 };
+        }
+        if !factor.contraction.is_finite() {
+            factor.contraction = f64::INFINITY;
+        }
+        factor
+    }
+
+    /// Whether the matrix is well enough conditioned to iterate with.
+    pub fn is_sharp(&self) -> bool {
+        match self.numbers {
+            Numbers::Single(_) => self.contraction <= LARGEST_CONTRACTION,
+            Numbers::Double(_) => self.contraction <= DULL,
+        }
+    }
+
+    /// `F^-1 B` in place for `B` [n x k].
+    pub fn solve(&self, b: &mut DenseMatrix) {
+        match &self.numbers {
+            Numbers::Single(numbers) => numbers.solve(&self.symbolic, b),
+            Numbers::Double(numbers) => numbers.solve(&self.symbolic, b),
+        }
+    }
+
+    /// Number of negative eigenvalues of the matrix.
+    pub fn negative(&self) -> usize {
+        match &self.numbers {
+            Numbers::Single(numbers) => numbers.negative(&self.symbolic),
+            Numbers::Double(numbers) => numbers.negative(&self.symbolic),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::TripletBuilder;
+    use super::super::ordering::Ordering;
+    use super::*;
+
+    /// Chain of unit springs fixed at both ends, less sigma.
+    fn chain(order: usize, sigma: f64) -> (Arc<Symbolic>, SymmetricMatrix) {
+        let mut a = TripletBuilder::new(order, order);
+        for row in 0..order {
+            a.add(row, row, 2.0 - sigma);
+            if row + 1 < order {
+                a.add(row, row + 1, -1.0);
+                a.add(row + 1, row, -1.0);
+            }
+        }
+        let a = a.build();
+        let ordering = Ordering::of(&a).expect("an order");
+        let permuted = SymmetricMatrix::permuted(&a, &ordering);
+        (
+            Arc::new(Symbolic::new(&permuted).expect("analysed")),
+            permuted,
+        )
+    }
+
+    fn value(j: usize, order: usize) -> f64 {
+        2.0 - 2.0 * (j as f64 * std::f64::consts::PI / (order + 1) as f64).cos()
+    }
+
+    #[test]
+    fn counts_the_eigenvalues_of_a_chain() {
+        let order = 400;
+        for below in [0, 1, 7, 200, 399] {
+            let sigma = 0.4 * value(below, order) + 0.6 * value(below + 1, order);
+            let (symbolic, a) = chain(order, sigma);
+            let factor = Factor::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+            assert_eq!(factor.negative(), below);
+            let single =
+                NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+            let single = Factor::measured(&symbolic, &a, Numbers::Single(single));
+            // single precision cannot tell eigenvalues 6e-5 apart where the largest is 4; it says so
+            assert!(single.negative() == below || single.contraction > LARGEST_CONTRACTION);
+        }
+    }
+
+    /// Between the two singular cases lies a factor's whole quality: refinement says which it is.
+    #[test]
+    fn a_shift_on_an_eigenvalue_is_noticed() {
+        let order = 300;
+        let on = value(17, order);
+        let (symbolic, a) = chain(order, on);
+        let result = Factor::new(&symbolic, &a, Kind::Indefinite);
+        assert!(
+            matches!(result, Err(LinalgError::NearlySingular { .. })),
+            "{result:?}"
+        );
+        let (symbolic, a) = chain(order, on * (1.0 + 1e-6));
+        let factor = Factor::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+        assert_eq!(factor.negative(), 17);
+        assert!(factor.contraction < 1e-6, "{:e}", factor.contraction);
+    }
+
+    /// Single precision has seven digits: the contraction is about condition times 6e-8.
+    #[test]
+    fn contraction_grows_with_the_condition() {
+        for (order, limits) in [(20, [1e-9, 1e-4]), (2000, [1e-6, f64::INFINITY])] {
+            let (symbolic, a) = chain(order, 0.0);
+            let numbers =
+                NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite).expect("definite");
+            let factor = Factor::measured(&symbolic, &a, Numbers::Single(numbers));
+            let found = factor.contraction;
+            assert!(found > limits[0] && found < limits[1], "{order} {found:e}");
+        }
+    }
+
+    #[test]
+    fn both_kinds_and_precisions_solve() {
+        let (symbolic, a) = chain(90, 0.0);
+        let x = pseudo_random(90, 3, 5);
+        let b = a.times(x.as_ref());
+        let error = |mut y: DenseMatrix, solve: &dyn Fn(&mut DenseMatrix)| {
+            solve(&mut y);
+            (y - &x).norm_max()
+        };
+        for kind in [Kind::Definite, Kind::Indefinite] {
+            let double = NumericFactor::<f64>::new(&symbolic, &a, kind).expect("definite");
+            // condition 3300 times the unit round-off, and a factor of ten
+            assert!(error(b.clone(), &|y| double.solve(&symbolic, y)) < 1e-11);
+            let single = NumericFactor::<f32>::new(&symbolic, &a, kind).expect("definite");
+            let lost = error(b.clone(), &|y| single.solve(&symbolic, y));
+            assert!(lost < 3e-3 && lost > 1e-9, "{lost:e}");
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! The lowest eigenpairs by a block Krylov space with the factor's inverse, then by Davidson's correction.
+//!
+//! The factor F of `K - sigma M` is taken for what it is, an approximation. A block Krylov space of `F^-1 M` (Golub and
+//! Underwood 1977) holds the wanted vectors about as well as F is exact; Rayleigh-Ritz with K and M themselves, and
+//! corrections `F^-1 (K x - lambda M x)` (Davidson, J. Comput. Phys. 17 (1975) 87-94), take them to the accuracy of K and M.
+//! Blocks load the factor once for all their vectors: eight together cost as much as two.
+
+use super::basis::{Basis, norms, times};
+use super::factor::Factor;
+use super::symmetric::SymmetricMatrix;
+use super::{DenseMatrix, LinalgError, SymmetricSpectrum, pseudo_random, symmetric_eigen};
+
+/// Vectors that the Krylov space grows by.
+const BLOCK: usize = 8;
+
+/// Vectors that are corrected at once.
+const CORRECTED: usize = 32;
+
+/// Step of a wanted pair, `|F^-1 (K x - lambda M x)|` in the norm of M, at which it has converged: about the angle to
+/// the eigenvector; the eigenvalue is right to its square.
+const CONVERGED: f64 = 1e-7;
+
+/// Relative residual `|K x - lambda M x|` at which a wanted pair has converged, in Euclidean norms: stiff directions,
+/// which weigh little in the norm of M, are converged as well.
+const SMALL_RESIDUAL: f64 = 1e-6;
+
+/// Energy of a wanted pair's residual, `r^T F^-1 r`, relative to `lambda - sigma`, at which it has converged: the
+/// relative error of its eigenvalue, but for a factor from the gap.
+const SMALL_ENERGY: f64 = 1e-13;
+
+/// The step for the pairs beyond, whose values are needed to a few digits.
+const GUARD_CONVERGED: f64 = 1e-2;
+
+/// Relative change of an eigenvalue after which a converged pair is looked at again: another one has come below it.
+const CHANGED: f64 = 1e-7;
+
+/// Corrections after which the iteration gives up; three to five are usual.
+const CORRECTIONS: usize = 100;
+
+/// Round-off of a residual in units of eps times the highest eigenvalue, below which no correction brings it.
+const ROUNDING: f64 = 16.0;
+
+/// Largest `K_ii / M_ii`: about a third of the highest eigenvalue.
+fn largest_ratio(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
+    let ratios = stiffness.diagonal().into_iter().zip(mass.diagonal());
+    ratios
+        .map(|(stiffness, mass)| stiffness / mass)
+        .filter(|ratio| ratio.is_finite())
+        .fold(0.0, f64::max)
+}
+
+/// Ritz pairs: values ascending, vectors M-orthonormal.
+#[derive(Debug)]
+pub(super) struct Ritz {
+    /// Eigenvalues, 1/s^2.
+    pub values: Vec<f64>,
+    /// Vectors [n x k].
+    pub vectors: DenseMatrix,
+}
+
+/// A search for the lowest eigenpairs of `K x = lambda M x`.
+#[derive(Debug)]
+pub(super) struct Search<'p> {
+    stiffness: &'p SymmetricMatrix,
+    mass: &'p SymmetricMatrix,
+    basis: Basis<'p>,
+    /// `V^T K V`, upper left part.
+    projected: DenseMatrix,
+    /// Pairs that must converge.
+    wanted: usize,
+    /// These and those beyond.
+    pursued: usize,
+    krylov: usize,
+    /// Round-off of `K x` for a unit x, in the norm of M, 1/s^2.
+    round_off: f64,
+    /// Shift sigma of the factor, 1/s^2.
+    pub shift: f64,
+    /// Seeds used so far: every new block starts elsewhere.
+    started: u64,
+}
+
+/// Vectors of the largest basis for so many pairs.
+pub(super) fn largest_basis(pursued: usize) -> usize {
+    krylov_size(pursued) + pursued.max(BLOCK)
+}
+
+/// Size of the Krylov space: smaller ones need more corrections, larger ones cost more than they save (measured on a solid
+/// of 60 000 degrees of freedom, 20 modes).
+fn krylov_size(pursued: usize) -> usize {
+    2 * pursued + 4 * BLOCK
+}
+
+impl<'p> Search<'p> {
+    /// Prepares a search for `wanted` pairs and a rough idea of `beyond` more; `shift` is that of the factor.
+    pub fn new(
+        stiffness: &'p SymmetricMatrix,
+        mass: &'p SymmetricMatrix,
+        shift: f64,
+        wanted: usize,
+        beyond: usize,
+    ) -> Self {
+        let pursued = wanted + beyond;
+        let room = largest_basis(pursued);
+        Self {
+            stiffness,
+            mass,
+            basis: Basis::new(mass, room),
+            projected: DenseMatrix::zeros(room, room),
+            wanted,
+            pursued,
+            krylov: krylov_size(pursued),
+            round_off: ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass),
+            shift,
+            started: 0,
+        }
+    }
+
+    /// Lets the space grow by a block Krylov sequence from new vectors: once at the beginning, and again when pairs
+    /// turn out to be missing.
+    ///
+    /// # Errors
+    /// [`LinalgError::DenseEigen`].
+    pub fn explore(&mut self, factor: &Factor) -> Result<(), LinalgError> {
+        if self.basis.size() + 2 * BLOCK > self.krylov {
+            self.restart(self.pursued)?;
+        }
+        self.started += 1;
+        let start = pseudo_random(self.mass.order(), BLOCK, self.started);
+        let mut block = self.mass.times(start.as_ref());
+        while self.basis.size() < self.krylov {
+            factor.solve(&mut block);
+            let added = self.extend(block)?;
+            if added == 0 {
+                break;
+            }
+            let products = self.basis.products();
+            block = products
+                .subcols(self.basis.size() - added, added)
+                .to_owned();
+        }
+        Ok(())
+    }
+
+    fn extend(&mut self, block: DenseMatrix) -> Result<usize, LinalgError> {
+        let before = self.basis.size();
+        let added = self.basis.extend(block)?;
+        let new = self.basis.vectors().subcols(before, added);
+        let stiff = self.stiffness.times(new);
+        let rows = times(self.basis.vectors().transpose(), stiff.as_ref());
+        for column in 0..added {
+            for row in 0..before + added {
+                let value = if row < before {
+                    rows[(row, column)]
+                } else {
+                    0.5 * (rows[(row, column)] + rows[(before + column, row - before)])
+                };
+                self.projected[(row, before + column)] = value;
+                self.projected[(before + column, row)] = value;
+            }
+        }
+        Ok(added)
+    }
+
+    /// Eigenvalues and combinations of the space, ascending.
+    fn ritz(&self) -> Result<SymmetricSpectrum, LinalgError> {
+        let size = self.basis.size();
+        symmetric_eigen(
+            &self
+                .projected
+                .as_ref()
+                .submatrix(0, 0, size, size)
+                .to_owned(),
+        )
+    }
+
+    /// The Ritz value at a place.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooManyModes`] if the space is smaller, which then is that of all motions with mass.
+    pub fn value(&self, place: usize) -> Result<f64, LinalgError> {
+        let values = self.ritz()?.values;
+        values.get(place).copied().ok_or(LinalgError::TooManyModes {
+            asked: place + 1,
+            available: values.len(),
+        })
+    }
+
+    /// Keeps the space of the lowest Ritz vectors.
+    fn restart(&mut self, kept: usize) -> Result<(), LinalgError> {
+        let spectrum = self.ritz()?;
+        let kept = kept.min(self.basis.size());
+        self.basis.rotate(spectrum.vectors.subcols(0, kept));
+        self.projected.fill(0.0);
+        for place in 0..kept {
+            self.projected[(place, place)] = spectrum.values[place];
+        }
+        Ok(())
+    }
+
+    /// Corrects the Ritz pairs until they have converged.
+    ///
+    /// # Errors
+    /// [`LinalgError::NotConverged`], [`LinalgError::DenseEigen`].
+    pub fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
+        let mut done: Vec<Option<f64>> = vec![None; self.pursued];
+        for _ in 0..CORRECTIONS {
+            let spectrum = self.ritz()?;
+            let pursued = self.pursued.min(self.basis.size());
+            let changed = (0..pursued).find(|&place| {
+                let value = spectrum.values[place];
+                let apart = |before: f64| (value - before).abs() > CHANGED * value.abs();
+                place < self.wanted && done[place].is_some_and(apart)
+            });
+            if let Some(first) = changed {
+                done[first..].fill(None);
+            }
+            let chosen: Vec<usize> = (0..pursued)
+                .filter(|&place| done[place].is_none())
+                .take(CORRECTED)
+                .collect();
+            if chosen.is_empty() {
+                let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
+                let values = spectrum.values[..pursued].to_vec();
+                return Ok(Ritz { values, vectors });
+            }
+            let steps = self.steps(&spectrum, &chosen, factor);
+            let mut open = Vec::new();
+            for (column, &place) in chosen.iter().enumerate() {
+                let length = steps.lengths[column];
+                let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
+                let converged = if place < self.wanted {
+                    length <= CONVERGED.max(floor)
+                        && steps.residuals[column] <= SMALL_RESIDUAL.max(floor)
+                        && steps.energies[column] <= SMALL_ENERGY.max(floor * floor)
+                } else {
+                    length <= GUARD_CONVERGED
+                };
+                if converged {
+                    done[place] = Some(spectrum.values[place]);
+                } else {
+                    open.push(column);
+                }
+            }
+            let block = columns(&steps.vectors, &open);
+            if block.ncols() > self.basis.room() {
+                self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
+            }
+            self.extend(block)?;
+        }
+        Err(LinalgError::NotConverged {
+            asked: self.wanted,
+            converged: done[..self.wanted].iter().flatten().count(),
+            restarts: CORRECTIONS,
+        })
+    }
+
+    /// Corrections of the chosen Ritz pairs.
+    fn steps(&self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Steps {
+        let combinations = columns(&spectrum.vectors, chosen);
+        let x = times(self.basis.vectors(), combinations.as_ref());
+        let heavy = times(self.basis.products(), combinations.as_ref());
+        let mut vectors = self.stiffness.times(x.as_ref());
+        let mut residuals = Vec::with_capacity(chosen.len());
+        for (column, &place) in chosen.iter().enumerate() {
+            let value = spectrum.values[place];
+            let scale = vectors.col(column).norm_l2()
+                + (value - self.shift).abs() * heavy.col(column).norm_l2();
+            let products = heavy.col_as_slice(column);
+            for (entry, product) in vectors.col_as_slice_mut(column).iter_mut().zip(products) {
+                *entry -= value * product;
+            }
+            residuals.push(vectors.col(column).norm_l2() / scale);
+        }
+        let remainders = vectors.clone();
+        factor.solve(&mut vectors);
+        let lengths = norms(&vectors, &self.mass.times(vectors.as_ref()));
+        let energy = |(column, &place): (usize, &usize)| {
+            let energy: f64 = remainders.col(column).transpose() * vectors.col(column);
+            energy.abs() / (spectrum.values[place] - self.shift).abs()
+        };
+        Steps {
+            energies: chosen.iter().enumerate().map(energy).collect(),
+            vectors,
+            lengths,
+            residuals,
+        }
+    }
+}
+
+/// Corrections of some pairs.
+struct Steps {
+    /// `F^-1 (K x - lambda M x)` [n x k].
+    vectors: DenseMatrix,
+    /// Their lengths in the norm of M.
+    lengths: Vec<f64>,
+    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`.
+    residuals: Vec<f64>,
+    /// `r^T F^-1 r / (lambda - sigma)`.
+    energies: Vec<f64>,
+}
+
+/// Some columns of a matrix.
+fn columns(a: &DenseMatrix, chosen: &[usize]) -> DenseMatrix {
+    let mut some = DenseMatrix::zeros(a.nrows(), chosen.len());
+    for (place, &column) in chosen.iter().enumerate() {
+        some.col_as_slice_mut(place)
+            .copy_from_slice(a.col_as_slice(column));
+    }
+    some
+}

@@ -1,0 +1,62 @@
+//! METIS's nested dissection behind one safe function.
+//!
+//! **Life cycle.** One call; METIS allocates and frees its own workspace and keeps nothing of ours.
+//!
+//! **State.** METIS 5 has no global state but its random generator, which every call seeds anew (option -1: its own
+//! fixed seed): the same graph gives the same order.
+
+use std::ffi::c_int;
+
+/// An undirected graph: the neighbours of node i are `neighbours[starts[i]..starts[i + 1]]`, without i itself; each
+/// edge is stored at both ends.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Graph {
+    /// Where each node's neighbours begin, one more than nodes.
+    pub starts: Vec<c_int>,
+    /// Neighbours of all nodes.
+    pub neighbours: Vec<c_int>,
+    /// Number of unknowns of each node, at least 1.
+    pub weights: Vec<c_int>,
+}
+
+impl Graph {
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.weights.len()
+    }
+}
+
+/// Nested dissection order of a graph: `order[new] = old` (Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998)
+/// 359-392); `None` if METIS does not return one (out of memory).
+pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
+    let nodes = graph.nodes();
+    if graph.neighbours.is_empty() {
+        return Some((0..nodes).collect());
+    }
+    let mut count = c_int::try_from(nodes).ok()?;
+    let mut options = [-1; metis_sys::METIS_NOPTIONS as usize];
+    let (mut order, mut place) = (vec![0; nodes], vec![0; nodes]);
+    // METIS takes what it only reads by mutable pointers; copies keep the graph untouched whatever it does
+    let (mut starts, mut neighbours, mut weights) = (
+        graph.starts.clone(),
+        graph.neighbours.clone(),
+        graph.weights.clone(),
+    );
+    // SAFETY: `starts` has count + 1 entries that end at the length of `neighbours`, whose entries are below count
+    // (checked by whoever makes a `Graph`: `ordering::graph`); `weights`, `order` and `place` have count entries and
+    // `options` METIS_NOPTIONS; all outlive the call.
+    let status = unsafe {
+        metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+        metis_sys::METIS_NodeND(
+            &mut count,
+            starts.as_mut_ptr(),
+            neighbours.as_mut_ptr(),
+            weights.as_mut_ptr(),
+            options.as_mut_ptr(),
+            order.as_mut_ptr(),
+            place.as_mut_ptr(),
+        )
+    };
+    let found: Vec<usize> = order.iter().map(|&old| old as usize).collect();
+    (status == metis_sys::rstatus_et_METIS_OK).then_some(found)
+}

@@ -1,0 +1,203 @@
+//! Fill-reducing order of a symmetric matrix: nested dissection on the graph of its nodes, then a postorder of the
+//! elimination tree.
+//!
+//! The unknowns of a mesh node have the same neighbours: consecutive columns with equal patterns are one node of the
+//! graph, which is nine times smaller than the matrix's own in space. A postorder changes no fill and puts columns
+//! that share a supernode beside each other; without it a factorisation finds supernodes of half the width.
+
+use super::metis::{Graph, nested_dissection};
+use super::{DenseMatrix, LinalgError, SparseMatrix};
+
+/// An order of the unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Ordering {
+    /// `old[new]`: which unknown comes at this place.
+    pub old: Vec<u32>,
+    /// `new[old]`: at which place an unknown comes; [`ABSENT`] for one that is left out.
+    pub new: Vec<u32>,
+    /// The unknowns that are ordered, ascending.
+    kept: Vec<u32>,
+}
+
+/// Place of an unknown that is left out.
+pub(super) const ABSENT: u32 = u32::MAX;
+
+const NONE: usize = usize::MAX;
+
+impl Ordering {
+    /// Order of a symmetric matrix [n x n], both triangles stored.
+    ///
+    /// # Errors
+    /// As [`Ordering::of_part`].
+    pub fn of(a: &SparseMatrix) -> Result<Self, LinalgError> {
+        let all: Vec<usize> = (0..a.rows()).collect();
+        Self::of_part(a, &all)
+    }
+
+    /// Order of the rows and columns `kept` (ascending) of a symmetric matrix.
+    ///
+    /// # Errors
+    /// [`LinalgError::Factorisation`] for a matrix with more than 2^31 entries or when METIS gives up.
+    pub fn of_part(a: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
+        let order = a.rows();
+        let failed = |reason| LinalgError::Factorisation { order, reason };
+        let runs = Runs::of(a, kept);
+        let graph = runs
+            .graph(a)
+            .ok_or_else(|| failed("more than 2^31 entries"))?;
+        let dissected = nested_dissection(&graph).ok_or_else(|| failed("METIS found no order"))?;
+        let mut place = vec![0; dissected.len()];
+        for (new, &node) in dissected.iter().enumerate() {
+            place[node] = new;
+        }
+        let parents = elimination_tree(&graph, &dissected, &place);
+        let old: Vec<u32> = postorder(&parents)
+            .into_iter()
+            .map(|place| dissected[place])
+            .flat_map(|node| runs.members(node).iter().map(|&unknown| unknown as u32))
+            .collect();
+        let mut new = vec![ABSENT; order];
+        for (place, &unknown) in old.iter().enumerate() {
+            new[unknown as usize] = place as u32;
+        }
+        let kept = kept.iter().map(|&unknown| unknown as u32).collect();
+        Ok(Self { old, new, kept })
+    }
+
+    /// The rows of `x` (those kept, ascending) in this order.
+    pub fn forward(&self, x: &DenseMatrix) -> DenseMatrix {
+        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
+        for column in 0..x.ncols() {
+            let (to, from) = (y.col_as_slice_mut(column), x.col_as_slice(column));
+            for (&unknown, &entry) in self.kept.iter().zip(from) {
+                to[self.new[unknown as usize] as usize] = entry;
+            }
+        }
+        y
+    }
+
+    /// The rows of `y`, which are in this order, as those kept, ascending.
+    pub fn backward(&self, y: &DenseMatrix, x: &mut DenseMatrix) {
+        for column in 0..y.ncols() {
+            let (to, from) = (x.col_as_slice_mut(column), y.col_as_slice(column));
+            for (&unknown, entry) in self.kept.iter().zip(to) {
+                *entry = from[self.new[unknown as usize] as usize];
+            }
+        }
+    }
+}
+
+/// Runs of consecutive unknowns whose columns have the same pattern: the nodes of a mesh.
+struct Runs<'k> {
+    kept: &'k [usize],
+    /// Where each run begins in `kept`, one more than runs.
+    firsts: Vec<usize>,
+}
+
+impl<'k> Runs<'k> {
+    fn of(a: &SparseMatrix, kept: &'k [usize]) -> Self {
+        let offsets = a.indptr();
+        let offsets = offsets.raw_storage();
+        let column = |place: usize| {
+            let j = kept[place];
+            &a.indices()[offsets[j]..offsets[j + 1]]
+        };
+        let begins = |&place: &usize| place == 0 || column(place) != column(place - 1);
+        let mut firsts: Vec<usize> = (0..kept.len()).filter(begins).collect();
+        firsts.push(kept.len());
+        Self { kept, firsts }
+    }
+
+    fn members(&self, run: usize) -> &[usize] {
+        &self.kept[self.firsts[run]..self.firsts[run + 1]]
+    }
+
+    /// Their graph; `None` if it is too large for METIS's integers.
+    fn graph(&self, a: &SparseMatrix) -> Option<Graph> {
+        let runs = self.firsts.len() - 1;
+        let mut run_of = vec![NONE; a.cols()];
+        for run in 0..runs {
+            for &unknown in self.members(run) {
+                run_of[unknown] = run;
+            }
+        }
+        let mut graph = Graph {
+            starts: vec![0],
+            neighbours: Vec::new(),
+            weights: Vec::with_capacity(runs),
+        };
+        for run in 0..runs {
+            let mut last = NONE;
+            for (row, _) in a.outer_view(self.members(run)[0])?.iter() {
+                // rows ascend, so do their runs
+                let other = run_of[row];
+                if other != NONE && other != last && other != run {
+                    graph.neighbours.push(i32::try_from(other).ok()?);
+                }
+                if other != NONE {
+                    last = other;
+                }
+            }
+            graph
+                .starts
+                .push(i32::try_from(graph.neighbours.len()).ok()?);
+            graph
+                .weights
+                .push(i32::try_from(self.members(run).len()).ok()?);
+        }
+        Some(graph)
+    }
+}
+
+/// Parent of every place in the elimination tree (Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172, algorithm 4.2
+/// with compressed paths); roots have none.
+fn elimination_tree(graph: &Graph, node_at: &[usize], place_of: &[usize]) -> Vec<usize> {
+    let nodes = graph.nodes();
+    let mut parents = vec![NONE; nodes];
+    let mut ancestors = vec![NONE; nodes];
+    for (place, &node) in node_at.iter().enumerate() {
+        let (start, end) = (graph.starts[node] as usize, graph.starts[node + 1] as usize);
+        for &other in &graph.neighbours[start..end] {
+            let mut lower = place_of[other as usize];
+            while lower < place {
+                let above = ancestors[lower];
+                ancestors[lower] = place;
+                if above == NONE {
+                    parents[lower] = place;
+                    break;
+                }
+                lower = above;
+            }
+        }
+    }
+    parents
+}
+
+/// Places in an order in which every subtree is contiguous and precedes its root.
+fn postorder(parents: &[usize]) -> Vec<usize> {
+    let places = parents.len();
+    let (mut first_child, mut next_sibling) = (vec![NONE; places], vec![NONE; places]);
+    for place in (0..places).rev() {
+        let parent = parents[place];
+        if parent != NONE {
+            next_sibling[place] = first_child[parent];
+            first_child[parent] = place;
+        }
+    }
+    let mut order = Vec::with_capacity(places);
+    let mut path = Vec::new();
+    for root in (0..places).filter(|&place| parents[place] == NONE) {
+        path.push(root);
+        while let Some(&place) = path.last() {
+            let child = first_child[place];
+            if child == NONE {
+                order.push(place);
+                path.pop();
+            } else {
+                first_child[place] = next_sibling[child];
+                path.push(child);
+            }
+        }
+    }
+    order
+}

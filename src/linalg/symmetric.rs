@@ -1,0 +1,200 @@
+//! A symmetric sparse matrix in the order in which it is factorised: its lower triangle with 32-bit rows, a third of
+//! the memory of both triangles with 64-bit ones, and its product with blocks of vectors.
+
+use super::ordering::{ABSENT, Ordering};
+use super::{DenseMatrix, SparseMatrix};
+use multiversion::multiversion;
+use rayon::prelude::*;
+
+/// Vectors that are multiplied at once: an entry is loaded once for all of them.
+const LANES: usize = 8;
+
+/// Rows that are turned from columns to lanes at once: they stay in the first cache.
+const TILE: usize = 256;
+
+/// Lower triangle in compressed columns, rows ascending, the diagonal first where it is stored.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SymmetricMatrix {
+    /// Where each column begins, one more than columns.
+    pub offsets: Vec<u32>,
+    /// Rows.
+    pub rows: Vec<u32>,
+    /// Values.
+    pub values: Vec<f64>,
+}
+
+impl SymmetricMatrix {
+    /// The matrix `a` [n x n], both triangles stored, in another order and without what that leaves out.
+    pub fn permuted(a: &SparseMatrix, ordering: &Ordering) -> Self {
+        let part = ordering.old.len() as f64 / a.cols().max(1) as f64;
+        let stored = (part * (a.nnz() / 2 + a.cols()) as f64) as usize;
+        let mut matrix = Self {
+            offsets: Vec::with_capacity(a.cols() + 1),
+            rows: Vec::with_capacity(stored),
+            values: Vec::with_capacity(stored),
+        };
+        matrix.offsets.push(0);
+        let mut column: Vec<(u32, f64)> = Vec::new();
+        for (place, &old) in ordering.old.iter().enumerate() {
+            column.clear();
+            if let Some(entries) = a.outer_view(old as usize) {
+                let entries = entries
+                    .iter()
+                    .map(|(row, &value)| (ordering.new[row], value));
+                let below = |entry: &(u32, f64)| entry.0 != ABSENT && entry.0 as usize >= place;
+                column.extend(entries.filter(below));
+            }
+            column.sort_unstable_by_key(|entry| entry.0);
+            matrix.rows.extend(column.iter().map(|entry| entry.0));
+            matrix.values.extend(column.iter().map(|entry| entry.1));
+            matrix.offsets.push(matrix.rows.len() as u32);
+        }
+        matrix
+    }
+
+    /// Number of rows.
+    pub fn order(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Entries of a column from the diagonal down.
+    pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
+        let range = self.offsets[column] as usize..self.offsets[column + 1] as usize;
+        let rows = self.rows[range.clone()].iter().map(|&row| row as usize);
+        rows.zip(self.values[range].iter().copied())
+    }
+
+    /// Diagonal [n].
+    pub fn diagonal(&self) -> Vec<f64> {
+        let first = |column: usize| self.column(column).next().filter(|entry| entry.0 == column);
+        (0..self.order())
+            .map(|column| first(column).map_or(0.0, |entry| entry.1))
+            .collect()
+    }
+
+    /// `self - sigma other`; the pattern is that of both.
+    pub fn shifted(&self, sigma: f64, other: &Self) -> Self {
+        let mut sum = Self {
+            offsets: vec![0],
+            rows: Vec::with_capacity(self.rows.len()),
+            values: Vec::with_capacity(self.rows.len()),
+        };
+        for column in 0..self.order() {
+            let mut others = other.column(column).peekable();
+            for (row, value) in self.column(column) {
+                while let Some((above, more)) = others.next_if(|entry| entry.0 < row) {
+                    sum.rows.push(above as u32);
+                    sum.values.push(-sigma * more);
+                }
+                let more = others
+                    .next_if(|entry| entry.0 == row)
+                    .map_or(0.0, |entry| entry.1);
+                sum.rows.push(row as u32);
+                sum.values.push(value - sigma * more);
+            }
+            for (below, more) in others {
+                sum.rows.push(below as u32);
+                sum.values.push(-sigma * more);
+            }
+            sum.offsets.push(sum.rows.len() as u32);
+        }
+        sum
+    }
+
+    /// `A X` for `X` [n x k]. Blocks of columns are independent: the result does not depend on the number of threads.
+    pub fn times(&self, x: faer::MatRef<'_, f64>) -> DenseMatrix {
+        let order = self.order();
+        let mut y = DenseMatrix::zeros(order, x.ncols());
+        let blocks: Vec<usize> = (0..x.ncols()).step_by(LANES).collect();
+        let products: Vec<Vec<[f64; LANES]>> = blocks
+            .par_iter()
+            .map(|&first| self.times_block(x, first))
+            .collect();
+        for (&first, product) in blocks.iter().zip(&products) {
+            let width = LANES.min(x.ncols() - first);
+            for (tile, lanes) in product.chunks(TILE).enumerate() {
+                for lane in 0..width {
+                    let column = &mut y.col_as_slice_mut(first + lane)[TILE * tile..];
+                    for (entry, lanes) in column.iter_mut().zip(lanes) {
+                        *entry = lanes[lane];
+                    }
+                }
+            }
+        }
+        y
+    }
+
+    /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x`: its round-off, in units of that of one
+    /// entry, when the entries' errors are independent.
+    pub fn energy_scatter(&self, x: &[f64]) -> f64 {
+        let of_column = |column: usize| -> f64 {
+            let (mut diagonal, mut below) = (0.0, 0.0);
+            for (row, value) in self.column(column) {
+                let term = (value * x[row]) * (value * x[row]);
+                if row == column {
+                    diagonal += term;
+                } else {
+                    below += term;
+                }
+            }
+            // an entry below the diagonal stands for two terms
+            (diagonal + 4.0 * below) * x[column] * x[column]
+        };
+        (0..self.order()).map(of_column).sum::<f64>().sqrt()
+    }
+
+    fn times_block(&self, x: faer::MatRef<'_, f64>, first: usize) -> Vec<[f64; LANES]> {
+        let order = self.order();
+        let width = LANES.min(x.ncols() - first);
+        let mut lanes = vec![[0.0; LANES]; order];
+        for (tile, rows) in lanes.chunks_mut(TILE).enumerate() {
+            for lane in 0..width {
+                let column = x.col(first + lane).subrows(TILE * tile, rows.len());
+                for (row, &entry) in rows.iter_mut().zip(column.iter()) {
+                    row[lane] = entry;
+                }
+            }
+        }
+        let mut product = vec![[0.0; LANES]; order];
+        multiply(
+            &self.offsets,
+            &self.rows,
+            &self.values,
+            &lanes,
+            &mut product,
+        );
+        product
+    }
+}
+
+/// `product = A lanes` for a lower triangle in compressed columns, with the widest instructions that the machine has.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn multiply(
+    offsets: &[u32],
+    rows: &[u32],
+    values: &[f64],
+    lanes: &[[f64; LANES]],
+    product: &mut [[f64; LANES]],
+) {
+    for (column, factor) in lanes.iter().enumerate() {
+        let range = offsets[column] as usize..offsets[column + 1] as usize;
+        let mut sum = [0.0; LANES];
+        for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
+            let row = row as usize;
+            if row == column {
+                for lane in 0..LANES {
+                    sum[lane] += value * factor[lane];
+                }
+            } else {
+                let (below, other) = (&mut product[row], &lanes[row]);
+                for lane in 0..LANES {
+                    below[lane] += value * factor[lane];
+                    sum[lane] += value * other[lane];
+                }
+            }
+        }
+        for lane in 0..LANES {
+            product[column][lane] += sum[lane];
+        }
+    }
+}

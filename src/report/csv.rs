@@ -1,0 +1,220 @@
+//! Tables as CSV files (RFC 4180): commas, CR LF, units in the header row, numbers whole.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::table::{Align, Cell, Column, Table};
+use super::{Verdict, pretty_unit};
+
+/// Longest file name without its ending.
+const LONGEST_NAME: usize = 60;
+
+impl Table {
+    /// The table as CSV: a header row of titles with units ("Found \[Hz\]"), then the rows. Cells that know their number
+    /// give it in full, with a decimal point. A column in which a cell is judged is followed by one that says "pass" or
+    /// "fail". Text that a spreadsheet would take for a formula gets an apostrophe in front.
+    ///
+    /// ```
+    /// use plummer::report::{Cell, Column, Table};
+    /// let table = Table::new("Lines", [Column::text("Line"), Column::number("Found", "Hz")])
+    ///     .row([Cell::text("outer, 1x"), Cell::number(55.0213, 3)]);
+    /// assert_eq!(table.to_csv(), "Line,Found [Hz]\r\n\"outer, 1x\",55.0213\r\n");
+    /// ```
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let judged: Vec<bool> = (0..self.columns.len())
+            .map(|k| {
+                let cells = self.rows.iter().filter_map(|row| row.get(k));
+                cells.into_iter().any(is_judged)
+            })
+            .collect();
+        let mut header = Vec::new();
+        for (column, judged) in self.columns.iter().zip(&judged) {
+            header.push(quoted(&guarded(&title(column))));
+            if *judged {
+                header.push(quoted(&guarded(&format!("{}: verdict", column.title))));
+            }
+        }
+        let mut out = header.join(",") + "\r\n";
+        for row in &self.rows {
+            let mut fields = Vec::new();
+            for ((cell, column), judged) in row.iter().zip(&self.columns).zip(&judged) {
+                fields.push(quoted(&field(cell, column)));
+                if *judged {
+                    let text = match cell.verdict {
+                        Verdict::Ok => "pass",
+                        Verdict::Bad => "fail",
+                        Verdict::None => "",
+                    };
+                    fields.push(text.to_owned());
+                }
+            }
+            out.push_str(&fields.join(","));
+            out.push_str("\r\n");
+        }
+        out
+    }
+
+    /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
+    #[must_use]
+    pub fn csv_name(&self) -> String {
+        let mut name = String::new();
+        for c in self.caption.chars().flat_map(char::to_lowercase) {
+            if name.len() >= LONGEST_NAME {
+                break;
+            }
+            if c.is_ascii_alphanumeric() {
+                name.push(c);
+            } else if !name.is_empty() && !name.ends_with('-') {
+                name.push('-');
+            }
+        }
+        let name = name.trim_end_matches('-');
+        format!("{}.csv", if name.is_empty() { "table" } else { name })
+    }
+}
+
+/// The table as an address that a browser saves; with a byte order mark, by which spreadsheets know UTF-8.
+pub(super) fn address(table: &Table) -> String {
+    let text = format!("\u{feff}{}", table.to_csv());
+    format!(
+        "data:text/csv;charset=utf-8;base64,{}",
+        STANDARD.encode(text)
+    )
+}
+
+/// A badge is its own verdict.
+fn is_judged(cell: &Cell) -> bool {
+    cell.verdict != Verdict::None && cell.look != super::CellLook::Badge
+}
+
+fn title(column: &Column) -> String {
+    match &column.unit {
+        Some(unit) => format!("{} [{}]", column.title, pretty_unit(unit)),
+        None => column.title.clone(),
+    }
+}
+
+fn field(cell: &Cell, column: &Column) -> String {
+    match cell.value {
+        Some(value) if value.is_finite() => number(value),
+        Some(_) => String::new(),
+        // "–" stands for no number.
+        None if column.align == Align::Right && cell.text == "–" => String::new(),
+        None => guarded(&cell.text),
+    }
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    if value.abs() > 0.0 && !(1e-5..1e15).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
+}
+
+/// Text with an apostrophe in front if a spreadsheet would compute it (OWASP, "CSV Injection"); plain numbers are left.
+fn guarded(text: &str) -> String {
+    let starts = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
+    if starts && text.parse::<f64>().is_err() {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r', ';']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_whole_and_units_stand_in_the_header() {
+        let columns = [
+            Column::text("What"),
+            Column::number("Stiffness", "N/m^1.5"),
+            Column::number("Area", "m^2"),
+        ];
+        let table = Table::new("t", columns)
+            .row([
+                Cell::text("a"),
+                Cell::number(3.828_123_456_789e9, 3),
+                Cell::number(5.37e-16, 2).judged(Verdict::Bad),
+            ])
+            .row([
+                Cell::text("b"),
+                Cell::text("–"),
+                Cell::text("0.1 mm²").value(0.1 + 0.2),
+            ])
+            .row([
+                Cell::text("c"),
+                Cell::number(f64::NAN, 3),
+                Cell::number(-0.25, 2).judged(Verdict::Ok),
+            ]);
+        assert_eq!(
+            table.to_csv(),
+            "What,Stiffness [N/m^1.5],Area [m²],Area: verdict\r\n\
+             a,3828123456.789,5.37e-16,fail\r\n\
+             b,,0.30000000000000004,\r\n\
+             c,,-0.25,pass\r\n"
+        );
+    }
+
+    #[test]
+    fn text_is_quoted_and_formulas_are_text() {
+        let table = |text: &str| {
+            let csv = Table::new("t", [Column::text("x")])
+                .row([Cell::text(text)])
+                .to_csv();
+            csv.strip_prefix("x\r\n")
+                .map(|row| row.trim_end_matches("\r\n").to_owned())
+        };
+        for (text, expected) in [
+            ("=1+2", "'=1+2"),
+            ("+49 30", "'+49 30"),
+            ("-cmd|' /C calc'!A0", "'-cmd|' /C calc'!A0"),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            ("\t=1", "'\t=1"),
+            (
+                "=HYPERLINK(\"a\",\"b\")",
+                "\"'=HYPERLINK(\"\"a\"\",\"\"b\"\")\"",
+            ),
+            ("-5", "-5"),
+            ("+0.5", "+0.5"),
+            ("+0.5 %", "'+0.5 %"),
+            ("a, b", "\"a, b\""),
+            ("say \"x\"", "\"say \"\"x\"\"\""),
+            ("two\nlines", "\"two\nlines\""),
+            ("a;b", "\"a;b\""),
+            ("−3 µm", "−3 µm"),
+        ] {
+            assert_eq!(table(text).as_deref(), Some(expected), "{text}");
+        }
+        let header = Table::new("t", [Column::text("=A1"), Column::number("-b", "Hz")]).to_csv();
+        assert_eq!(header, "'=A1,'-b [Hz]\r\n");
+    }
+
+    #[test]
+    fn file_names_are_plain() {
+        let name = |caption: &str| Table::new(caption, []).csv_name();
+        assert_eq!(name("Expected / found: modes"), "expected-found-modes.csv");
+        assert_eq!(name("../../etc"), "etc.csv");
+        assert_eq!(name("Modes (all)"), "modes-all.csv");
+        assert_eq!(name("„µ“"), "table.csv");
+        assert!(name(&"long ".repeat(50)).len() <= LONGEST_NAME + 4);
+    }
+
+    #[test]
+    fn badges_are_their_own_verdict() {
+        let table = Table::new("t", [Column::text("Verdict")]).row([Cell::badge(Verdict::Ok)]);
+        assert_eq!(table.to_csv(), "Verdict\r\npass\r\n");
+    }
+}

@@ -1,0 +1,309 @@
+//! Reference: the second eigensolver (shift-invert ARPACK from the middle of a band, factor in double precision with
+//!   pivots) and the dense one, against the block iteration with its factor in single precision; and what is known of
+//!   models on which modal computations fail elsewhere.
+//! Goal: the right number of modes with the right frequencies, or a clear error, on every one of them.
+//! Sketch: pillow blocks of tet10; a block in two parts of hex20 and tet10; a ring of hex20.
+//! Conditions: in each test.
+//! Parameters: aluminium unless said.
+//!
+//! Limits: both solvers find eigenvalues of the same matrices: they agree within the sum of their printed bounds.
+
+use crate::reference_frequencies::data;
+use plummer::assembly::SystemMatrices;
+use plummer::linalg::{EigenProblem, LinalgError};
+use plummer::material::Material;
+use plummer::mesh::Mesh;
+use plummer::modal::{Mechanisms, ModalBasis, ModeRange};
+use plummer::model::{
+    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
+    SpringStiffness, SupportShare,
+};
+use plummer::units::LengthUnit;
+
+const ALUMINIUM: [f64; 3] = [70e9, 0.33, 2700.0];
+
+struct Run {
+    mesh: Mesh,
+    model: HousingModel,
+    problem: EigenProblem,
+}
+
+impl Run {
+    fn new(file: &str, parts: &[(&str, [f64; 3])], description: HousingDescription) -> Self {
+        let unit = match file {
+            "two_blocks.msh" => LengthUnit::Millimetre,
+            _ => LengthUnit::Metre,
+        };
+        let mesh = Mesh::read_gmsh(&data(file), unit).unwrap();
+        let parts = parts
+            .iter()
+            .map(|&(group, [young, poisson, density])| HousingPart {
+                group: group.to_owned(),
+                material: Material::new(young, poisson, density).unwrap().into(),
+            });
+        let description = HousingDescription {
+            parts: parts.collect(),
+            ..description
+        };
+        let model = HousingModel::new(&mesh, description).unwrap();
+        let SystemMatrices {
+            stiffness, mass, ..
+        } = SystemMatrices::assemble(&model).unwrap();
+        let problem = EigenProblem::restricted(&stiffness, &mass, &model.free_dofs()).unwrap();
+        Self {
+            mesh,
+            model,
+            problem,
+        }
+    }
+
+    fn modes(&self, range: ModeRange) -> ModalBasis {
+        ModalBasis::of(&self.problem, range).unwrap()
+    }
+
+    fn free_motions(&self) -> Mechanisms {
+        Mechanisms::find(&self.mesh, &self.model).unwrap()
+    }
+}
+
+fn held(group: &str, fixed: [bool; 3]) -> HousingDescription {
+    HousingDescription {
+        supports: vec![HousingSupport {
+            group: group.to_owned(),
+            constraint: Constraint::Fixed(fixed),
+            share: SupportShare::PerNode,
+        }],
+        ..HousingDescription::default()
+    }
+}
+
+/// Both lists are of the same length and agree within the sum of their bounds.
+fn assert_agree(a: &ModalBasis, b: &ModalBasis) {
+    assert_eq!(a.count(), b.count());
+    for mode in 0..a.count() {
+        let difference = (a.frequencies_hz[mode] - b.frequencies_hz[mode]).abs();
+        let allowed = a.error_bounds_hz[mode] + b.error_bounds_hz[mode];
+        assert!(
+            difference <= allowed,
+            "{mode}: {difference:e} > {allowed:e}"
+        );
+    }
+}
+
+#[test]
+fn the_second_solver_agrees() {
+    for (file, part, description, elastic) in [
+        ("pedestal_10k.msh", "housing", held("feet", [true; 3]), 0),
+        (
+            "pedestal_10k.msh",
+            "housing",
+            HousingDescription::default(),
+            6,
+        ),
+        (
+            "ring3d_hex20.msh",
+            "housing",
+            HousingDescription::default(),
+            6,
+        ),
+    ] {
+        let run = Run::new(file, &[(part, ALUMINIUM)], description);
+        let modes = run.modes(ModeRange::Count(20));
+        assert_eq!(modes.rigid_modes, elastic, "{file}");
+        let hz = &modes.frequencies_hz;
+        let top = modes.count_check.below_hz.min(1.001 * hz[19]);
+        let band = run.modes(ModeRange::BandHz([0.5 * hz[elastic], top]));
+        let inside = hz.iter().filter(|&&hz| hz > 0.0 && hz < top).count();
+        assert_eq!(band.count_check.counted, band.count());
+        assert!(band.count() >= inside - elastic, "{file}");
+        let pairs = band.frequencies_hz.iter().zip(&hz[elastic..]);
+        for (place, (there, here)) in pairs.enumerate() {
+            let allowed = band.error_bounds_hz[place] + modes.error_bounds_hz[elastic + place];
+            let difference = (there - here).abs();
+            assert!(
+                difference <= allowed,
+                "{file} {place}: {difference:e} > {allowed:e}"
+            );
+            // the bounds say something; that of the last, whose twin may be beyond, less
+            assert!(allowed < 1e-7 * here, "{file} {place}: {allowed:e}");
+        }
+    }
+}
+
+/// 56 000 degrees of freedom: the factor is in single precision.
+#[test]
+fn threads_change_no_frequency() {
+    let run = Run::new(
+        "pedestal_60k.msh",
+        &[("housing", ALUMINIUM)],
+        held("feet", [true; 3]),
+    );
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| run.modes(ModeRange::Count(20)))
+    };
+    let (one, two) = (on(1), on(2));
+    assert_agree(&one, &two);
+    for (a, b) in one.frequencies_hz.iter().zip(&two.frequencies_hz) {
+        assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
+    }
+    let again = on(2);
+    assert_eq!(two.frequencies_hz, again.frequencies_hz);
+    assert!(two.shapes == again.shapes);
+    // a coarser Ritz space and other guards: another path to the same values
+    let more = run.modes(ModeRange::Count(26));
+    for (a, b) in one.frequencies_hz.iter().zip(&more.frequencies_hz) {
+        assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
+    }
+}
+
+#[test]
+fn two_floating_parts_and_one() {
+    let parts = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
+    for (description, zero) in [
+        (HousingDescription::default(), 12),
+        (held("base", [true; 3]), 6),
+    ] {
+        let run = Run::new("two_blocks.msh", &parts, description);
+        assert_eq!(run.free_motions().total(), zero);
+        let sentences = run.free_motions().sentences().join(" ");
+        assert!(sentences.contains("not connected"), "{sentences}");
+        // fewer, exactly as many, and more than there are
+        for count in [4, zero, 20] {
+            let modes = run.modes(ModeRange::Count(count));
+            assert_eq!(modes.rigid_modes, zero.min(count), "{count} of {zero}");
+        }
+    }
+}
+
+#[test]
+fn a_block_that_slides_on_its_base() {
+    let parts = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
+    let description = HousingDescription {
+        links: vec![Link {
+            between: ["seat".to_owned(), "foot".to_owned()],
+            connection: Connection::Tie,
+        }],
+        ..held("base", [false, false, true])
+    };
+    let run = Run::new("two_blocks.msh", &parts, description);
+    assert_eq!(run.free_motions().total(), 3);
+    assert_eq!(run.modes(ModeRange::Count(10)).rigid_modes, 3);
+}
+
+/// Softer supports than any in use are still supports: 1 N/m under 8 g is 1.7 Hz, where a rigid mode's bound is 0.02 Hz.
+#[test]
+fn soft_springs_are_no_rigid_modes() {
+    for stiffness in [1e3, 1.0] {
+        let spring = SpringStiffness::Global([stiffness; 3]);
+        let description = HousingDescription {
+            supports: vec![HousingSupport {
+                group: "feet".to_owned(),
+                constraint: Constraint::Spring(spring),
+                share: SupportShare::PerGroup,
+            }],
+            ..HousingDescription::default()
+        };
+        let run = Run::new("pedestal_10k.msh", &[("housing", ALUMINIUM)], description);
+        let modes = run.modes(ModeRange::Count(8));
+        let found = (modes.rigid_modes, modes.eigenvalues[0] * stiffness.recip());
+        // 8.3 g on the springs: the translations have k / m = 120 k, the softest rotation less
+        assert_eq!(found.0, 0, "{stiffness}: {:?}", &modes.frequencies_hz);
+        assert!(found.1 > 1.0 && found.1 < 150.0, "{stiffness}: {}", found.1);
+    }
+}
+
+/// A million to one: the soft part on a base that is rigid beside it, both ways.
+#[test]
+fn a_ratio_of_stiffness_of_a_million() {
+    let soft = [7e4, 0.33, 2700.0];
+    let on_base = |lower: [f64; 3], upper: [f64; 3]| {
+        let description = HousingDescription {
+            links: vec![Link {
+                between: ["seat".to_owned(), "foot".to_owned()],
+                connection: Connection::Tie,
+            }],
+            ..held("base", [true; 3])
+        };
+        let parts = [("lower", lower), ("upper", upper)];
+        let modes = Run::new("two_blocks.msh", &parts, description).modes(ModeRange::Count(12));
+        assert_eq!(modes.rigid_modes, 0);
+        assert!(modes.residuals.iter().all(|&residual| residual < 1e-5));
+        modes
+    };
+    let ratio = on_base(ALUMINIUM, soft);
+    // the base rigid: the upper block by itself, held where it stands
+    let parts = [("lower", ALUMINIUM), ("upper", soft)];
+    let mut alone = held("base", [true; 3]);
+    alone.supports.push(HousingSupport {
+        group: "foot".to_owned(),
+        constraint: Constraint::Fixed([true; 3]),
+        share: SupportShare::PerNode,
+    });
+    let alone = Run::new("two_blocks.msh", &parts, alone).modes(ModeRange::Count(12));
+    for (a, b) in ratio.frequencies_hz.iter().zip(&alone.frequencies_hz) {
+        // the base gives a millionth
+        assert!((a / b - 1.0).abs() < 3e-6, "{a} {b}");
+    }
+    on_base(soft, ALUMINIUM);
+}
+
+/// nu = 0.4999: stiff in volume by 5000 to 1, and all modes there; both solvers agree.
+#[test]
+fn nearly_incompressible() {
+    let rubber = [1e7, 0.4999, 1100.0];
+    let run = Run::new(
+        "ring3d_hex20.msh",
+        &[("housing", rubber)],
+        HousingDescription::default(),
+    );
+    let modes = run.modes(ModeRange::Count(14));
+    assert_eq!(modes.rigid_modes, 6);
+    let hz = &modes.frequencies_hz;
+    let band = run.modes(ModeRange::BandHz([0.5 * hz[6], modes.count_check.below_hz]));
+    for (place, (there, here)) in band.frequencies_hz.iter().zip(&hz[6..]).enumerate() {
+        let allowed = band.error_bounds_hz[place] + modes.error_bounds_hz[6 + place];
+        assert!((there - here).abs() <= allowed, "{place}");
+    }
+}
+
+/// Ends of a band on eigenvalues: counted a little above them, which the answer says.
+#[test]
+fn a_shift_on_an_eigenvalue() {
+    let run = Run::new(
+        "pedestal_10k.msh",
+        &[("housing", ALUMINIUM)],
+        held("feet", [true; 3]),
+    );
+    let hz = run.modes(ModeRange::Count(10)).frequencies_hz;
+    let band = run.modes(ModeRange::BandHz([hz[2], hz[7]]));
+    let check = band.count_check;
+    assert_eq!((check.counted, check.found), (band.count(), band.count()));
+    // each end may have gone to either side of its eigenvalue
+    let (from, to) = (check.above_hz.unwrap(), check.below_hz);
+    let expected: Vec<f64> = hz
+        .iter()
+        .copied()
+        .filter(|&hz| hz > from && hz < to)
+        .collect();
+    assert_eq!(expected.len(), band.count());
+    let up_to = run.modes(ModeRange::UpToHz(hz[7]));
+    assert!(up_to.count() == 7 || up_to.count() == 8);
+    assert_eq!(run.modes(ModeRange::UpToHz(0.5 * hz[0])).count(), 0);
+}
+
+#[test]
+fn more_modes_than_the_model_has() {
+    let parts = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
+    let run = Run::new("two_blocks.msh", &parts, HousingDescription::default());
+    let order = run.problem.order();
+    let error = ModalBasis::of(&run.problem, ModeRange::Count(order + 1)).unwrap_err();
+    let expected = LinalgError::TooManyModes {
+        asked: order + 1,
+        available: order,
+    };
+    assert_eq!(error, expected);
+}
