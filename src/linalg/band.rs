@@ -50,7 +50,7 @@ pub(super) fn between(
             request,
             |b, y| {
                 let mut column = DenseMatrix::from_fn(order, 1, |row, _| b[row]);
-                factor.solve(&mut column);
+                factor.solve(column.as_mut());
                 y.copy_from_slice(column.col_as_slice(0));
                 remove(&found, mass, y);
                 Ok(())

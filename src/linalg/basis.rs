@@ -3,7 +3,8 @@
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, symmetric_eigen};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, MatRef, Par};
+use faer::prelude::*;
+use faer::{Accum, ColMut, MatMut, MatRef, Par};
 
 /// Part of a new vector outside the basis, relative to it, below which it adds nothing but round-off.
 const NOTHING_NEW: f64 = 1e-10;
@@ -54,55 +55,56 @@ impl<'p> Basis<'p> {
         self.products.as_ref().subcols(0, self.size)
     }
 
-    /// Adds what `w` [n x k] adds to the span, as far as there is room; returns how many vectors that are.
+    /// Adds what `w` [n x k] adds to the span, as far as there is room; returns how many vectors that are. `product` is
+    /// `M w`; both, and `spare` of the same shape, are overwritten.
     ///
     /// # Errors
     /// [`LinalgError::DenseEigen`] for values that are not finite.
-    pub fn extend(&mut self, w: DenseMatrix) -> Result<usize, LinalgError> {
-        if w.ncols() == 0 {
-            return Ok(0);
+    pub fn extend(
+        &mut self,
+        mut w: MatMut<'_, f64>,
+        mut product: MatMut<'_, f64>,
+        mut spare: MatMut<'_, f64>,
+    ) -> Result<usize, LinalgError> {
+        let lengths = norms(w.rb(), product.rb());
+        for (column, &length) in lengths.iter().enumerate() {
+            let factor = if length > 0.0 { length.recip() } else { 0.0 };
+            scale(w.rb_mut().col_mut(column), factor);
+            scale(product.rb_mut().col_mut(column), factor);
         }
-        let mut product = self.mass.times(w.as_ref());
-        let mut w = w;
-        let unit = norms(&w, &product)
-            .into_iter()
-            .map(|norm| if norm > 0.0 { norm.recip() } else { 0.0 });
-        for (column, factor) in unit.enumerate() {
-            for entry in w.col_as_slice_mut(column) {
-                *entry *= factor;
-            }
-            for entry in product.col_as_slice_mut(column) {
-                *entry *= factor;
-            }
-        }
+        let mut count = w.ncols();
         for _ in 0..2 {
-            self.project(&mut w, &mut product);
-            self.project(&mut w, &mut product);
-            let smallest = orthonormalise(&mut w, &mut product)?;
+            let (w, product) = (&mut w, &mut product);
+            self.project(columns(w, count), columns(product, count));
+            self.project(columns(w, count), columns(product, count));
+            let (kept, smallest) =
+                orthonormalise(columns(w, count), columns(product, count), spare.rb_mut())?;
+            count = kept;
             if smallest > NEARLY_DEPENDENT {
                 break;
             }
-            product = self.mass.times(w.as_ref());
+            self.mass
+                .times_into(columns(w, count).rb(), columns(product, count));
         }
-        let added = w.ncols().min(self.room());
-        let place = self.size;
-        let into = |to: &mut DenseMatrix, from: &DenseMatrix| {
+        let added = count.min(self.room());
+        let places = self.size..self.size + added;
+        let into = |to: &mut DenseMatrix, from: MatRef<'_, f64>| {
             to.as_mut()
-                .subcols_mut(place, added)
+                .subcols_mut(places.start, added)
                 .copy_from(from.subcols(0, added));
         };
-        into(&mut self.vectors, &w);
-        into(&mut self.products, &product);
+        into(&mut self.vectors, w.rb());
+        into(&mut self.products, product.rb());
         self.size += added;
         Ok(added)
     }
 
     /// Takes from `w` what lies in the basis.
-    fn project(&self, w: &mut DenseMatrix, product: &mut DenseMatrix) {
+    fn project(&self, w: MatMut<'_, f64>, product: MatMut<'_, f64>) {
         if self.size == 0 {
             return;
         }
-        let along = times(self.vectors().transpose(), product.as_ref());
+        let along = times(self.vectors().transpose(), product.rb());
         subtract(w, self.vectors(), along.as_ref());
         subtract(product, self.products(), along.as_ref());
     }
@@ -130,31 +132,41 @@ pub(super) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> DenseMatrix {
 }
 
 /// `C - A B` in place of C.
-pub(super) fn subtract(c: &mut DenseMatrix, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    matmul(c.as_mut(), Accum::Add, a, b, -1.0, Par::Seq);
+fn subtract(c: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    matmul(c, Accum::Add, a, b, -1.0, Par::Seq);
+}
+
+/// The first columns.
+fn columns<'a>(a: &'a mut MatMut<'_, f64>, count: usize) -> MatMut<'a, f64> {
+    a.rb_mut().subcols_mut(0, count)
+}
+
+fn scale(column: ColMut<'_, f64>, factor: f64) {
+    for entry in column.iter_mut() {
+        *entry *= factor;
+    }
 }
 
 /// `sqrt(x^T M x)` of every column, from x and its product with M.
-pub(super) fn norms(x: &DenseMatrix, product: &DenseMatrix) -> Vec<f64> {
+pub(super) fn norms(x: MatRef<'_, f64>, product: MatRef<'_, f64>) -> Vec<f64> {
+    let square = |column: usize| -> f64 { x.col(column).transpose() * product.col(column) };
     (0..x.ncols())
-        .map(|column| {
-            let pairs = x
-                .col_as_slice(column)
-                .iter()
-                .zip(product.col_as_slice(column));
-            pairs.map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt()
-        })
+        .map(|column| square(column).max(0.0).sqrt())
         .collect()
 }
 
 /// Makes the columns of `w` orthonormal through the eigenvectors of their Gram matrix and drops what depends on the
-/// others; returns the smallest eigenvalue kept, of unit vectors.
-fn orthonormalise(w: &mut DenseMatrix, product: &mut DenseMatrix) -> Result<f64, LinalgError> {
-    let lengths = norms(w, product);
+/// others; returns how many remain and the smallest eigenvalue kept, of unit vectors.
+fn orthonormalise(
+    w: MatMut<'_, f64>,
+    product: MatMut<'_, f64>,
+    mut spare: MatMut<'_, f64>,
+) -> Result<(usize, f64), LinalgError> {
+    let lengths = norms(w.rb(), product.rb());
     let new: Vec<usize> = (0..w.ncols())
         .filter(|&j| lengths[j] > NOTHING_NEW)
         .collect();
-    let gram = times(w.transpose(), product.as_ref());
+    let gram = times(w.rb().transpose(), product.rb());
     let unit = DenseMatrix::from_fn(new.len(), new.len(), |row, column| {
         let (i, j) = (new[row], new[column]);
         0.5 * (gram[(i, j)] + gram[(j, i)]) / (lengths[i] * lengths[j])
@@ -171,9 +183,21 @@ fn orthonormalise(w: &mut DenseMatrix, product: &mut DenseMatrix) -> Result<f64,
                 spectrum.vectors[(row, j)] / (lengths[i] * spectrum.values[j].sqrt());
         }
     }
-    *w = times(w.as_ref(), turn.as_ref());
-    *product = times(product.as_ref(), turn.as_ref());
+    let mut rotate = |mut a: MatMut<'_, f64>| {
+        let mut turned = columns(&mut spare, kept.len());
+        matmul(
+            turned.rb_mut(),
+            Accum::Replace,
+            a.rb(),
+            turn.as_ref(),
+            1.0,
+            Par::Seq,
+        );
+        columns(&mut a, kept.len()).copy_from(turned.rb());
+    };
+    rotate(w);
+    rotate(product);
     let shortest = new.iter().map(|&j| lengths[j]).fold(1.0, f64::min);
     let smallest = kept.first().map_or(1.0, |&j| spectrum.values[j] / largest);
-    Ok(smallest.min(shortest))
+    Ok((kept.len(), smallest.min(shortest)))
 }

@@ -67,9 +67,9 @@ impl Quality {
             residuals.push(steps.col(mode).norm_l2() / scale);
         }
         let remainders = steps.clone();
-        factor.solve(&mut steps);
+        factor.solve(steps.as_mut());
         let inexact = 1.0 / (1.0 - factor.contraction);
-        let lengths: Vec<f64> = norms(&steps, &mass.times(steps.as_ref()))
+        let lengths: Vec<f64> = norms(steps.as_ref(), mass.times(steps.as_ref()).as_ref())
             .into_iter()
             .map(|length| length * inexact)
             .collect();

@@ -67,7 +67,7 @@ impl SparseCholesky {
     pub fn solve_columns(&self, right_hand_sides: &mut DenseMatrix) -> Result<(), LinalgError> {
         self.check(right_hand_sides.nrows())?;
         let mut permuted = self.ordering.forward(right_hand_sides);
-        self.factor.solve(&mut permuted);
+        self.factor.solve(permuted.as_mut());
         self.ordering.backward(&permuted, right_hand_sides);
         Ok(())
     }

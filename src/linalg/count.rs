@@ -1,7 +1,7 @@
 //! How many eigenvalues lie below a value: Sylvester's law of inertia.
 
 use super::LinalgError;
-use super::factor::Factor;
+use super::factor::{Factor, FactorMemory};
 use super::numeric::Kind;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
@@ -32,9 +32,10 @@ pub(super) fn count_below(
     stiffness: &SymmetricMatrix,
     mass: &SymmetricMatrix,
     value: f64,
+    memory: FactorMemory,
 ) -> Result<usize, LinalgError> {
     let shifted = stiffness.shifted(value, mass);
-    Ok(Factor::new(symbolic, &shifted, Kind::Indefinite)?.negative())
+    Ok(Factor::new(symbolic, &shifted, Kind::Indefinite, memory)?.negative())
 }
 
 /// Counts somewhere between `low` and `high`, between which no eigenvalue is known; the place is moved when the
@@ -47,11 +48,18 @@ pub(super) fn count_between(
     stiffness: &SymmetricMatrix,
     mass: &SymmetricMatrix,
     [low, high]: [f64; 2],
+    mut memory: FactorMemory,
 ) -> Result<(f64, usize), LinalgError> {
     let mut failed = None;
     for place in PLACES {
         let value = low + place * (high - low);
-        match count_below(symbolic, stiffness, mass, value) {
+        match count_below(
+            symbolic,
+            stiffness,
+            mass,
+            value,
+            std::mem::take(&mut memory),
+        ) {
             Ok(counted) => return Ok((value, counted)),
             Err(error @ LinalgError::NearlySingular { .. }) => failed = Some(error),
             Err(error) => return Err(error),

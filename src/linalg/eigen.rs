@@ -2,7 +2,7 @@
 
 use super::bound::Quality;
 use super::count::{CountCheck, count_below, count_between};
-use super::factor::Factor;
+use super::factor::{Factor, FactorMemory};
 use super::lowest::{Ritz, Search, largest_basis};
 use super::numeric::Kind;
 use super::ordering::Ordering;
@@ -27,6 +27,10 @@ const ROUNDS: usize = 5;
 /// Shift for a structure that can move freely, in units of the smallest `K_ii / M_ii`: far below the first elastic
 /// eigenvalue of a mesh worth computing, far above the round-off of a rigid motion.
 const FREE_SHIFT: f64 = -1e-4;
+
+/// Entries of a factor above which `L B L^T` is faster than `L L^T`, definite or not (9.1 s against 11.1 s for 2.1e8
+/// entries; 0.7 s against 0.5 s for 2.1e7).
+const LARGE: usize = 1 << 26;
 
 /// Largest relative residual of a mode. That of a rigid mode is a ratio of round-off to the shift's term; a
 /// frequency's relative error is below the square of it.
@@ -175,13 +179,14 @@ impl EigenProblem {
             if order <= DENSE_LIMIT || largest_basis(count + beyond) > order {
                 return self.by_dense_solver(count, times);
             }
-            let (ritz, quality, shift) = self.iterate(count, beyond, round, &mut times)?;
+            let (ritz, quality, shift, memory) = self.iterate(count, beyond, round, &mut times)?;
             let Some((gap, below)) = widest_gap(&ritz.values, count, shift) else {
                 beyond = (2 * beyond + BEYOND).min(order - count);
                 continue;
             };
             let started = Instant::now();
-            let (value, counted) = count_between(&self.symbolic, &self.stiffness, &self.mass, gap)?;
+            let (value, counted) =
+                count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
             times.count += started.elapsed().as_secs_f64();
             let found = CountCheck {
                 above: None,
@@ -269,7 +274,15 @@ impl EigenProblem {
 
     /// Eigenvalues below a value that is moved a little if it is an eigenvalue itself.
     fn count_near(&self, value: f64) -> Result<(f64, usize), LinalgError> {
-        let attempt = |value: f64| count_below(&self.symbolic, &self.stiffness, &self.mass, value);
+        let attempt = |value: f64| {
+            count_below(
+                &self.symbolic,
+                &self.stiffness,
+                &self.mass,
+                value,
+                FactorMemory::default(),
+            )
+        };
         match attempt(value) {
             Ok(count) => Ok((value, count)),
             Err(LinalgError::NearlySingular { .. }) => {
@@ -279,6 +292,7 @@ impl EigenProblem {
                     &self.stiffness,
                     &self.mass,
                     [value, value + width],
+                    FactorMemory::default(),
                 )
             }
             Err(error) => Err(error),
@@ -305,7 +319,7 @@ impl EigenProblem {
         }
         let attempt = |sigma: f64| -> Result<(f64, Arc<Factor>), LinalgError> {
             let shifted = self.stiffness.shifted(sigma, &self.mass);
-            let factor = Factor::new(&self.symbolic, &shifted, Kind::Definite)?;
+            let factor = self.definite(&shifted, sigma != 0.0)?;
             Ok((sigma, Arc::new(factor)))
         };
         let mut tried = attempt(0.0);
@@ -325,6 +339,25 @@ impl EigenProblem {
             }
         }
         tried
+    }
+
+    /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
+    fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
+        let factorise = if thorough { Factor::new } else { Factor::quick };
+        let large = self.symbolic.entries() > LARGE;
+        let kind = if large {
+            Kind::Indefinite
+        } else {
+            Kind::Definite
+        };
+        let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
+        match factor.negative() {
+            0 => Ok(factor),
+            negative => Err(LinalgError::Indefinite {
+                order: a.order(),
+                negative,
+            }),
+        }
     }
 
     fn free_shift(&self) -> f64 {
@@ -348,7 +381,7 @@ impl EigenProblem {
         beyond: usize,
         rounds: usize,
         times: &mut EigenTimes,
-    ) -> Result<(Ritz, Quality, f64), LinalgError> {
+    ) -> Result<(Ritz, Quality, f64, FactorMemory), LinalgError> {
         let started = Instant::now();
         let (mut shift, mut factor) = self.definite_factor()?;
         times.factor += started.elapsed().as_secs_f64();
@@ -361,7 +394,7 @@ impl EigenProblem {
         let last = search.value(count - 1)?;
         if shift < 0.0 && last > 0.0 && last < -0.1 * shift {
             let nearer = self.stiffness.shifted(-last, &self.mass);
-            if let Ok(better) = Factor::new(&self.symbolic, &nearer, Kind::Definite) {
+            if let Ok(better) = self.definite(&nearer, false) {
                 (shift, factor) = (-last, Arc::new(better));
                 search.shift = shift;
                 search.explore(&factor)?;
@@ -371,7 +404,9 @@ impl EigenProblem {
         drop(search);
         let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
         times.iterate += started.elapsed().as_secs_f64();
-        Ok((ritz, quality, shift))
+        let memory =
+            Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
+        Ok((ritz, quality, shift, memory))
     }
 
     fn finished(

@@ -15,6 +15,16 @@ pub enum LinalgError {
         /// Index of the pivot, in the factorisation's own order.
         pivot: usize,
     },
+    /// A matrix that should be positive definite has negative eigenvalues.
+    #[error(
+        "the {order} x {order} matrix is not positive definite: {negative} of its eigenvalues are negative"
+    )]
+    Indefinite {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// How many.
+        negative: usize,
+    },
     /// A factorisation ran out of memory or met an internal limit.
     #[error("the sparse factorisation of a {order} x {order} matrix failed: {reason}")]
     Factorisation {

@@ -3,7 +3,8 @@
 use super::numeric::{Kind, NumericFactor};
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, pseudo_random};
+use super::{LinalgError, pseudo_random};
+use faer::MatMut;
 use std::sync::Arc;
 
 /// Contraction above which a factor is refused. Its inverse is then right to a tenth, and its inertia is that of the
@@ -42,9 +43,16 @@ pub(super) struct Factor {
     pub contraction: f64,
 }
 
+/// Memory of a factor that is no longer needed, or none. A large one that is used again saves a page fault for each
+/// 4 KiB, as long as the factor's own scattering of entries.
+#[derive(Debug, Default)]
+pub(super) struct FactorMemory {
+    single: Vec<f32>,
+    double: Vec<f64>,
+}
+
 impl Factor {
-    /// Factorises `a`: in single precision if it is large, in double precision if it is small or single does not
-    /// suffice.
+    /// Factorises `a` in the precision that its size calls for, and in double precision if single does not suffice.
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
@@ -53,20 +61,34 @@ impl Factor {
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
+        memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        if symbolic.entries() > SMALL {
-            match NumericFactor::<f32>::new(symbolic, a, kind) {
-                Ok(numbers) => {
-                    let factor = Self::measured(symbolic, a, Numbers::Single(numbers));
-                    if factor.contraction <= LARGEST_CONTRACTION {
-                        return Ok(factor);
-                    }
-                }
-                Err(LinalgError::NotPositiveDefinite { .. }) => {}
-                Err(error) => return Err(error),
+        match Self::quick(symbolic, a, kind, memory) {
+            Err(LinalgError::NearlySingular { .. } | LinalgError::NotPositiveDefinite { .. })
+                if symbolic.entries() > SMALL =>
+            {
+                Self::double(symbolic, a, kind)
             }
+            done => done,
         }
-        Self::double(symbolic, a, kind)
+    }
+
+    /// Factorises `a`: in single precision if it is large, in double precision if it is small.
+    ///
+    /// # Errors
+    /// As [`Factor::new`], already if single precision does not suffice.
+    pub fn quick(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        kind: Kind,
+        memory: FactorMemory,
+    ) -> Result<Self, LinalgError> {
+        let numbers = if symbolic.entries() > SMALL {
+            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
+        } else {
+            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
+        };
+        Self::judged(symbolic, a, numbers)
     }
 
     /// Factorises `a` in double precision.
@@ -78,7 +100,15 @@ impl Factor {
         a: &SymmetricMatrix,
         kind: Kind,
     ) -> Result<Self, LinalgError> {
-        let numbers = Numbers::Double(NumericFactor::new(symbolic, a, kind)?);
+        let numbers = NumericFactor::new(symbolic, a, kind, Vec::new())?;
+        Self::judged(symbolic, a, Numbers::Double(numbers))
+    }
+
+    fn judged(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        numbers: Numbers,
+    ) -> Result<Self, LinalgError> {
         let factor = Self::measured(symbolic, a, numbers);
         if factor.contraction <= LARGEST_CONTRACTION {
             Ok(factor)
@@ -100,7 +130,7 @@ impl Factor {
         for _ in 0..PROBES.1 {
             let before = error.norm_l2();
             let mut step = a.times(error.as_ref());
-            factor.solve(&mut step);
+            factor.solve(step.as_mut());
             error -= &step;
             let after = error.norm_l2();
             factor.contraction = if before > 0.0 { after / before } else { 0.0 };
@@ -119,8 +149,18 @@ impl Factor {
         }
     }
 
+    /// The memory of its entries, for another factor.
+    pub fn into_memory(self) -> FactorMemory {
+        let mut memory = FactorMemory::default();
+        match self.numbers {
+            Numbers::Single(numbers) => memory.single = numbers.into_memory(),
+            Numbers::Double(numbers) => memory.double = numbers.into_memory(),
+        }
+        memory
+    }
+
     /// `F^-1 B` in place for `B` [n x k].
-    pub fn solve(&self, b: &mut DenseMatrix) {
+    pub fn solve(&self, b: MatMut<'_, f64>) {
         match &self.numbers {
             Numbers::Single(numbers) => numbers.solve(&self.symbolic, b),
             Numbers::Double(numbers) => numbers.solve(&self.symbolic, b),
@@ -138,8 +178,8 @@ impl Factor {
 
 #[cfg(test)]
 mod tests {
-    use super::super::TripletBuilder;
     use super::super::ordering::Ordering;
+    use super::super::{DenseMatrix, TripletBuilder};
     use super::*;
 
     /// Chain of unit springs fixed at both ends, less sigma.
@@ -171,10 +211,11 @@ mod tests {
         for below in [0, 1, 7, 200, 399] {
             let sigma = 0.4 * value(below, order) + 0.6 * value(below + 1, order);
             let (symbolic, a) = chain(order, sigma);
-            let factor = Factor::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+            let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default())
+                .expect("regular");
             assert_eq!(factor.negative(), below);
-            let single =
-                NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+            let single = NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite, Vec::new())
+                .expect("regular");
             let single = Factor::measured(&symbolic, &a, Numbers::Single(single));
             // single precision cannot tell eigenvalues 6e-5 apart where the largest is 4; it says so
             assert!(single.negative() == below || single.contraction > LARGEST_CONTRACTION);
@@ -187,13 +228,14 @@ mod tests {
         let order = 300;
         let on = value(17, order);
         let (symbolic, a) = chain(order, on);
-        let result = Factor::new(&symbolic, &a, Kind::Indefinite);
+        let result = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default());
         assert!(
             matches!(result, Err(LinalgError::NearlySingular { .. })),
             "{result:?}"
         );
         let (symbolic, a) = chain(order, on * (1.0 + 1e-6));
-        let factor = Factor::new(&symbolic, &a, Kind::Indefinite).expect("regular");
+        let factor =
+            Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
         assert_eq!(factor.negative(), 17);
         assert!(factor.contraction < 1e-6, "{:e}", factor.contraction);
     }
@@ -203,8 +245,8 @@ mod tests {
     fn contraction_grows_with_the_condition() {
         for (order, limits) in [(20, [1e-9, 1e-4]), (2000, [1e-6, f64::INFINITY])] {
             let (symbolic, a) = chain(order, 0.0);
-            let numbers =
-                NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite).expect("definite");
+            let numbers = NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite, Vec::new())
+                .expect("definite");
             let factor = Factor::measured(&symbolic, &a, Numbers::Single(numbers));
             let found = factor.contraction;
             assert!(found > limits[0] && found < limits[1], "{order} {found:e}");
@@ -221,11 +263,13 @@ mod tests {
             (y - &x).norm_max()
         };
         for kind in [Kind::Definite, Kind::Indefinite] {
-            let double = NumericFactor::<f64>::new(&symbolic, &a, kind).expect("definite");
+            let double =
+                NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
             // condition 3300 times the unit round-off, and a factor of ten
-            assert!(error(b.clone(), &|y| double.solve(&symbolic, y)) < 1e-11);
-            let single = NumericFactor::<f32>::new(&symbolic, &a, kind).expect("definite");
-            let lost = error(b.clone(), &|y| single.solve(&symbolic, y));
+            assert!(error(b.clone(), &|y| double.solve(&symbolic, y.as_mut())) < 1e-11);
+            let single =
+                NumericFactor::<f32>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let lost = error(b.clone(), &|y| single.solve(&symbolic, y.as_mut()));
             assert!(lost < 3e-3 && lost > 1e-9, "{lost:e}");
         }
     }

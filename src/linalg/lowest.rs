@@ -9,6 +9,9 @@ use super::basis::{Basis, norms, times};
 use super::factor::Factor;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SymmetricSpectrum, pseudo_random, symmetric_eigen};
+use faer::linalg::matmul::matmul;
+use faer::prelude::*;
+use faer::{Accum, MatMut, MatRef, Par};
 
 /// Vectors that the Krylov space grows by.
 const BLOCK: usize = 8;
@@ -77,11 +80,15 @@ pub(super) struct Search<'p> {
     pub shift: f64,
     /// Seeds used so far: every new block starts elsewhere.
     started: u64,
+    /// Three blocks of vectors [n x CORRECTED] that every step overwrites: new memory would cost more than some of the
+    /// products (a page fault for each 4 KiB).
+    blocks: [DenseMatrix; 3],
 }
 
-/// Vectors of the largest basis for so many pairs.
+/// Vectors of the largest basis for so many pairs: two full blocks of corrections fit beside the Krylov space. With room
+/// for one, a restart in the middle cost two more corrections (solids of 60 000 and 240 000 degrees of freedom).
 pub(super) fn largest_basis(pursued: usize) -> usize {
-    krylov_size(pursued) + pursued.max(BLOCK)
+    krylov_size(pursued) + 2 * CORRECTED
 }
 
 /// Size of the Krylov space: smaller ones need more corrections, larger ones cost more than they save (measured on a solid
@@ -112,6 +119,7 @@ impl<'p> Search<'p> {
             round_off: ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass),
             shift,
             started: 0,
+            blocks: [(); 3].map(|()| DenseMatrix::zeros(mass.order(), CORRECTED)),
         }
     }
 
@@ -126,27 +134,38 @@ impl<'p> Search<'p> {
         }
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
-        let mut block = self.mass.times(start.as_ref());
+        self.mass
+            .times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
+        let mut width = BLOCK;
         while self.basis.size() < self.krylov {
-            factor.solve(&mut block);
-            let added = self.extend(block)?;
-            if added == 0 {
+            let [block, product, _] = &mut self.blocks;
+            let mut block = first(block, width);
+            factor.solve(block.rb_mut());
+            self.mass.times_into(block.rb(), first(product, width));
+            width = self.extend(width)?;
+            if width == 0 {
                 break;
             }
             let products = self.basis.products();
-            block = products
-                .subcols(self.basis.size() - added, added)
-                .to_owned();
+            let last = products.subcols(self.basis.size() - width, width);
+            first(&mut self.blocks[0], width).copy_from(last);
         }
         Ok(())
     }
 
-    fn extend(&mut self, block: DenseMatrix) -> Result<usize, LinalgError> {
+    /// Adds the first columns of the first block; the second holds their products with M.
+    fn extend(&mut self, width: usize) -> Result<usize, LinalgError> {
         let before = self.basis.size();
-        let added = self.basis.extend(block)?;
+        let [block, product, spare] = &mut self.blocks;
+        let added = self.basis.extend(
+            first(block, width),
+            first(product, width),
+            first(spare, width),
+        )?;
         let new = self.basis.vectors().subcols(before, added);
-        let stiff = self.stiffness.times(new);
-        let rows = times(self.basis.vectors().transpose(), stiff.as_ref());
+        let mut stiff = first(spare, added);
+        self.stiffness.times_into(new, stiff.rb_mut());
+        let rows = times(self.basis.vectors().transpose(), stiff.rb());
         for column in 0..added {
             for row in 0..before + added {
                 let value = if row < before {
@@ -241,11 +260,11 @@ impl<'p> Search<'p> {
                     open.push(column);
                 }
             }
-            let block = columns(&steps.vectors, &open);
-            if block.ncols() > self.basis.room() {
+            self.keep(&open);
+            if open.len() > self.basis.room() {
                 self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
             }
-            self.extend(block)?;
+            self.extend(open.len())?;
         }
         Err(LinalgError::NotConverged {
             asked: self.wanted,
@@ -254,49 +273,78 @@ impl<'p> Search<'p> {
         })
     }
 
-    /// Corrections of the chosen Ritz pairs.
-    fn steps(&self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Steps {
+    /// Corrections `F^-1 (K x - lambda M x)` of the chosen Ritz pairs: into the first block, their products with M into
+    /// the second.
+    fn steps(&mut self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Steps {
         let combinations = columns(&spectrum.vectors, chosen);
-        let x = times(self.basis.vectors(), combinations.as_ref());
-        let heavy = times(self.basis.products(), combinations.as_ref());
-        let mut vectors = self.stiffness.times(x.as_ref());
+        let [vectors, heavy, remainders] = &mut self.blocks;
+        let width = chosen.len();
+        let mut vectors = first(vectors, width);
+        let (mut heavy, mut remainders) = (first(heavy, width), first(remainders, width));
+        let combine = |to: MatMut<'_, f64>, from: MatRef<'_, f64>| {
+            matmul(
+                to,
+                Accum::Replace,
+                from,
+                combinations.as_ref(),
+                1.0,
+                Par::Seq,
+            );
+        };
+        combine(vectors.rb_mut(), self.basis.vectors());
+        combine(heavy.rb_mut(), self.basis.products());
+        self.stiffness.times_into(vectors.rb(), remainders.rb_mut());
         let mut residuals = Vec::with_capacity(chosen.len());
         for (column, &place) in chosen.iter().enumerate() {
             let value = spectrum.values[place];
-            let scale = vectors.col(column).norm_l2()
-                + (value - self.shift).abs() * heavy.col(column).norm_l2();
-            let products = heavy.col_as_slice(column);
-            for (entry, product) in vectors.col_as_slice_mut(column).iter_mut().zip(products) {
+            let (mut remainder, heavy) =
+                (remainders.rb_mut().col_mut(column), heavy.rb().col(column));
+            let scale = remainder.norm_l2() + (value - self.shift).abs() * heavy.norm_l2();
+            for (entry, product) in remainder.rb_mut().iter_mut().zip(heavy.iter()) {
                 *entry -= value * product;
             }
-            residuals.push(vectors.col(column).norm_l2() / scale);
+            residuals.push(remainder.norm_l2() / scale);
         }
-        let remainders = vectors.clone();
-        factor.solve(&mut vectors);
-        let lengths = norms(&vectors, &self.mass.times(vectors.as_ref()));
+        vectors.copy_from(remainders.rb());
+        factor.solve(vectors.rb_mut());
+        self.mass.times_into(vectors.rb(), heavy.rb_mut());
         let energy = |(column, &place): (usize, &usize)| {
-            let energy: f64 = remainders.col(column).transpose() * vectors.col(column);
+            let energy: f64 = remainders.rb().col(column).transpose() * vectors.rb().col(column);
             energy.abs() / (spectrum.values[place] - self.shift).abs()
         };
         Steps {
-            energies: chosen.iter().enumerate().map(energy).collect(),
-            vectors,
-            lengths,
+            lengths: norms(vectors.rb(), heavy.rb()),
             residuals,
+            energies: chosen.iter().enumerate().map(energy).collect(),
+        }
+    }
+
+    /// Keeps some columns of the first two blocks, ascending.
+    fn keep(&mut self, kept: &[usize]) {
+        for block in &mut self.blocks[..2] {
+            for (place, &column) in kept.iter().enumerate() {
+                if place < column {
+                    let (mut to, from) = block.as_mut().split_at_col_mut(column);
+                    to.rb_mut().col_mut(place).copy_from(from.rb().col(0));
+                }
+            }
         }
     }
 }
 
-/// Corrections of some pairs.
+/// How large the corrections of some pairs are.
 struct Steps {
-    /// `F^-1 (K x - lambda M x)` [n x k].
-    vectors: DenseMatrix,
     /// Their lengths in the norm of M.
     lengths: Vec<f64>,
     /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`.
     residuals: Vec<f64>,
     /// `r^T F^-1 r / (lambda - sigma)`.
     energies: Vec<f64>,
+}
+
+/// The first columns.
+fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
+    a.as_mut().subcols_mut(0, count)
 }
 
 /// Some columns of a matrix.

@@ -2,10 +2,14 @@
 //!
 //! **Life cycle.** One call; METIS allocates and frees its own workspace and keeps nothing of ours.
 //!
-//! **State.** METIS 5 has no global state but its random generator, which every call seeds anew (option -1: its own
-//! fixed seed): the same graph gives the same order.
+//! **State.** METIS 5 has no global state but the C library's random generator, which every call seeds anew (option -1:
+//! its own fixed seed). Calls take turns: the same graph gives the same order, whatever other threads order.
 
 use std::ffi::c_int;
+use std::sync::{Mutex, PoisonError};
+
+/// Whose turn it is.
+static TURN: Mutex<()> = Mutex::new(());
 
 /// An undirected graph: the neighbours of node i are `neighbours[starts[i]..starts[i + 1]]`, without i itself; each
 /// edge is stored at both ends.
@@ -42,11 +46,14 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
         graph.neighbours.clone(),
         graph.weights.clone(),
     );
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     // SAFETY: `starts` has count + 1 entries that end at the length of `neighbours`, whose entries are below count
     // (checked by whoever makes a `Graph`: `ordering::graph`); `weights`, `order` and `place` have count entries and
     // `options` METIS_NOPTIONS; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+        options[metis_sys::moptions_et_METIS_OPTION_RTYPE as usize] =
+            metis_sys::mrtype_et_METIS_RTYPE_SEP2SIDED as c_int;
         metis_sys::METIS_NodeND(
             &mut count,
             starts.as_mut_ptr(),

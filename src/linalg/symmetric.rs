@@ -3,8 +3,11 @@
 
 use super::ordering::{ABSENT, Ordering};
 use super::{DenseMatrix, SparseMatrix};
+use faer::prelude::*;
+use faer::{MatMut, MatRef};
 use multiversion::multiversion;
 use rayon::prelude::*;
+use std::cell::RefCell;
 
 /// Vectors that are multiplied at once: an entry is loaded once for all of them.
 const LANES: usize = 8;
@@ -101,27 +104,19 @@ impl SymmetricMatrix {
         sum
     }
 
-    /// `A X` for `X` [n x k]. Blocks of columns are independent: the result does not depend on the number of threads.
-    pub fn times(&self, x: faer::MatRef<'_, f64>) -> DenseMatrix {
-        let order = self.order();
-        let mut y = DenseMatrix::zeros(order, x.ncols());
-        let blocks: Vec<usize> = (0..x.ncols()).step_by(LANES).collect();
-        let products: Vec<Vec<[f64; LANES]>> = blocks
-            .par_iter()
-            .map(|&first| self.times_block(x, first))
-            .collect();
-        for (&first, product) in blocks.iter().zip(&products) {
-            let width = LANES.min(x.ncols() - first);
-            for (tile, lanes) in product.chunks(TILE).enumerate() {
-                for lane in 0..width {
-                    let column = &mut y.col_as_slice_mut(first + lane)[TILE * tile..];
-                    for (entry, lanes) in column.iter_mut().zip(lanes) {
-                        *entry = lanes[lane];
-                    }
-                }
-            }
-        }
+    /// `A X` for `X` [n x k].
+    pub fn times(&self, x: MatRef<'_, f64>) -> DenseMatrix {
+        let mut y = DenseMatrix::zeros(self.order(), x.ncols());
+        self.times_into(x, y.as_mut());
         y
+    }
+
+    /// `Y = A X` for `X` and `Y` [n x k]. Blocks of columns are independent: the result does not depend on the number of
+    /// threads.
+    pub fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        x.par_col_chunks(LANES)
+            .zip(y.par_col_chunks_mut(LANES))
+            .for_each(|(x, y)| SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y, scratch)));
     }
 
     /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x`: its round-off, in units of that of one
@@ -143,28 +138,44 @@ impl SymmetricMatrix {
         (0..self.order()).map(of_column).sum::<f64>().sqrt()
     }
 
-    fn times_block(&self, x: faer::MatRef<'_, f64>, first: usize) -> Vec<[f64; LANES]> {
-        let order = self.order();
-        let width = LANES.min(x.ncols() - first);
-        let mut lanes = vec![[0.0; LANES]; order];
+    fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
+        let Scratch { lanes, product } = scratch;
+        lanes.resize(self.order(), [0.0; LANES]);
+        product.clear();
+        product.resize(self.order(), [0.0; LANES]);
         for (tile, rows) in lanes.chunks_mut(TILE).enumerate() {
-            for lane in 0..width {
-                let column = x.col(first + lane).subrows(TILE * tile, rows.len());
+            for lane in 0..x.ncols() {
+                let column = x.col(lane).subrows(TILE * tile, rows.len());
                 for (row, &entry) in rows.iter_mut().zip(column.iter()) {
                     row[lane] = entry;
                 }
             }
         }
-        let mut product = vec![[0.0; LANES]; order];
-        multiply(
-            &self.offsets,
-            &self.rows,
-            &self.values,
-            &lanes,
-            &mut product,
-        );
-        product
+        multiply(&self.offsets, &self.rows, &self.values, lanes, product);
+        for (tile, rows) in product.chunks(TILE).enumerate() {
+            for lane in 0..x.ncols() {
+                let column = y
+                    .rb_mut()
+                    .col_mut(lane)
+                    .subrows_mut(TILE * tile, rows.len());
+                for (entry, row) in column.iter_mut().zip(rows) {
+                    *entry = row[lane];
+                }
+            }
+        }
     }
+}
+
+/// Factors and products of one block, row by row.
+#[derive(Debug, Default)]
+struct Scratch {
+    lanes: Vec<[f64; LANES]>,
+    product: Vec<[f64; LANES]>,
+}
+
+thread_local! {
+    /// Kept between products: to touch new memory costs a third of a product.
+    static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
 /// `product = A lanes` for a lower triangle in compressed columns, with the widest instructions that the machine has.
