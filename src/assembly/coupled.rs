@@ -17,6 +17,13 @@ pub struct CoupledMatrices {
     pub mass: SparseMatrix,
     /// Free degrees of freedom, ascending: the housing's interior and the ring.
     pub free_dofs: Vec<usize>,
+    /// What the coordinates mean.
+    pub motions: CoupledMotions,
+}
+
+/// Displacements of housing and ring from the coordinates of both, and back.
+#[derive(Debug, Clone)]
+pub struct CoupledMotions {
     /// Housing displacements in the mesh's axes from all coordinates [housing dof x n].
     recovery: SparseMatrix,
     housing_dof: usize,
@@ -58,11 +65,15 @@ impl CoupledMatrices {
                 .copied()
                 .chain(ring_dofs)
                 .collect(),
-            recovery,
-            housing_dof,
+            motions: CoupledMotions {
+                recovery,
+                housing_dof,
+            },
         }
     }
+}
 
+impl CoupledMotions {
     /// Displacements of the housing in the mesh's axes [housing dof x k] for coordinates x [n x k], tied nodes filled
     /// in.
     pub fn housing(&self, model: &HousingModel, x: &DenseMatrix) -> DenseMatrix {

@@ -10,7 +10,7 @@ mod pattern;
 use crate::element::continuum::{nodal_mass_into, stiffness_into};
 use crate::linalg::{DenseMatrix, SparseMatrix, congruence, transpose_times_dense};
 use crate::model::{HousingModel, ModelError, NodalMatrix, RingTie};
-pub use coupled::CoupledMatrices;
+pub use coupled::{CoupledMatrices, CoupledMotions};
 
 use batch::in_batches;
 use pattern::{BlockMatrix, Coupling, Local, NodeGraph};

@@ -75,6 +75,7 @@ fn summary(result: &ModesResult) -> String {
     lines.extend(reading(&result.base));
     for variant in &result.variants {
         lines.push(format!("-- {}", variant.what));
+        lines.push(format!("unloaded (Hz): {}", listed(&variant.unloaded_hz)));
         lines.extend(reading(variant));
     }
     lines.join("\n")
@@ -94,6 +95,11 @@ fn reading(reading: &Reading) -> Vec<String> {
             "loaded (Hz), without the balls' own: {}",
             listed(&own)
         ));
+        if let Some(difference) = reading.condensation_difference {
+            lines.push(format!(
+                "  housing condensed for the load, which alone moves frequencies by up to {difference:.1e}"
+            ));
+        }
     }
     for expected in &reading.expected {
         let found = expected

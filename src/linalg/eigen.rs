@@ -89,7 +89,8 @@ impl EigenProblem {
     /// is kept: the caller may drop them.
     ///
     /// # Errors
-    /// [`LinalgError::Factorisation`] of order and analysis.
+    /// [`LinalgError::NothingThere`] for a row without stiffness and mass, [`LinalgError::Factorisation`] of order and
+    /// analysis.
     pub fn new(k: &SparseMatrix, m: &SparseMatrix) -> Result<Self, LinalgError> {
         let all: Vec<usize> = (0..k.rows()).collect();
         Self::restricted(k, m, &all)
@@ -105,6 +106,11 @@ impl EigenProblem {
         kept: &[usize],
     ) -> Result<Self, LinalgError> {
         let started = Instant::now();
+        // of semidefinite matrices a row is empty if its diagonal is
+        let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
+        if let Some(&row) = kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
+            return Err(LinalgError::NothingThere { row });
+        }
         let ordering = Ordering::of_part(k, kept)?;
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);

@@ -250,3 +250,57 @@ fn a_part_of_the_unknowns() {
     assert_within_bounds(&pairs, |index| exact(index / 2 + 1, 50));
     assert_eq!(pairs.vectors.nrows(), 100);
 }
+
+/// A chain and beside it degrees of freedom without mass, joined to each other by `spring` alone.
+fn chain_and_nothing(order: usize, spring: f64) -> (SparseMatrix, SparseMatrix) {
+    let (k, m) = chain(order, 1.0);
+    let mut all = [
+        TripletBuilder::new(order + 2, order + 2),
+        TripletBuilder::new(order + 2, order + 2),
+    ];
+    for (whole, part) in all.iter_mut().zip([&k, &m]) {
+        for (&value, (row, column)) in part.iter() {
+            whole.add(row, column, value);
+        }
+    }
+    let [mut k, m] = all;
+    for a in 0..2 {
+        for b in 0..2 {
+            let sign = if a == b { 1.0 } else { -1.0 };
+            k.add(order + a, order + b, sign * spring);
+        }
+    }
+    (k.build(), m.build())
+}
+
+/// Solved densely and by iteration; the entries are there and zero.
+#[test]
+fn neither_stiffness_nor_mass_is_an_error() {
+    for order in [20, 300] {
+        let (k, m) = chain_and_nothing(order, 0.0);
+        let error = EigenProblem::new(&k, &m).err();
+        assert_eq!(error, Some(LinalgError::NothingThere { row: order }));
+        // left out, the rest is solved
+        let kept: Vec<usize> = (0..order).collect();
+        let problem = EigenProblem::restricted(&k, &m, &kept).expect("an order");
+        let pairs = problem.lowest(5).expect("converges");
+        assert_within_bounds(&pairs, |index| exact(index + 1, order));
+    }
+}
+
+/// Two of them joined by a spring: no row is empty, and K + s M is singular for every s all the same.
+#[test]
+fn a_motion_without_stiffness_and_mass_is_an_error() {
+    for order in [20, 300] {
+        let (k, m) = chain_and_nothing(order, 1.0);
+        let error = problem(&k, &m).lowest(5).err();
+        println!("{order}: {error:?}");
+        assert!(
+            matches!(
+                error,
+                Some(LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. })
+            ),
+            "{order}: {error:?}"
+        );
+    }
+}

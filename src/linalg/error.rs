@@ -61,6 +61,14 @@ pub enum LinalgError {
         /// Rows found.
         found: usize,
     },
+    /// A degree of freedom with neither stiffness nor mass.
+    #[error(
+        "row {row} of stiffness and mass is empty: this degree of freedom is held by nothing and carries nothing, so that its motion is not determined; leave it out or hold it"
+    )]
+    NothingThere {
+        /// Its row in the matrices given.
+        row: usize,
+    },
     /// More eigenvalues asked for than the problem has.
     #[error("{asked} modes asked for, but the model has only {available} degrees of freedom")]
     TooManyModes {

@@ -83,12 +83,21 @@ impl Factor {
         kind: Kind,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        let numbers = if symbolic.entries() > SMALL {
-            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
-        } else {
-            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
-        };
-        Self::judged(symbolic, a, numbers)
+        if symbolic.entries() > SMALL {
+            return Self::single(symbolic, a, kind, memory.single);
+        }
+        let numbers = NumericFactor::new(symbolic, a, kind, memory.double)?;
+        Self::judged(symbolic, a, Numbers::Double(numbers))
+    }
+
+    fn single(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        kind: Kind,
+        memory: Vec<f32>,
+    ) -> Result<Self, LinalgError> {
+        let numbers = NumericFactor::new(symbolic, a, kind, memory)?;
+        Self::judged(symbolic, a, Numbers::Single(numbers))
     }
 
     /// Factorises `a` in double precision.
@@ -175,6 +184,10 @@ impl Factor {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "incompressible_tests.rs"]
+mod incompressible;
 
 #[cfg(test)]
 mod tests {

@@ -1,10 +1,16 @@
 //! Modes of a structure with everything that proves them.
 
-use crate::linalg::{DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError};
+use crate::linalg::{
+    DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, symmetric_eigen,
+};
 use std::f64::consts::TAU;
 
 /// Error bounds below which an eigenvalue counts as zero: the bound itself is an estimate.
 const ZERO: f64 = 4.0;
+
+/// Eigenvalues up to so many times their bound are computed again from the energies of elements. Those beyond have
+/// four digits of their own, and mix with the ones below by a ten-thousandth at most.
+const NEAR_ZERO: f64 = 1e4;
 
 /// Which modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +51,9 @@ pub struct ModalBasis {
     pub shapes: DenseMatrix,
     /// Largest entry of `Phi^T M Phi - 1`.
     pub orthogonality: f64,
-    /// Modes without strain energy: those whose energy `phi^T K phi = lambda` is zero within its error bound.
+    /// Modes without strain energy: those whose energy `phi^T K phi = lambda` is zero within four times its error
+    /// bound. They come first. How small an energy can be told from zero depends on how it was summed: see
+    /// [`ModalBasis::sharpen`].
     pub rigid_modes: usize,
     /// The proof of completeness.
     pub count_check: FrequencyCount,
@@ -53,6 +61,10 @@ pub struct ModalBasis {
     pub shift: f64,
     /// Where the time went.
     pub times: EigenTimes,
+    /// How far each eigenvalue may be from that of the same matrices in exact arithmetic, 1/s^2.
+    bounds: Vec<f64>,
+    /// Part of the bound that is round-off of `phi^T K phi`, 1/s^2.
+    rounding: Vec<f64>,
 }
 
 impl ModalBasis {
@@ -71,19 +83,11 @@ impl ModalBasis {
     }
 
     fn new(pairs: EigenPairs) -> Self {
-        let hz = |value: f64| value.max(0.0).sqrt() / TAU;
-        let zero = |(value, bound): &(&f64, &f64)| value.abs() <= ZERO * **bound;
         let check = pairs.count_check;
-        Self {
-            rigid_modes: pairs.values.iter().zip(&pairs.bounds).filter(zero).count(),
-            frequencies_hz: pairs.values.iter().map(|&value| hz(value)).collect(),
-            // the larger of both sides; near zero that is the square root of the bound
-            error_bounds_hz: (pairs.values.iter().zip(&pairs.bounds))
-                .map(|(&value, &bound)| {
-                    let (low, high) = (hz(value - bound), hz(value + bound));
-                    (high - hz(value)).max(hz(value) - low)
-                })
-                .collect(),
+        let mut basis = Self {
+            rigid_modes: 0,
+            frequencies_hz: Vec::new(),
+            error_bounds_hz: Vec::new(),
             eigenvalues: pairs.values,
             residuals: pairs.residuals,
             shapes: pairs.vectors,
@@ -96,6 +100,100 @@ impl ModalBasis {
             },
             shift: pairs.shift,
             times: pairs.times,
+            bounds: pairs.bounds,
+            rounding: pairs.rounding,
+        };
+        basis.judge();
+        basis
+    }
+
+    /// What follows from eigenvalues and bounds.
+    fn judge(&mut self) {
+        let both = || self.eigenvalues.iter().zip(&self.bounds);
+        let zero = |(value, bound): &(&f64, &f64)| value.abs() <= ZERO * **bound;
+        self.rigid_modes = both().filter(zero).count();
+        // the larger of both sides; near zero that is the square root of the bound
+        self.error_bounds_hz = both()
+            .map(|(&value, &bound)| {
+                let (low, high) = (hz(value - bound), hz(value + bound));
+                (high - hz(value)).max(hz(value) - low)
+            })
+            .collect();
+        self.frequencies_hz = self.eigenvalues.iter().map(|&value| hz(value)).collect();
+    }
+
+    /// Computes the modes again that the matrices cannot tell from rigid ones, from strain energies that were summed
+    /// without assembling K. `products` gives `Phi^T K Phi` [count x count] of shapes Phi [n x count].
+    ///
+    /// An entry of K is a sum over elements, rounded: of a rigid motion it leaves `rho`, about eps times the stiffest
+    /// eigenvalue, where zero should be. On a support softer than that, all modes look alike and are mixed. Their space
+    /// is right, though: the modes are found in it by the energies of the elements. What rounding has mixed in
+    /// from other modes has an energy of `rho^2 / lambda` at most, lambda the next eigenvalue (second order, as for any
+    /// Rayleigh quotient), and this takes the place of rho in the bound.
+    ///
+    /// # Errors
+    /// What `products` reports, and [`LinalgError`] if it has numbers that are not finite.
+    pub fn sharpen<E: From<LinalgError>>(
+        &mut self,
+        products: impl FnOnce(&DenseMatrix) -> Result<DenseMatrix, E>,
+    ) -> Result<(), E> {
+        let near = |(value, bound): &(&f64, &f64)| value.abs() <= NEAR_ZERO * **bound;
+        let both = self.eigenvalues.iter().zip(&self.bounds);
+        let count = both.take_while(near).count();
+        if count == 0 {
+            return Ok(());
+        }
+        let space = self.shapes.subcols(0, count).to_owned();
+        let energies = products(&space)?;
+        if energies.nrows() != count || energies.ncols() != count {
+            return Err(LinalgError::Shape {
+                what: "energies of the modes",
+                expected: count,
+                found: energies.nrows().min(energies.ncols()),
+            }
+            .into());
+        }
+        let finite = |column| {
+            energies
+                .col_as_slice(column)
+                .iter()
+                .all(|e: &f64| e.is_finite())
+        };
+        if !(0..count).all(finite) {
+            return Err(LinalgError::DenseEigen { order: count }.into());
+        }
+        let found = symmetric_eigen(&energies)?;
+        let largest = |values: &[f64]| values.iter().take(count).copied().fold(0.0, f64::max);
+        let rounding = largest(&self.rounding);
+        let residual = largest(&self.residuals);
+        let others = (self.bounds.iter().zip(&self.rounding).take(count))
+            .map(|(bound, rounding)| bound - rounding)
+            .fold(0.0, f64::max);
+        let mixed = rounding * (rounding / self.next_after(count).max(rounding)).min(1.0);
+        let dense = count as f64 * f64::EPSILON * energies.norm_max();
+        let turned = &space * &found.vectors;
+        for (mode, value) in found.values.into_iter().enumerate().take(count) {
+            self.eigenvalues[mode] = value;
+            self.rounding[mode] = mixed + dense;
+            self.bounds[mode] = others + mixed + dense;
+            self.residuals[mode] = residual;
+            self.shapes
+                .col_as_slice_mut(mode)
+                .copy_from_slice(turned.col_as_slice(mode));
+        }
+        self.judge();
+        Ok(())
+    }
+
+    /// An eigenvalue that all after the first `count` reach, 1/s^2; zero if nothing is known of them.
+    fn next_after(&self, count: usize) -> f64 {
+        let check = self.count_check;
+        match self.eigenvalues.get(count) {
+            Some(&next) => next,
+            None if check.above_hz.is_none() && check.found == count => {
+                (TAU * check.below_hz).powi(2)
+            }
+            None => 0.0,
         }
     }
 
@@ -104,3 +202,11 @@ impl ModalBasis {
         self.eigenvalues.len()
     }
 }
+
+fn hz(eigenvalue: f64) -> f64 {
+    eigenvalue.max(0.0).sqrt() / TAU
+}
+
+#[cfg(test)]
+#[path = "basis_tests.rs"]
+mod tests;

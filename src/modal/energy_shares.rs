@@ -1,4 +1,4 @@
-//! Where a mode's strain and kinetic energy sit: by part, by physical group, by spring and by point mass.
+//! Where a mode's strain and kinetic energy sit: by part, by physical group, in the ring, by spring and by point mass.
 
 use super::ModalError;
 use super::energy_sums::element_sums;
@@ -6,8 +6,11 @@ use super::error::check_count;
 use super::membership::Membership;
 use crate::linalg::DenseMatrix;
 use crate::mesh::Mesh;
-use crate::model::{HousingModel, NodalMatrix, NodalSource};
+use crate::model::{HousingModel, NodalMatrix, NodalSource, Ring};
 use serde::Serialize;
+
+/// Name of the springs between ring and ground among the others.
+const RING_SPRINGS: &str = "ring supports";
 
 /// Energy of modes by where it is. Numbers of a mode are in the order of the names here.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -16,7 +19,8 @@ pub struct EnergyShares {
     pub parts: Vec<String>,
     /// Physical groups of volumes (plane: surfaces), in the mesh's order. Groups may overlap or leave elements out.
     pub groups: Vec<String>,
-    /// Supports and links with springs: the group, or `first - second`; supports first, in the order of the case.
+    /// Supports and links with springs: the group, or `first - second`; supports first, in the order of the case; then
+    /// the springs of the ring, as `ring supports`.
     pub springs: Vec<String>,
     /// Groups of the point masses, in the order of the case.
     pub masses: Vec<String>,
@@ -39,24 +43,28 @@ pub struct ModeShares {
     pub kinetic: Option<KineticShares>,
 }
 
-/// Fractions of a mode's strain energy; `parts` and `springs` together add up to 1.
+/// Fractions of a mode's strain energy; `parts`, `ring` and `springs` together add up to 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StrainShares {
     /// By part.
     pub parts: Vec<f64>,
     /// By physical group.
     pub groups: Vec<f64>,
+    /// In the ring's beams; `None` without a ring.
+    pub ring: Option<f64>,
     /// By support or link.
     pub springs: Vec<f64>,
 }
 
-/// Fractions of a mode's kinetic energy; `parts` and `masses` together add up to 1.
+/// Fractions of a mode's kinetic energy; `parts`, `ring` and `masses` together add up to 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KineticShares {
     /// By part.
     pub parts: Vec<f64>,
     /// By physical group.
     pub groups: Vec<f64>,
+    /// In the ring; `None` without a ring.
+    pub ring: Option<f64>,
     /// By point mass.
     pub masses: Vec<f64>,
 }
@@ -66,8 +74,8 @@ impl EnergyShares {
     /// `rigid_modes` of them are motions without strain.
     ///
     /// All modes in one pass over the elements, `phi_e^T K_e phi_e` and `phi_e^T M_e phi_e`, in parallel; the
-    /// result is the same to the bit for any number of threads. An element's mean translation is taken out before
-    /// its stiffness is applied, which changes nothing but round-off.
+    /// result is the same to the bit for any number of threads. An element's mean translation and turn are taken out
+    /// before its stiffness is applied, which changes nothing but round-off.
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the modes or the mesh do not belong to the model, [`ModalError::Model`] with the
@@ -78,6 +86,113 @@ impl EnergyShares {
         shapes: &DenseMatrix,
         rigid_modes: usize,
     ) -> Result<Self, ModalError> {
+        let sums = HousingSums::new(mesh, model, shapes)?;
+        Ok(Self::of(Some(sums), None, shapes.ncols(), rigid_modes))
+    }
+
+    /// The same of a housing and the ring in its bore, which moves by `ring_shapes` [ring dof x count]. The tie has no
+    /// energy of its own.
+    ///
+    /// # Errors
+    /// As [`EnergyShares::new`], [`ModalError::Shape`] also if the modes do not belong to the ring.
+    pub fn with_ring(
+        (mesh, model): (&Mesh, &HousingModel),
+        ring: &Ring,
+        shapes: &DenseMatrix,
+        ring_shapes: &DenseMatrix,
+        rigid_modes: usize,
+    ) -> Result<Self, ModalError> {
+        check_count("modes of the ring", shapes.ncols(), ring_shapes.ncols())?;
+        let sums = HousingSums::new(mesh, model, shapes)?;
+        let of_ring = RingSums::new(ring, ring_shapes)?;
+        Ok(Self::of(
+            Some(sums),
+            Some(of_ring),
+            shapes.ncols(),
+            rigid_modes,
+        ))
+    }
+
+    /// Shares of a ring alone and its springs.
+    ///
+    /// # Errors
+    /// [`ModalError::Shape`] if the modes [ring dof x count] do not belong to the ring.
+    pub fn of_ring(
+        ring: &Ring,
+        ring_shapes: &DenseMatrix,
+        rigid_modes: usize,
+    ) -> Result<Self, ModalError> {
+        let sums = RingSums::new(ring, ring_shapes)?;
+        Ok(Self::of(None, Some(sums), ring_shapes.ncols(), rigid_modes))
+    }
+
+    fn of(
+        housing: Option<HousingSums>,
+        ring: Option<RingSums>,
+        count: usize,
+        rigid_modes: usize,
+    ) -> Self {
+        let housing = housing.unwrap_or_default();
+        let modes = (0..count).map(|mode| {
+            let rows = |all: &[Vec<f64>]| all.get(mode).cloned().unwrap_or_default();
+            let mut springs = rows(&housing.springs.sums);
+            let masses = rows(&housing.masses.sums);
+            let [parts, groups] = [0, 1].map(|place| rows(&housing.strain[place]));
+            let [heavy_parts, heavy_groups] = [0, 1].map(|place| rows(&housing.kinetic[place]));
+            let of_ring = ring.as_ref().map(|ring| ring.modes[mode]);
+            springs.extend(of_ring.and_then(|ring| ring.springs));
+            let sum = |values: [&[f64]; 2], ring: Option<f64>| -> f64 {
+                values.into_iter().flatten().sum::<f64>() + ring.unwrap_or(0.0)
+            };
+            let strain = sum([&parts, &springs], of_ring.map(|ring| ring.strain));
+            let kinetic = sum([&heavy_parts, &masses], of_ring.map(|ring| ring.kinetic));
+            let over =
+                |whole: f64, values: Vec<f64>| values.into_iter().map(|v| v / whole).collect();
+            ModeShares {
+                doubled_strain: strain,
+                doubled_kinetic: kinetic,
+                strain: (mode >= rigid_modes && strain > 0.0).then(|| StrainShares {
+                    parts: over(strain, parts),
+                    groups: over(strain, groups),
+                    ring: of_ring.map(|ring| ring.strain / strain),
+                    springs: over(strain, springs),
+                }),
+                kinetic: (kinetic > 0.0).then(|| KineticShares {
+                    parts: over(kinetic, heavy_parts),
+                    groups: over(kinetic, heavy_groups),
+                    ring: of_ring.map(|ring| ring.kinetic / kinetic),
+                    masses: over(kinetic, masses),
+                }),
+            }
+        });
+        let modes = modes.collect();
+        let mut springs = housing.springs.names;
+        if ring.is_some_and(|ring| ring.has_springs) {
+            springs.push(RING_SPRINGS.to_owned());
+        }
+        Self {
+            parts: housing.parts,
+            groups: housing.groups,
+            springs,
+            masses: housing.masses.names,
+            modes,
+        }
+    }
+}
+
+/// Energies of a housing's modes: lists by mode, of parts and of groups.
+#[derive(Default)]
+struct HousingSums {
+    parts: Vec<String>,
+    groups: Vec<String>,
+    strain: [Vec<Vec<f64>>; 2],
+    kinetic: [Vec<Vec<f64>>; 2],
+    springs: Attached,
+    masses: Attached,
+}
+
+impl HousingSums {
+    fn new(mesh: &Mesh, model: &HousingModel, shapes: &DenseMatrix) -> Result<Self, ModalError> {
         check_count("rows of the modes", model.dof(), shapes.nrows())?;
         check_count(
             "nodes of the mesh",
@@ -86,44 +201,61 @@ impl EnergyShares {
         )?;
         let membership = Membership::new(mesh, model)?;
         let sums = element_sums(model, &membership, shapes)?;
-        let springs = Attached::springs(model, shapes);
-        let masses = Attached::masses(model, shapes);
-        let modes = (0..shapes.ncols()).map(|mode| {
-            let rows = sums.of_mode(mode);
-            let (springs, masses) = (&springs.sums[mode], &masses.sums[mode]);
-            let strain: f64 = rows.strain_parts().chain(springs.iter().copied()).sum();
-            let kinetic: f64 = rows.kinetic_parts().chain(masses.iter().copied()).sum();
-            let of = |whole: f64, values: &[f64]| values.iter().map(|v| v / whole).collect();
-            let by = |whole: f64, values: &mut dyn Iterator<Item = f64>| {
-                values.map(|value| value / whole).collect()
-            };
-            ModeShares {
-                doubled_strain: strain,
-                doubled_kinetic: kinetic,
-                strain: (mode >= rigid_modes && strain > 0.0).then(|| StrainShares {
-                    parts: by(strain, &mut rows.strain_parts()),
-                    groups: by(strain, &mut rows.strain_groups()),
-                    springs: of(strain, springs),
-                }),
-                kinetic: (kinetic > 0.0).then(|| KineticShares {
-                    parts: by(kinetic, &mut rows.kinetic_parts()),
-                    groups: by(kinetic, &mut rows.kinetic_groups()),
-                    masses: of(kinetic, masses),
-                }),
-            }
-        });
-        let modes = modes.collect();
+        let modes = || (0..shapes.ncols()).map(|mode| sums.of_mode(mode));
         Ok(Self {
             parts: model.part_groups.clone(),
             groups: membership.names,
-            springs: springs.names,
-            masses: masses.names,
-            modes,
+            strain: [
+                modes().map(|rows| rows.strain_parts().collect()).collect(),
+                modes().map(|rows| rows.strain_groups().collect()).collect(),
+            ],
+            kinetic: [
+                modes().map(|rows| rows.kinetic_parts().collect()).collect(),
+                modes()
+                    .map(|rows| rows.kinetic_groups().collect())
+                    .collect(),
+            ],
+            springs: Attached::springs(model, shapes),
+            masses: Attached::masses(model, shapes),
+        })
+    }
+}
+
+/// Energies of a ring's modes.
+struct RingSums {
+    has_springs: bool,
+    modes: Vec<RingEnergies>,
+}
+
+#[derive(Clone, Copy)]
+struct RingEnergies {
+    strain: f64,
+    kinetic: f64,
+    /// `None` for a ring without.
+    springs: Option<f64>,
+}
+
+impl RingSums {
+    fn new(ring: &Ring, shapes: &DenseMatrix) -> Result<Self, ModalError> {
+        check_count("rows of the ring's modes", ring.dof(), shapes.nrows())?;
+        let heavy = ring.mass() * shapes;
+        let energies = |mode: usize| {
+            let own = ring.strain_products(&shapes.subcols(mode, 1).to_owned());
+            RingEnergies {
+                strain: own.beams[(0, 0)],
+                kinetic: shapes.col(mode).transpose() * heavy.col(mode),
+                springs: ring.has_springs().then(|| own.springs[(0, 0)]),
+            }
+        };
+        Ok(Self {
+            has_springs: ring.has_springs(),
+            modes: (0..shapes.ncols()).map(energies).collect(),
         })
     }
 }
 
 /// Sums of what hangs on nodes, by mode and by name.
+#[derive(Default)]
 struct Attached {
     names: Vec<String>,
     sums: Vec<Vec<f64>>,

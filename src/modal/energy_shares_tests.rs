@@ -1,9 +1,12 @@
-use super::super::rigid_modes;
-use super::super::samples::{Cells, Solved, description, solve, support};
+use super::super::samples::{
+    Cells, Solved, block_round_a_ring, description, ring_for_block, ringed, solve, support,
+};
 use super::*;
+use crate::linalg::{SparseMatrix, sparse_times_dense};
 use crate::material::Material;
 use crate::model::{
-    Connection, Constraint, HousingDescription, Link, PointMass, SpringStiffness, SupportShare,
+    Connection, Constraint, Fit, HousingDescription, Link, PointMass, RingSupport, SpringShare,
+    SpringStiffness, SupportShare,
 };
 
 /// Two blocks of unlike stiffness on springs, linked by springs, with a mass on top; `tied` as one.
@@ -46,7 +49,7 @@ fn blocks(dimension: usize, tied: bool) -> (Cells, Solved) {
 }
 
 fn shares(cells: &Cells, solved: &Solved) -> EnergyShares {
-    let rigid = rigid_modes(&solved.matrices.stiffness, &solved.shapes).expect("shapes fit");
+    let rigid = solved.rigid_modes;
     EnergyShares::new(&cells.mesh, &solved.model, &solved.shapes, rigid)
         .expect("modes of this model")
 }
@@ -167,4 +170,116 @@ fn modes_of_another_model_are_refused() {
     let shapes = DenseMatrix::zeros(3, 1);
     let found = EnergyShares::new(&cells.mesh, &solved.model, &shapes, 0);
     assert!(matches!(found, Err(ModalError::Shape { .. })));
+}
+
+/// Parts, ring and springs together hold all of it; ring and housing have what their own matrices say, uncoupled.
+#[test]
+fn a_ring_has_its_share() {
+    for (dimension, fit) in [
+        (2, Fit::Bonded),
+        (3, Fit::Bonded),
+        (2, Fit::Sliding),
+        (3, Fit::Sliding),
+    ] {
+        let (cells, frame) = block_round_a_ring(dimension);
+        let cells = cells
+            .block("lid", 0, [2, 0, 0], [4, 2, 2])
+            .points("top", 0, &[[4, 1, 0]]);
+        let springs = Constraint::Spring(SpringStiffness::Global([2e8, 1e8, 3e8]));
+        let all = HousingDescription {
+            frame,
+            supports: vec![support("top", springs)],
+            masses: vec![PointMass {
+                group: "top".to_owned(),
+                mass: 3.0,
+            }],
+            ..description(&cells, &["body", "lid"], 1.0)
+        };
+        let mut ring = ring_for_block(dimension);
+        let support = RingSupport {
+            from: 0.1,
+            to: 3.0,
+            spring: [3e7, 2e7, 1e7],
+            share: SpringShare::Total,
+            offset: 2e-3,
+        };
+        ring.add_support(&support).expect("nodes there");
+        let solved = ringed(&cells.mesh, all, ring, fit, 12);
+        let (model, basis) = (&solved.model, &solved.basis);
+        let (shapes, of_ring) = (&solved.housing, &solved.of_ring);
+        let found = EnergyShares::with_ring(
+            (&cells.mesh, model),
+            &solved.ring,
+            shapes,
+            of_ring,
+            basis.rigid_modes,
+        );
+        let found = found.expect("modes of this model");
+        assert_eq!(found.springs, ["top", "ring supports"]);
+        let own = |k: &DenseMatrix, mode: usize| -> f64 {
+            let x = of_ring.col(mode);
+            x.transpose() * (k * x)
+        };
+        let stiff = sparse_times_dense(&solved.matrices.stiffness, shapes);
+        let heavy = sparse_times_dense(&solved.matrices.mass, shapes);
+        for (mode, shares) in found.modes.iter().enumerate().skip(basis.rigid_modes) {
+            let strain = shares.strain.as_ref().expect("elastic");
+            let kinetic = shares.kinetic.as_ref().expect("mass");
+            let of_parts = strain.parts.iter().chain(&strain.springs);
+            let sum: f64 = of_parts.sum::<f64>() + strain.ring.expect("a ring");
+            assert!((sum - 1.0).abs() < 1e-14, "{sum}");
+            let of_parts = kinetic.parts.iter().chain(&kinetic.masses);
+            let sum: f64 = of_parts.sum::<f64>() + kinetic.ring.expect("a ring");
+            assert!((sum - 1.0).abs() < 1e-14, "{sum}");
+            // the frequency of the coupled problem, within its bound: K's round-off is felt in the lowest ones
+            let hz = basis.frequencies_hz[mode];
+            let difference = (shares.doubled_strain.sqrt() / std::f64::consts::TAU - hz).abs();
+            let allowed = basis.error_bounds_hz[mode] + 1e-10 * hz;
+            assert!(
+                difference < allowed,
+                "{dimension} {fit:?} {mode}: {difference:e} of {hz} Hz, allowed {allowed:e}"
+            );
+            assert!((shares.doubled_kinetic - 1.0).abs() < 1e-10);
+            // matrices of ring and of housing by themselves, springs included; their round-off is that of their entries
+            let close = |share: f64, energy: f64, whole: f64, entries: f64| {
+                let difference = (share * whole - energy).abs();
+                assert!(
+                    difference < 1e-10 * whole + 64.0 * f64::EPSILON * entries,
+                    "{dimension} {fit:?} {mode}: {difference:e} of {whole:e}, {entries:e}"
+                );
+            };
+            let ring_entries = |k: &DenseMatrix| k.norm_max() * of_ring.col(mode).squared_norm_l2();
+            let housing_entries = |k: &SparseMatrix| {
+                let largest = k.data().iter().fold(0.0_f64, |k, value| k.max(value.abs()));
+                largest * shapes.col(mode).squared_norm_l2()
+            };
+            let (k, m) = (solved.ring.stiffness(), solved.ring.mass());
+            let (strain_sum, kinetic_sum) = (shares.doubled_strain, shares.doubled_kinetic);
+            let share = strain.ring.expect("a ring") + strain.springs[1];
+            close(share, own(k, mode), strain_sum, ring_entries(k));
+            let share = kinetic.ring.expect("a ring");
+            close(share, own(m, mode), kinetic_sum, ring_entries(m));
+            let (k, m) = (&solved.matrices.stiffness, &solved.matrices.mass);
+            let share: f64 = strain.parts.iter().sum::<f64>() + strain.springs[0];
+            let energy = shapes.col(mode).transpose() * stiff.col(mode);
+            close(share, energy, strain_sum, housing_entries(k));
+            let share: f64 = kinetic.parts.iter().sum::<f64>() + kinetic.masses[0];
+            let energy = shapes.col(mode).transpose() * heavy.col(mode);
+            close(share, energy, kinetic_sum, housing_entries(m));
+        }
+        // the ring is not for show
+        let most = found
+            .modes
+            .iter()
+            .filter_map(|mode| mode.strain.as_ref()?.ring);
+        assert!(most.fold(0.0, f64::max) > 0.05);
+        let other = EnergyShares::with_ring(
+            (&cells.mesh, model),
+            &solved.ring,
+            shapes,
+            &DenseMatrix::zeros(5, 12),
+            0,
+        );
+        assert!(matches!(other, Err(ModalError::Shape { .. })));
+    }
 }

@@ -1,19 +1,11 @@
 //! Strain and kinetic energies of modes, summed element by element.
 
 use super::ModalError;
+use super::element_work::{CHUNK, ElementWork};
 use super::membership::Membership;
-use crate::element::ElementError;
-use crate::element::continuum::{MAX_NODES, nodal_mass_into, stiffness_into};
 use crate::linalg::DenseMatrix;
-use crate::model::{HousingElement, HousingModel, ModelError};
+use crate::model::{HousingModel, ModelError};
 use rayon::prelude::*;
-
-/// Elements that one thread sums in a row. A constant, so that the order of the sums does not depend on the number
-/// of threads.
-const CHUNK: usize = 512;
-
-/// Largest degrees of freedom of an element.
-const MAX_DOF: usize = 3 * MAX_NODES;
 
 /// Sums by mode: strain of each part, of each group, then kinetic likewise.
 pub(super) struct Sums {
@@ -104,14 +96,9 @@ pub(super) fn element_sums(
             let mut work = ElementWork::new();
             for (place, element) in elements.iter().enumerate() {
                 let element_groups = membership.of(CHUNK * chunk + place);
-                work.load(model, element)
-                    .map_err(|source| ModelError::Element {
-                        path: model.path.clone(),
-                        tag: element.tag,
-                        source: Box::new(source),
-                    })?;
+                work.load(model, element)?;
                 for mode in 0..shapes.ncols() {
-                    let energies = work.energies(model, element, shapes, mode);
+                    let energies = work.energies(model, element, shapes.col_as_slice(mode));
                     sums.add(mode, element.part, element_groups, energies);
                 }
             }
@@ -125,72 +112,4 @@ pub(super) fn element_sums(
         }
     }
     Ok(total)
-}
-
-/// Matrices of one element, and room for its displacements.
-struct ElementWork {
-    stiffness: Vec<f64>,
-    mass: Vec<f64>,
-    nodes: usize,
-    dof: usize,
-}
-
-impl ElementWork {
-    fn new() -> Self {
-        Self {
-            stiffness: vec![0.0; MAX_DOF * MAX_DOF],
-            mass: vec![0.0; MAX_NODES * MAX_NODES],
-            nodes: 0,
-            dof: 0,
-        }
-    }
-
-    fn load(&mut self, model: &HousingModel, element: &HousingElement) -> Result<(), ElementError> {
-        let mut coordinates = [[0.0; 3]; MAX_NODES];
-        let nodes = model.elements.nodes(element);
-        for (to, &node) in coordinates.iter_mut().zip(nodes) {
-            *to = model.coordinates[node];
-        }
-        (self.nodes, self.dof) = (nodes.len(), element.kind.dof());
-        let (at, properties) = (&coordinates[..nodes.len()], &model.properties[element.part]);
-        let stiffness = &mut self.stiffness[..self.dof * self.dof];
-        stiffness_into(element.kind, at, properties, model.formulation, stiffness)?;
-        let mass = &mut self.mass[..self.nodes * self.nodes];
-        nodal_mass_into(element.kind, at, properties, mass)
-    }
-
-    /// `[phi_e^T K_e phi_e, phi_e^T M_e phi_e]`.
-    fn energies(
-        &self,
-        model: &HousingModel,
-        element: &HousingElement,
-        shapes: &DenseMatrix,
-        mode: usize,
-    ) -> [f64; 2] {
-        let d = model.dimension;
-        let mut moves = [0.0; MAX_DOF];
-        for (a, &node) in model.elements.nodes(element).iter().enumerate() {
-            for i in 0..d {
-                moves[d * a + i] = shapes[(d * node + i, mode)];
-            }
-        }
-        let mut kinetic = 0.0;
-        for b in 0..self.nodes {
-            for a in 0..self.nodes {
-                let dot: f64 = (0..d).map(|i| moves[d * a + i] * moves[d * b + i]).sum();
-                kinetic += self.mass[self.nodes * b + a] * dot;
-            }
-        }
-        for i in 0..d {
-            let mean = (0..self.nodes).map(|a| moves[d * a + i]).sum::<f64>() / self.nodes as f64;
-            (0..self.nodes).for_each(|a| moves[d * a + i] -= mean);
-        }
-        let moves = &moves[..self.dof];
-        let columns = self.stiffness[..self.dof * self.dof].chunks_exact(self.dof);
-        let strain = columns.zip(moves).map(|(column, own)| {
-            let force: f64 = column.iter().zip(moves).map(|(k, u)| k * u).sum();
-            own * force
-        });
-        [strain.sum(), kinetic]
-    }
 }

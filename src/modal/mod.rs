@@ -7,6 +7,7 @@
 mod basis;
 mod comparison;
 mod convergence;
+mod element_work;
 mod energy_shares;
 mod energy_sums;
 mod error;
@@ -16,9 +17,10 @@ mod mechanisms;
 mod membership;
 mod motions;
 mod participation;
-mod rigid;
 #[cfg(test)]
 mod samples;
+mod spring_rows;
+mod strain_products;
 
 pub use basis::{FrequencyCount, ModalBasis, ModeRange};
 pub use comparison::{
@@ -32,6 +34,6 @@ pub use error::ModalError;
 pub use housing_modes::housing_modes;
 pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
 pub use mechanisms::{Body, Joint, Mechanisms, Piece};
-pub use motions::{over_all_dofs, rigid_motions};
+pub use motions::{over_all_dofs, rigid_motions, ring_motions};
 pub use participation::Participation;
-pub use rigid::{ModeEnergy, mode_energies, rigid_mode_count, rigid_modes};
+pub use strain_products::strain_products;

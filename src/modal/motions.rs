@@ -3,7 +3,7 @@
 use super::ModalError;
 use super::error::check_count;
 use crate::linalg::{DenseMatrix, sparse_times_dense};
-use crate::model::HousingModel;
+use crate::model::{HousingModel, Ring, RingFrame};
 
 /// Unit rigid motions R of some nodes [d nodes x 3 or 6]: translations along x, y (and z), m, then rotations about
 /// axes through `about` (m), rad: about z in the plane, about x, y and z in space.
@@ -67,6 +67,40 @@ pub fn over_all_dofs(
     Ok(match model.tie_matrix() {
         Some(tie) => sparse_times_dense(&tie, &all),
         None => all,
+    })
+}
+
+/// Unit rigid motions of a ring's nodes [ring dof x 3 or 6] in the order of [`rigid_motions`]: along the mesh's axes and
+/// about axes along them through `about` (m), for a ring that sits at `frame`.
+pub fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
+    let centre = frame.centre();
+    let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
+    let motion = |translation: [f64; 3], rotation: [f64; 3]| {
+        let [x, y, z] = rotation;
+        let carried = [
+            y * arm[2] - z * arm[1],
+            z * arm[0] - x * arm[2],
+            x * arm[1] - y * arm[0],
+        ];
+        let of_centre = [0, 1, 2].map(|axis| translation[axis] + carried[axis]);
+        ring.rigid_motion_in_space(frame.vector(of_centre), frame.vector(rotation))
+    };
+    let along = |axis: usize| {
+        let mut unit = [0.0; 3];
+        unit[axis] = 1.0;
+        unit
+    };
+    let motions: Vec<Vec<f64>> = if ring.is_in_space() {
+        let translations = (0..3).map(|axis| motion(along(axis), [0.0; 3]));
+        let rotations = (0..3).map(|axis| motion([0.0; 3], along(axis)));
+        translations.chain(rotations).collect()
+    } else {
+        let translations = (0..2).map(|axis| motion(along(axis), [0.0; 3]));
+        let rotation = motion([0.0; 3], along(2));
+        translations.chain([rotation]).collect()
+    };
+    DenseMatrix::from_fn(ring.dof(), motions.len(), |row, column| {
+        motions[column][row]
     })
 }
 

@@ -46,33 +46,33 @@ impl Participation {
             }
             generalised.push(own);
         }
-        Ok(Self::with_masses(mass, shapes, rigid, &generalised))
+        let moved = sparse_times_dense(mass, rigid);
+        Ok(Self::with_masses(&moved, shapes, rigid, &generalised))
     }
 
-    /// The same for mass-normalised modes, `Phi^T M Phi = 1`, as an eigensolver returns them.
+    /// The same for mass-normalised modes, `Phi^T M Phi = 1`, as an eigensolver returns them, from `moved = M R`: the
+    /// mass itself is not needed any more.
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the numbers of rows differ.
     pub fn of_normalised(
-        mass: &SparseMatrix,
+        moved: &DenseMatrix,
         shapes: &DenseMatrix,
         rigid: &DenseMatrix,
     ) -> Result<Self, ModalError> {
-        check_count("columns of the mass matrix", mass.rows(), mass.cols())?;
-        check_count("rows of the modes", mass.rows(), shapes.nrows())?;
-        check_count("rows of the rigid motions", mass.rows(), rigid.nrows())?;
+        check_count("rows of the modes", moved.nrows(), shapes.nrows())?;
+        check_count("rows of the rigid motions", moved.nrows(), rigid.nrows())?;
         let ones = vec![1.0; shapes.ncols()];
-        Ok(Self::with_masses(mass, shapes, rigid, &ones))
+        Ok(Self::with_masses(moved, shapes, rigid, &ones))
     }
 
     fn with_masses(
-        mass: &SparseMatrix,
+        moved: &DenseMatrix,
         shapes: &DenseMatrix,
         rigid: &DenseMatrix,
         generalised: &[f64],
     ) -> Self {
-        let moved = sparse_times_dense(mass, rigid);
-        let factors = shapes.transpose() * &moved;
+        let factors = shapes.transpose() * moved;
         let effective = DenseMatrix::from_fn(factors.nrows(), factors.ncols(), |mode, j| {
             factors[(mode, j)].powi(2) / generalised[mode]
         });

@@ -1,16 +1,17 @@
 //! Small meshes of cubes and squares, and all their modes by a dense solver, for the tests of this module.
 
-use super::over_all_dofs;
-use crate::assembly::SystemMatrices;
+use super::{ModalBasis, ModeRange, over_all_dofs, strain_products};
+use crate::assembly::{CoupledMatrices, SystemMatrices};
 use crate::element::continuum::PlaneAssumption;
-use crate::linalg::{DenseMatrix, sparse_times_dense, submatrix, symmetric_generalised_eigen};
-use crate::material::Material;
+use crate::element::curved_beam::RingInterpolation;
+use crate::linalg::{DenseMatrix, EigenProblem};
+use crate::material::{BeamSection, Bond, Material, RingLayer};
 use crate::mesh::{
     ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
 };
 use crate::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
+    Ring, RingFrame, RingTie, SupportShare,
 };
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -188,22 +189,127 @@ pub(super) struct Solved {
     pub matrices: SystemMatrices,
     pub eigenvalues: Vec<f64>,
     pub shapes: DenseMatrix,
+    pub rigid_modes: usize,
 }
 
 pub(super) fn solve(mesh: &Mesh, description: HousingDescription) -> Solved {
     let model = HousingModel::new(mesh, description).expect("a model");
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
     let free = model.free_dofs();
-    let dense = |a: &crate::linalg::SparseMatrix| {
-        let part = submatrix(a, &free, &free);
-        sparse_times_dense(&part, &DenseMatrix::identity(free.len(), free.len()))
-    };
-    let spectrum = symmetric_generalised_eigen(&dense(&matrices.stiffness), &dense(&matrices.mass))
-        .expect("a spectrum");
+    let basis = sharp_modes(&model, &matrices, free.len());
     Solved {
-        shapes: over_all_dofs(&model, &free, &spectrum.vectors).expect("of its order"),
-        eigenvalues: spectrum.values,
+        shapes: over_all_dofs(&model, &free, &basis.shapes).expect("of its order"),
+        rigid_modes: basis.rigid_modes,
+        eigenvalues: basis.eigenvalues,
         model,
         matrices,
+    }
+}
+
+/// The lowest modes over the free degrees of freedom, those near zero by the energies of elements.
+pub(super) fn sharp_modes(
+    model: &HousingModel,
+    matrices: &SystemMatrices,
+    count: usize,
+) -> ModalBasis {
+    let free = model.free_dofs();
+    let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, &free);
+    let problem = problem.expect("an order");
+    let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
+    basis
+        .sharpen(|shapes| strain_products(model, &over_all_dofs(model, &free, shapes)?))
+        .expect("of its order");
+    basis
+}
+
+/// A housing with a ring in it, and its lowest modes, nothing condensed.
+pub(super) struct Ringed {
+    pub model: HousingModel,
+    pub matrices: SystemMatrices,
+    pub tie: RingTie,
+    pub ring: Ring,
+    pub basis: ModalBasis,
+    /// Shapes of the housing, tied nodes filled in [dof x count].
+    pub housing: DenseMatrix,
+    /// Shapes of the ring [ring dof x count].
+    pub of_ring: DenseMatrix,
+}
+
+/// A block of 2 x 2 (x 2) cells of 0.1 m about the origin of its frame; its corners are the bore, 0.1414 m away.
+pub(super) fn block_round_a_ring(dimension: usize) -> (Cells, RingFrame) {
+    let levels: &[i32] = if dimension == 2 { &[0] } else { &[0, 2] };
+    let corners = levels
+        .iter()
+        .flat_map(|&z| [[0, 0, z], [2, 0, z], [2, 2, z], [0, 2, z]]);
+    let cells = Cells::new(dimension, [0.1; 3])
+        .block("body", 0, [0; 3], [2, 2, 2])
+        .points("bore", 0, &corners.collect::<Vec<_>>());
+    let frame = RingFrame::new([0.1, 0.1, 0.0], [0.0, 0.0, 1.0], [1.0, 0.5, 0.0]);
+    (cells, frame.expect("two axes"))
+}
+
+/// A steel ring that fits into it.
+pub(super) fn ring_for_block(dimension: usize) -> Ring {
+    let layer = RingLayer {
+        material: Material::new(2.06e11, 0.3, 7850.0).expect("steel"),
+        area: 1e-4,
+        inertia: 8e-10,
+        axial_inertia: Some(9e-10),
+        torsion: Some(1.4e-9),
+        radius: 0.135,
+        shear_coefficient: 5.0 / 6.0,
+    };
+    let section = BeamSection::combine(&[layer], Bond::Composite).expect("a section");
+    let ring = match dimension {
+        2 => Ring::new(24, section, RingInterpolation::ExactArc),
+        _ => Ring::in_space(24, section, RingInterpolation::ExactArc),
+    };
+    ring.expect("24 nodes")
+}
+
+pub(super) fn ringed(
+    mesh: &Mesh,
+    description: HousingDescription,
+    ring: Ring,
+    fit: Fit,
+    count: usize,
+) -> Ringed {
+    let model = HousingModel::new(mesh, description).expect("a model");
+    let radius = 0.1 * 2.0_f64.sqrt();
+    let tie = RingTie::new(mesh, &model, "bore", &ring, radius, fit).expect("at the ring");
+    let matrices = SystemMatrices::assemble(&model).expect("matrices");
+    let CoupledMatrices {
+        stiffness,
+        mass,
+        free_dofs,
+        motions,
+    } = CoupledMatrices::new(&matrices, &tie, &ring);
+    let problem = EigenProblem::restricted(&stiffness, &mass, &free_dofs).expect("an order");
+    let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
+    let over_all = |shapes: &DenseMatrix| {
+        let mut all = DenseMatrix::zeros(mass.rows(), shapes.ncols());
+        for (row, &dof) in free_dofs.iter().enumerate() {
+            for mode in 0..shapes.ncols() {
+                all[(dof, mode)] = shapes[(row, mode)];
+            }
+        }
+        all
+    };
+    let products = |shapes: &DenseMatrix| {
+        let all = over_all(shapes);
+        let strain = ring.strain_products(&motions.ring(&all));
+        let housing = strain_products(&model, &motions.housing(&model, &all))?;
+        Ok::<_, super::ModalError>(housing + strain.beams + strain.springs)
+    };
+    basis.sharpen(products).expect("of its order");
+    let all = over_all(&basis.shapes);
+    Ringed {
+        housing: motions.housing(&model, &all),
+        of_ring: motions.ring(&all),
+        model,
+        matrices,
+        tie,
+        ring,
+        basis,
     }
 }

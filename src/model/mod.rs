@@ -23,7 +23,7 @@ pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use partition::HousingPartition;
-pub use ring::{Ring, RingError, RingRows, RingSpaceRows, RingSupport, SpringShare};
+pub use ring::{Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
 pub(crate) use spread::surface_kind;
 pub use support::{
     Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare,

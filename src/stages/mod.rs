@@ -7,9 +7,11 @@
 mod analysis;
 mod bearing;
 mod drawing;
+mod energy_tables;
 mod error;
 mod housing;
 mod inspect;
+mod modal_system;
 mod modal_tables;
 mod modes;
 mod modes_report;

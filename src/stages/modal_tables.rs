@@ -14,9 +14,6 @@ fn directions(columns: usize) -> &'static [&'static str] {
     }
 }
 
-/// Shares below this are not listed by name.
-const LISTED_SHARE: f64 = 0.005;
-
 /// Every mode with its error bound, its residual and what it is.
 pub(super) fn frequency_table(survey: &ModalSurvey) -> Table {
     let basis = &survey.basis;
@@ -71,7 +68,7 @@ pub(super) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
         Fact::new("Orthogonality", significant(basis.orthogonality, 2))
             .note("largest entry of Phi^T M Phi - 1"),
         Fact::new("Modes without strain", basis.rigid_modes.to_string())
-            .note("strain energy zero within its error bound"),
+            .note("strain energy, summed element by element, zero within its error bound"),
     ]
 }
 
@@ -216,51 +213,6 @@ pub(super) fn effective_mass_bars(survey: &ModalSurvey) -> Bars {
         bars = bars.series(*name, (0..count).map(share).collect());
     }
     bars
-}
-
-/// Where each mode's strain energy is.
-pub(super) fn energy_table(survey: &ModalSurvey) -> Option<Table> {
-    let shares = survey.shares.as_ref()?;
-    if shares.parts.len() + shares.springs.len() < 2 {
-        return None;
-    }
-    let mut columns = vec![
-        Column::number("Mode", ""),
-        Column::number("Frequency", "Hz"),
-    ];
-    columns.extend(
-        shares
-            .parts
-            .iter()
-            .map(|name| Column::number(name.clone(), "%")),
-    );
-    columns.extend(
-        shares
-            .springs
-            .iter()
-            .map(|name| Column::number(name.clone(), "%")),
-    );
-    let mut table = Table::new("Strain energy", columns);
-    for (mode, of_mode) in shares.modes.iter().enumerate() {
-        let mut cells = vec![
-            Cell::text((mode + 1).to_string()),
-            Cell::number(survey.basis.frequencies_hz[mode], 6),
-        ];
-        match &of_mode.strain {
-            Some(strain) => cells.extend(strain.parts.iter().chain(&strain.springs).map(|share| {
-                let text = if *share < LISTED_SHARE {
-                    "<0.5".to_owned()
-                } else {
-                    format!("{:.1}", 100.0 * share)
-                };
-                Cell::text(text).value(100.0 * share)
-            })),
-            None => cells
-                .extend((0..shares.parts.len() + shares.springs.len()).map(|_| Cell::text("-"))),
-        }
-        table = table.row(cells);
-    }
-    Some(table.showing_modes(shown_places(survey)))
 }
 
 /// Why there are motions without strain, in sentences: a free housing, parts that are not connected, mechanisms.

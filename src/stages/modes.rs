@@ -1,6 +1,7 @@
 //! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded, and the
 //! verification against expected ones.
 
+use super::modal_system::{UnloadedModes, unloaded_modes};
 use super::shape_view::{shape_view, shown_places};
 use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
 use crate::case::{Case, Expected, Linearise, ModeExtent};
@@ -34,9 +35,13 @@ pub struct Reading {
     pub what: String,
     /// The keys that it sets.
     pub set: Vec<String>,
-    /// Modes without contact, Hz, ascending, as many as asked for.
+    /// Modes without contact in full, Hz, ascending, as many as asked for.
     pub unloaded_hz: Vec<f64>,
-    /// Modes linearised at the static equilibrium, if asked for.
+    /// How far condensing the housing moves them: the largest relative difference of the frequencies of the condensed
+    /// model from these, over the elastic modes listed. Loaded modes are those of the condensed model. `None` where
+    /// nothing is condensed.
+    pub condensation_difference: Option<f64>,
+    /// Modes linearised at the static equilibrium, if asked for, with the housing condensed.
     pub loaded: Option<LoadedModes>,
     /// The equilibrium that they belong to.
     pub equilibrium: Option<Equilibrium>,
@@ -136,10 +141,11 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
     };
     let survey = ModalSurvey::of_structure(&stage, case.modes.extent, watch)?;
     watch.stage("linearise");
-    let mut base = reading(case, &stage, String::new(), Vec::new())?;
-    // in full where the others are condensed
-    base.unloaded_hz.clone_from(&survey.basis.frequencies_hz);
-    base.expected = judge(&base, &case.modes.expected);
+    let unloaded = UnloadedModes {
+        frequencies_hz: survey.basis.frequencies_hz.clone(),
+        rigid: survey.basis.rigid_modes,
+    };
+    let base = reading(case, &stage, unloaded, String::new(), Vec::new())?;
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
@@ -148,7 +154,9 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
         let set = case.modes.variants[index].set.clone();
         let built = StructureStage::build(&variant.case, &super::Unwatched)?;
         if let Some(built) = built {
-            variants.push(reading(&variant.case, &built, variant.what.clone(), set)?);
+            let unloaded = unloaded_modes(&built, variant.case.modes.extent)?;
+            let what = variant.what.clone();
+            variants.push(reading(&variant.case, &built, unloaded, what, set)?);
         }
     }
     Ok(ModesResult {
@@ -179,6 +187,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         what: String::new(),
         set: Vec::new(),
         unloaded_hz: survey.basis.frequencies_hz.clone(),
+        condensation_difference: None,
         loaded: None,
         equilibrium: None,
         expected: Vec::new(),
@@ -196,12 +205,10 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
 fn reading(
     case: &Case,
     stage: &StructureStage,
+    unloaded: UnloadedModes,
     what: String,
     set: Vec<String>,
 ) -> Result<Reading, StageError> {
-    let all: Vec<f64> = (0..stage.modes.count())
-        .map(|mode| stage.modes.frequency_hz(mode))
-        .collect();
     let (loaded, equilibrium) = match (case.modes.linearise, bearing_setup(case)?) {
         (Linearise::Static, Some(setup)) => {
             let t = case
@@ -217,7 +224,8 @@ fn reading(
     let mut reading = Reading {
         what,
         set,
-        unloaded_hz: limited(&all, case.modes.extent),
+        condensation_difference: condensation_difference(stage, &unloaded, case.modes.extent),
+        unloaded_hz: unloaded.frequencies_hz,
         loaded,
         equilibrium,
         expected: Vec::new(),
@@ -226,14 +234,30 @@ fn reading(
     Ok(reading)
 }
 
-fn limited(frequencies_hz: &[f64], extent: ModeExtent) -> Vec<f64> {
-    let ascending = frequencies_hz.iter().copied();
+/// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
+/// there are no elastic modes to compare.
+fn condensation_difference(
+    stage: &StructureStage,
+    full: &UnloadedModes,
+    extent: ModeExtent,
+) -> Option<f64> {
+    stage.housing.as_ref()?;
+    let condensed: Vec<f64> = (0..stage.modes.count())
+        .map(|mode| stage.modes.frequency_hz(mode))
+        .collect();
+    let largest = |first: usize| {
+        let pairs = condensed.get(first..)?.iter().zip(&full.frequencies_hz);
+        let differences = pairs
+            .skip(full.rigid)
+            .map(|(own, full)| (own / full - 1.0).abs());
+        differences.reduce(f64::max)
+    };
     match extent {
-        ModeExtent::Count(count) => ascending.take(count).collect(),
-        ModeExtent::UpToHz(hz) => ascending.take_while(|&frequency| frequency <= hz).collect(),
-        ModeExtent::BandHz([low, high]) => ascending
-            .filter(|&frequency| frequency >= low && frequency <= high)
-            .collect(),
+        ModeExtent::Count(_) | ModeExtent::UpToHz(_) => largest(0),
+        // how many modes lie below the band is not known: where they fit best
+        ModeExtent::BandHz(_) => (0..=condensed.len().saturating_sub(full.frequencies_hz.len()))
+            .filter_map(largest)
+            .min_by(f64::total_cmp),
     }
 }
 

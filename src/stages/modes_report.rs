@@ -1,9 +1,10 @@
 //! The report of `plummer modes`: a modal verification report.
 
 use super::drawing::draw;
+use super::energy_tables::energy_tables;
 use super::modal_tables::{
-    complete, effective_mass_bars, effective_mass_table, energy_table, free_motions,
-    frequency_table, mass_facts, material_table, proof_facts,
+    complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts,
+    material_table, proof_facts,
 };
 use super::shape_view::shape_view;
 use super::tables::{
@@ -42,7 +43,7 @@ pub fn modes_report(
         let mut mass = Section::new("Effective mass")
             .bars(effective_mass_bars(&result.survey))
             .table(effective_mass_table(&result.survey));
-        if let Some(table) = energy_table(&result.survey) {
+        for table in energy_tables(&result.survey) {
             mass = mass.table(table);
         }
         let shapes = ModeShapeView {
@@ -56,7 +57,7 @@ pub fn modes_report(
     if !result.variants.is_empty() {
         report = report.section(
             Section::new("What each choice does")
-                .paragraph("The same case with one choice changed at a time, nearest mode to each expected frequency; housings condensed.")
+                .paragraph("The same case with one choice changed at a time, nearest mode to each expected frequency. Modes without contact are in full; those under load belong to a model with its housing condensed.")
                 .table(variant_table(&result.base, &result.variants)),
         );
     }
@@ -178,9 +179,24 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
 fn frequencies(result: &ModesResult) -> Section {
     let section = Section::new("Eigenfrequencies").table(frequency_table(&result.survey));
     match &result.base.loaded {
-        Some(loaded) => section.table(mode_table(&result.base.unloaded_hz, Some(loaded))),
+        Some(loaded) => {
+            let table = mode_table(&result.base.unloaded_hz, Some(loaded));
+            section.table(match condensation(&result.base) {
+                Some(text) => table.footnote(text),
+                None => table,
+            })
+        }
         None => section,
     }
+}
+
+/// What condensing the housing does to the frequencies, so that nobody takes it for an effect of the load.
+fn condensation(reading: &Reading) -> Option<String> {
+    let difference = reading.condensation_difference?;
+    Some(format!(
+        "Loaded modes are those of a model with its housing condensed. That alone moves the elastic frequencies without contact listed by {} % at most: a smaller difference between the columns says nothing of the load.",
+        significant(100.0 * difference, 2)
+    ))
 }
 
 fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
@@ -196,6 +212,7 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
         "Modes below 40 kHz without the balls' own",
         "kHz",
     ));
+    columns.push(Column::number("Condensation moves by", "%"));
     let mut table = Table::new("Readings side by side", columns);
     for reading in std::iter::once(base).chain(variants) {
         let name = if reading.what.is_empty() {
@@ -214,6 +231,10 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
             cells.push(Cell::text(text).judged(Verdict::of(expected.ok)));
         }
         cells.push(Cell::text(own_modes(reading)));
+        cells.push(match reading.condensation_difference {
+            Some(difference) => Cell::number(100.0 * difference, 2),
+            None => Cell::text("-"),
+        });
         table = table.row(cells);
     }
     table

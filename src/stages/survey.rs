@@ -1,15 +1,16 @@
 //! The modes of a case's housing, ring, or both, without contact and in full: nothing condensed.
 
+use super::modal_system::System;
 use super::{HousingStage, StageError, StructureStage, Watch};
-use crate::assembly::{CoupledMatrices, SystemMatrices};
+use crate::assembly::SystemMatrices;
 use crate::case::ModeExtent;
-use crate::linalg::{DenseMatrix, EigenProblem, SparseMatrix, TripletBuilder, sparse_times_dense};
+use crate::linalg::{DenseMatrix, sparse_times_dense};
 use crate::mesh::Mesh;
 use crate::modal::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, Participation,
-    over_all_dofs, rigid_motions,
+    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, Participation, over_all_dofs,
+    rigid_motions, ring_motions, strain_products,
 };
-use crate::model::{HousingModel, Ring, RingFrame};
+use crate::model::{HousingModel, Ring, RingFrame, RingTie};
 
 /// Modes and all that is said of them.
 #[derive(Debug, Clone)]
@@ -24,9 +25,10 @@ pub struct ModalSurvey {
     pub mass: MassProperties,
     /// Participation factors and effective masses, rotations about the centroid.
     pub participation: Participation,
-    /// Where the energy of each mode is; of a housing alone, of several parts or on springs.
+    /// Where the energy of each mode is; `None` if there is only one place for it: one part, which is the only group
+    /// too, or a ring, without springs.
     pub shares: Option<EnergyShares>,
-    /// Why modes without strain exist; of a housing alone, `None` too if it falls into too many bodies.
+    /// Why modes without strain exist; `None` if the housing falls into too many bodies.
     pub mechanisms: Option<Mechanisms>,
     /// Displacements of the housing's degrees of freedom in the mesh's axes [dof x count].
     pub housing: Option<DenseMatrix>,
@@ -41,14 +43,6 @@ pub struct RingShapes {
     pub points: Vec<[f64; 3]>,
     /// Displacements, by mode and node.
     pub displacements: Vec<Vec<[f64; 3]>>,
-}
-
-/// Matrices with what the analysis of their modes needs.
-struct System {
-    stiffness: SparseMatrix,
-    mass: SparseMatrix,
-    free: Vec<usize>,
-    dof: usize,
 }
 
 impl ModalSurvey {
@@ -71,20 +65,21 @@ impl ModalSurvey {
             stiffness: matrices.stiffness,
             mass: matrices.mass,
         };
-        let (basis, all, participation, free_dof) = system.solve(extent, &rigid, watch)?;
-        watch.stage("analyse");
         let free = model.free_dofs();
-        let shapes = over_all_dofs(model, &free, &rows(&all, &free))?;
-        // one part without springs has all of the energy
-        let several = model.part_names().len() > 1 || !model.spring_nodes().is_empty();
+        let over_all = |all: &DenseMatrix| over_all_dofs(model, &free, &rows(all, &free));
+        let products = |all: &DenseMatrix| Ok(strain_products(model, &over_all(all)?)?);
+        let (basis, all, participation, free_dof) =
+            system.solve(extent, &rigid, products, watch)?;
+        watch.stage("analyse");
+        let shapes = over_all(&all)?;
+        let groups = mesh.groups.iter();
+        let groups = groups.filter(|group| group.dimension == model.dimension());
+        let several =
+            model.part_names().len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
         let shares = several
             .then(|| EnergyShares::new(mesh, model, &shapes, basis.rigid_modes))
             .transpose()?;
-        let mechanisms = match Mechanisms::find(mesh, model) {
-            Ok(found) => Some(found),
-            Err(ModalError::TooManyBodies { .. }) => None,
-            Err(error) => return Err(error.into()),
-        };
+        let mechanisms = unless_crumbs(Mechanisms::find(mesh, model))?;
         Ok(Self {
             dof: model.dof(),
             free_dof,
@@ -109,109 +104,95 @@ impl ModalSurvey {
     ) -> Result<Self, StageError> {
         let ring = stage.structure.ring();
         match (&stage.housing, &stage.tie) {
-            (Some(housing), Some(tie)) => {
-                let coupled = CoupledMatrices::new(&housing.matrices, tie, ring);
-                Self::of_coupled(housing, ring, coupled, extent, watch)
-            }
+            (Some(housing), Some(tie)) => Self::of_coupled(housing, tie, ring, extent, watch),
             _ => Self::of_ring(ring, extent, watch),
         }
     }
 
     fn of_coupled(
         housing: &HousingStage,
+        tie: &RingTie,
         ring: &Ring,
-        coupled: CoupledMatrices,
         extent: ModeExtent,
         watch: &impl Watch,
     ) -> Result<Self, StageError> {
-        let (model, frame) = (&housing.model, housing.model.frame());
+        let HousingStage { mesh, model, .. } = housing;
+        let frame = model.frame();
+        let (system, motions) = System::coupled(housing, tie, ring);
         let rigid_about = |about: [f64; 3]| {
             let of_housing = rigid_motions(model.coordinates(), model.dimension(), about);
-            coupled.coordinates(&of_housing, &ring_motions(ring, frame, about))
+            motions.coordinates(&of_housing, &ring_motions(ring, frame, about))
         };
         let inertia = |about: [f64; 3]| {
             let rigid = rigid_about(about);
-            let inertia = rigid.transpose() * sparse_times_dense(&coupled.mass, &rigid);
+            let inertia = rigid.transpose() * sparse_times_dense(&system.mass, &rigid);
             MassProperties::from_rigid_inertia(&inertia, about)
         };
         // a second time about the centroid itself, where nothing is left to subtract
         let mass = inertia(centroid(&inertia(frame.centre())?))?;
         let rigid = rigid_about(centroid(&mass));
-        let system = System {
-            free: coupled.free_dofs.clone(),
-            dof: coupled.mass.rows(),
-            stiffness: coupled.stiffness.clone(),
-            mass: coupled.mass.clone(),
+        let products = |all: &DenseMatrix| {
+            let of_ring = ring.strain_products(&motions.ring(all));
+            let of_housing = strain_products(model, &motions.housing(model, all))?;
+            Ok(of_housing + of_ring.beams + of_ring.springs)
         };
-        let (basis, all, participation, free_dof) = system.solve(extent, &rigid, watch)?;
+        let (basis, all, participation, free_dof) =
+            system.solve(extent, &rigid, products, watch)?;
         watch.stage("analyse");
+        let shapes = motions.housing(model, &all);
+        let of_ring = motions.ring(&all);
+        let shares =
+            EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, basis.rigid_modes)?;
+        let mechanisms = unless_crumbs(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
         Ok(Self {
             dof: model.dof() + ring.dof(),
             free_dof,
             basis,
             mass,
             participation,
-            shares: None,
-            mechanisms: None,
-            housing: Some(coupled.housing(model, &all)),
-            ring: Some(RingShapes::new(ring, frame, &coupled.ring(&all))),
+            shares: Some(shares),
+            mechanisms,
+            housing: Some(shapes),
+            ring: Some(RingShapes::new(ring, frame, &of_ring)),
         })
     }
 
     fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, StageError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
-        let system = System {
-            free: (0..ring.dof()).collect(),
-            dof: ring.dof(),
-            stiffness: sparse(ring.stiffness()),
-            mass: sparse(ring.mass()),
-        };
+        let system = System::of_ring(ring);
         let inertia = rigid.transpose() * sparse_times_dense(&system.mass, &rigid);
         let mass = MassProperties::from_rigid_inertia(&inertia, [0.0; 3])?;
-        let (basis, all, participation, free_dof) = system.solve(extent, &rigid, watch)?;
+        let products = |all: &DenseMatrix| {
+            let strain = ring.strain_products(all);
+            Ok(strain.beams + strain.springs)
+        };
+        let (basis, all, participation, free_dof) =
+            system.solve(extent, &rigid, products, watch)?;
+        let shares = ring
+            .has_springs()
+            .then(|| EnergyShares::of_ring(ring, &all, basis.rigid_modes))
+            .transpose()?;
         Ok(Self {
             dof: ring.dof(),
             free_dof,
             basis,
             mass,
             participation,
-            shares: None,
-            mechanisms: None,
+            shares,
+            mechanisms: Some(Mechanisms::of_ring(ring)),
             housing: None,
             ring: Some(RingShapes::new(ring, &frame, &all)),
         })
     }
 }
 
-impl System {
-    /// Modes, their shapes over all rows, and their participation. The stiffness is gone before it is factorised.
-    fn solve(
-        self,
-        extent: ModeExtent,
-        rigid: &DenseMatrix,
-        watch: &impl Watch,
-    ) -> Result<(ModalBasis, DenseMatrix, Participation, usize), StageError> {
-        let Self {
-            stiffness,
-            mass,
-            free,
-            dof,
-        } = self;
-        watch.stage("order");
-        let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
-        drop(stiffness);
-        watch.stage("eigen");
-        let basis = ModalBasis::of(&problem, range(extent, free.len()))?;
-        drop(problem);
-        let mut all = DenseMatrix::zeros(dof, basis.count());
-        for (row, &at) in free.iter().enumerate() {
-            for mode in 0..basis.count() {
-                all[(at, mode)] = basis.shapes[(row, mode)];
-            }
-        }
-        let participation = Participation::of_normalised(&mass, &all, rigid)?;
-        Ok((basis, all, participation, free.len()))
+/// A mesh in too many bodies is worth no error where only reasons were asked for.
+fn unless_crumbs(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechanisms>, ModalError> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(ModalError::TooManyBodies { .. }) => Ok(None),
+        Err(error) => Err(error),
     }
 }
 
@@ -239,61 +220,8 @@ impl RingShapes {
     }
 }
 
-fn range(extent: ModeExtent, free_dof: usize) -> ModeRange {
-    match extent.of_model(free_dof) {
-        ModeExtent::Count(count) => ModeRange::Count(count),
-        ModeExtent::UpToHz(hz) => ModeRange::UpToHz(hz),
-        ModeExtent::BandHz(band) => ModeRange::BandHz(band),
-    }
-}
-
 fn centroid(mass: &MassProperties) -> [f64; 3] {
     mass.centroid().map(|component| component.unwrap_or(0.0))
-}
-
-/// Rigid motions of a ring [ring dof x 3 or 6] in the order of [`rigid_motions`]: along and about the mesh's axes.
-fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
-    let centre = frame.centre();
-    let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
-    let motion = |translation: [f64; 3], rotation: [f64; 3]| {
-        let [x, y, z] = rotation;
-        let carried = [
-            y * arm[2] - z * arm[1],
-            z * arm[0] - x * arm[2],
-            x * arm[1] - y * arm[0],
-        ];
-        let of_centre = [0, 1, 2].map(|axis| translation[axis] + carried[axis]);
-        ring.rigid_motion_in_space(frame.vector(of_centre), frame.vector(rotation))
-    };
-    let along = |axis: usize| {
-        let mut unit = [0.0; 3];
-        unit[axis] = 1.0;
-        unit
-    };
-    let motions: Vec<Vec<f64>> = if ring.is_in_space() {
-        let translations = (0..3).map(|axis| motion(along(axis), [0.0; 3]));
-        let rotations = (0..3).map(|axis| motion([0.0; 3], along(axis)));
-        translations.chain(rotations).collect()
-    } else {
-        let translations = (0..2).map(|axis| motion(along(axis), [0.0; 3]));
-        let rotation = motion([0.0; 3], along(2));
-        translations.chain([rotation]).collect()
-    };
-    DenseMatrix::from_fn(ring.dof(), motions.len(), |row, column| {
-        motions[column][row]
-    })
-}
-
-fn sparse(dense: &DenseMatrix) -> SparseMatrix {
-    let mut entries = TripletBuilder::new(dense.nrows(), dense.ncols());
-    for column in 0..dense.ncols() {
-        for row in 0..dense.nrows() {
-            if dense[(row, column)] != 0.0 {
-                entries.add(row, column, dense[(row, column)]);
-            }
-        }
-    }
-    entries.build()
 }
 
 /// Some rows of a matrix.

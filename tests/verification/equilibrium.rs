@@ -240,15 +240,16 @@ fn integrators_leave_an_equilibrium_alone() {
 fn integrators_leave_a_tied_housing_in_equilibrium() {
     let structure = Housing::new("ring_6_9", true, Fit::Bonded).structure(40);
     let modes = structure.modes().unwrap();
-    for (first_deg, limit) in [(270.0, 1e-11), (SYMMETRIC_DEG, 1e-5)] {
+    // found 1.4e-12 N with the ball on a ring node and 4.3e-8 N inside an element, half of what the beam ring leaves there
+    for (first_deg, limit) in [(270.0, 1e-11), (SYMMETRIC_DEG, 1e-7)] {
         let case = Case {
             structure: &structure,
             modes: &modes,
             first_deg,
         };
         let all = case.drift(ModeSelection::All, false, Method::Exponential);
-        assert!(all.force < 1e-9, "{first_deg}: {:e} N", all.force);
-        // as for the beam ring
+        // round-off, found 2e-11 N
+        assert!(all.force < 1e-10, "{first_deg}: {:e} N", all.force);
         let few = case.drift(ModeSelection::UpTo(60e3), true, Method::Exponential);
         assert!(few.force < limit, "{first_deg}: {:e} N", few.force);
     }

@@ -19,20 +19,19 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use plummer::assembly::SystemMatrices;
+use plummer::assembly::{CoupledMatrices, SystemMatrices};
 use plummer::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SpeedProfile,
 };
 use plummer::dynamics::State;
 use plummer::element::continuum::PlaneAssumption;
 use plummer::element::curved_beam::RingInterpolation;
-use plummer::linalg::{DenseMatrix, SparseMatrix, TripletBuilder};
+use plummer::linalg::{DenseMatrix, SparseMatrix};
 use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::mesh::Mesh;
 use plummer::model::{
-    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingPartition,
-    HousingSupport, PlaneModel, Ring, RingSupport, RingTie, SpringShare, SpringStiffness,
-    SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
+    Ring, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
 use plummer::reduction::{FixedModeSelection, Superelement, craig_bampton};
 use plummer::system::{BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure};
@@ -213,40 +212,16 @@ impl Housing {
     }
 
     /// Ring and housing without any reduction: (K, M) over ring displacements, then interior ones.
-    pub fn full(&self, partition: &HousingPartition) -> (SparseMatrix, SparseMatrix) {
-        let (b, i) = (&partition.driven, &partition.interior);
-        let ring_dof = self.ring.dof();
-        let mut expand = TripletBuilder::new(self.model.dof(), ring_dof + i.len());
-        for (column, entries) in partition.tie.outer_iterator().enumerate() {
-            for (row, &value) in entries.iter() {
-                expand.add(b[row], column, value);
-            }
-        }
-        for (place, &dof) in i.iter().enumerate() {
-            expand.add(dof, ring_dof + place, 1.0);
-        }
-        let expand = expand.build();
-        let tied = |housing: &SparseMatrix, ring: &DenseMatrix| {
-            let product = plummer::linalg::congruence(housing, &expand);
-            let mut sum = TripletBuilder::new(product.rows(), product.cols());
-            for (column, entries) in product.outer_iterator().enumerate() {
-                for (row, &value) in entries.iter() {
-                    sum.add(row, column, value);
-                }
-            }
-            for column in 0..ring_dof {
-                for row in 0..ring_dof {
-                    if ring[(row, column)] != 0.0 {
-                        sum.add(row, column, ring[(row, column)]);
-                    }
-                }
-            }
-            sum.build()
-        };
-        (
-            tied(&self.matrices.stiffness, self.ring.stiffness()),
-            tied(&self.matrices.mass, self.ring.mass()),
-        )
+    pub fn full(&self) -> (SparseMatrix, SparseMatrix) {
+        // the coupling turns the housing's displacements itself
+        let matrices = SystemMatrices::assemble(&self.model).unwrap();
+        let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring);
+        let first = coupled.stiffness.rows() - self.ring.dof();
+        let (interior, ring): (Vec<usize>, Vec<usize>) =
+            coupled.free_dofs.iter().partition(|&&dof| dof < first);
+        let order = [ring, interior].concat();
+        let part = |whole: &SparseMatrix| plummer::linalg::submatrix(whole, &order, &order);
+        (part(&coupled.stiffness), part(&coupled.mass))
     }
 }
 

@@ -84,6 +84,11 @@ impl CurvedBeam {
         self.half_angle
     }
 
+    /// Whether a rigid motion of both nodes strains nothing; that of the polynomial element does.
+    pub fn is_exact_for_rigid_motions(&self) -> bool {
+        matches!(self.field, Field::ExactArc(_))
+    }
+
     /// Stiffness matrix [6 x 6] in N/m, N and N m.
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness

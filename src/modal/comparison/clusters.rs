@@ -1,17 +1,17 @@
 //! Modes whose frequencies are so close that only the space that they span means something.
 
-use super::super::rigid_mode_count;
+/// Ratio of frequencies below which one counts as zero beside the next. A list from a measurement or another program has
+/// neither energies nor bounds; round-off leaves 1e-7 and less of the first elastic frequency.
+const ZERO: f64 = 1e-5;
 
 /// Lists of modes, by ascending frequency, in which each follows the one before within the relative gap. Modes without
 /// stiffness (zero, or round-off beside the next frequency) are one cluster, whatever their gaps.
 pub(super) fn clusters(frequencies_hz: &[f64], gap: f64) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..frequencies_hz.len()).collect();
     order.sort_by(|&a, &b| frequencies_hz[a].total_cmp(&frequencies_hz[b]));
-    let squares: Vec<f64> = order
-        .iter()
-        .map(|&mode| frequencies_hz[mode].powi(2))
-        .collect();
-    let rigid = rigid_mode_count(&squares);
+    let ascending = |place: usize| frequencies_hz[order[place]];
+    let without = |&count: &usize| ascending(count - 1) < ZERO * ascending(count);
+    let rigid = (1..order.len()).rfind(without).unwrap_or(0);
     let mut found: Vec<Vec<usize>> = Vec::new();
     for (place, &mode) in order.iter().enumerate() {
         let joins = place > 0 && {

@@ -1,7 +1,7 @@
 //! Bodies of a housing: elements that hang together through whole faces, edges in the plane.
 
 use crate::mesh::{ElementKind, Sets};
-use crate::model::{HousingModel, continuum_kind};
+use crate::model::{HousingModel, Ring, continuum_kind};
 use std::collections::BTreeMap;
 
 /// A face by its sorted corners; `NO_CORNER` fills up.
@@ -20,6 +20,8 @@ pub(super) struct BodyMap {
     first: Vec<u32>,
     /// Bodies after the first of the nodes that several share.
     pub shared: BTreeMap<usize, Vec<usize>>,
+    /// The ring in the bore; it has no nodes here.
+    pub ring: Option<usize>,
 }
 
 /// Where a body is.
@@ -80,7 +82,18 @@ impl BodyMap {
             extents,
             first,
             shared,
+            ring: None,
         }
+    }
+
+    /// Adds the ring in the bore as the last body.
+    pub fn add_ring(&mut self, model: &HousingModel, ring: &Ring) {
+        self.ring = Some(self.extents.len());
+        self.extents.push(Extent {
+            elements: ring.nodes(),
+            centre: model.frame.centre(),
+            radius: ring.section().radius,
+        });
     }
 
     /// A body that the node belongs to; `None` for a node that no element uses.

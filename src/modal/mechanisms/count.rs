@@ -4,9 +4,9 @@ use super::super::ModalError;
 use super::super::membership::Membership;
 use super::super::motions::{rigid_component, rigid_count};
 use super::bodies::BodyMap;
-use super::rows::{AllConstraints, Between, Constraints, rank};
+use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
 use crate::mesh::{Mesh, Sets};
-use crate::model::HousingModel;
+use crate::model::{HousingModel, Ring, RingFrame, RingTie};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -16,6 +16,8 @@ const MOST_BODIES: usize = 200;
 /// Elements that hang together through whole faces (edges in the plane).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Body {
+    /// Whether it is the ring, which has neither parts nor groups.
+    pub is_ring: bool,
     /// Parts that it has elements of.
     pub parts: Vec<String>,
     /// Physical groups of volumes (plane: surfaces) that it has elements of.
@@ -31,7 +33,7 @@ pub struct Body {
 /// Bodies that are joined somehow, directly or through others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Piece {
-    /// Its bodies, largest first.
+    /// Its bodies, largest first, the ring last.
     pub bodies: Vec<usize>,
     /// Number of elements.
     pub elements: usize,
@@ -63,7 +65,7 @@ pub struct Mechanisms {
     pub dimension: usize,
     /// The bodies, in the order of the mesh.
     pub bodies: Vec<Body>,
-    /// The pieces, largest first.
+    /// The pieces; first the ring's, then the largest.
     pub pieces: Vec<Piece>,
     /// Joints that let bodies of a piece with internal motions move.
     pub joints: Vec<Joint>,
@@ -78,19 +80,75 @@ pub struct Mechanisms {
 impl Mechanisms {
     /// Finds them in O(elements log elements), and a dense problem on the bodies.
     ///
-    /// The ring is not part of it: what its tie holds counts as free here.
-    ///
     /// # Errors
     /// [`ModalError::TooManyBodies`] for more than 200 bodies, [`ModalError::Shape`] for another mesh than the model's.
     pub fn find(mesh: &Mesh, model: &HousingModel) -> Result<Self, ModalError> {
-        let map = BodyMap::new(model);
+        Self::of_bodies(mesh, model, None)
+    }
+
+    /// The same of a housing with the ring in its bore: the ring is one more body, joined by the tie.
+    ///
+    /// # Errors
+    /// As [`Mechanisms::find`].
+    pub fn find_with_ring(
+        mesh: &Mesh,
+        model: &HousingModel,
+        tie: &RingTie,
+        ring: &Ring,
+    ) -> Result<Self, ModalError> {
+        Self::of_bodies(mesh, model, Some((tie, ring)))
+    }
+
+    /// The motions of a ring alone that its springs leave, in its own axes.
+    pub fn of_ring(ring: &Ring) -> Self {
+        let dimension = if ring.is_in_space() { 3 } else { 2 };
+        let full = rigid_count(dimension);
+        let rows = ring_spring_rows(ring, &RingFrame::default());
+        let rows: Vec<Vec<f64>> = rows.into_iter().map(|row| row[..full].to_vec()).collect();
+        let rigid = full - rank(&rows);
+        let of_whole = if rigid == full { full } else { 0 };
+        Self {
+            dimension,
+            bodies: vec![Body {
+                is_ring: true,
+                parts: Vec::new(),
+                groups: Vec::new(),
+                elements: ring.nodes(),
+                centroid: [0.0; 3],
+                piece: 0,
+            }],
+            pieces: vec![Piece {
+                bodies: vec![0],
+                elements: ring.nodes(),
+                rigid,
+                internal: 0,
+            }],
+            joints: Vec::new(),
+            of_whole,
+            of_loose_pieces: 0,
+            mechanisms: rigid - of_whole,
+        }
+    }
+
+    fn of_bodies(
+        mesh: &Mesh,
+        model: &HousingModel,
+        ring: Option<(&RingTie, &Ring)>,
+    ) -> Result<Self, ModalError> {
+        let mut map = BodyMap::new(model);
+        if let Some((_, ring)) = ring {
+            map.add_ring(model, ring);
+        }
         if map.extents.len() > MOST_BODIES {
             return Err(ModalError::TooManyBodies {
                 found: map.extents.len(),
                 limit: MOST_BODIES,
             });
         }
-        let constraints = AllConstraints::new(model, &map);
+        let mut constraints = AllConstraints::new(model, &map);
+        if let Some((tie, ring)) = ring {
+            constraints.add_ring(tie, ring);
+        }
         let mut bodies = described(mesh, model, &map)?;
         let full = rigid_count(model.dimension);
         let mut pieces = Vec::new();
@@ -105,7 +163,8 @@ impl Mechanisms {
                 internal: all.saturating_sub(rigid),
             });
         }
-        pieces.sort_by_key(|piece| std::cmp::Reverse(piece.elements));
+        let has_ring = |piece: &Piece| map.ring.is_some_and(|ring| piece.bodies.contains(&ring));
+        pieces.sort_by_key(|piece| std::cmp::Reverse((has_ring(piece), piece.elements)));
         for (number, piece) in pieces.iter().enumerate() {
             piece
                 .bodies
@@ -167,7 +226,9 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
     };
     let bodies = map.extents.iter().zip(parts.iter().zip(&groups));
     Ok(bodies
-        .map(|(extent, (parts, groups))| Body {
+        .enumerate()
+        .map(|(number, (extent, (parts, groups)))| Body {
+            is_ring: map.ring == Some(number),
             parts: names(&model.part_groups, parts),
             groups: names(&membership.names, groups),
             elements: extent.elements,
@@ -177,7 +238,7 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
         .collect())
 }
 
-/// Sets of joined bodies; the largest body of each first.
+/// Sets of joined bodies; the largest body of each first, the ring last.
 fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
     let count = map.extents.len();
     let mut sets = Sets::new(count);
@@ -190,7 +251,9 @@ fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
     (0..count).for_each(|body| members[sets.root(body)].push(body));
     members.retain(|members| !members.is_empty());
     for members in &mut members {
-        members.sort_by_key(|&body| std::cmp::Reverse(map.extents[body].elements));
+        // the ring last: a piece is named by its first
+        let key = |&body: &usize| (map.ring != Some(body), map.extents[body].elements);
+        members.sort_by_key(|body| std::cmp::Reverse(key(body)));
     }
     members
 }

@@ -3,19 +3,17 @@
 //! A body's motion is its translation and its rotation times its radius, about its centre: all of one unit, so that
 //! entries are of the order 1 for bodies of any size.
 
-use super::super::motions::{rigid_component, rigid_count};
+use super::super::motions::{rigid_component, rigid_count, ring_motions};
+use super::super::spring_rows::{SpringRow, spring_rows};
 use super::bodies::BodyMap;
 use crate::linalg::DenseMatrix;
-use crate::model::{HousingModel, NodalSource};
+use crate::model::{HousingModel, NodalSource, Ring, RingFrame, RingTie};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this count as zero: nodes of a hinge that are out of line by less than a millionth of the
 /// body. Coordinates have 1e-16 of its place, the least joint of a mesh is one element, 1e-3 of it.
 const RANK: f64 = 1e-6;
-
-/// Part of its own stiffness that a component of a spring must have left beside those before, to be a spring of its own.
-const OWN_STIFFNESS: f64 = 1e-12;
 
 /// Which bodies a constraint acts on, and whether it holds them to the ground or to each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,6 +74,36 @@ impl<'m> AllConstraints<'m> {
         let own = row.entry(body).or_default();
         for (motion, entry) in own.iter_mut().enumerate().take(rigid_count(d)) {
             *entry += factor * rigid_component(d, arm, component, motion);
+        }
+    }
+
+    /// The ring: every driven displacement of the bore follows it, and its springs hold it.
+    pub fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
+        let (model, d) = (self.model, self.model.dimension);
+        let Some(number) = self.bodies.ring else {
+            return;
+        };
+        for &dof in &tie.partition().driven {
+            let (node, component) = (dof / d, dof % d);
+            let Some(body) = self.bodies.of_node(node) else {
+                continue;
+            };
+            // of a sliding tie the displacements are (radial, tangential, axial)
+            let along = match tie.rotation() {
+                Some(_) => model.frame.polar_axes(model.coordinates[node])[component],
+                None => [0, 1, 2].map(|i| f64::from(u8::from(i == component))),
+            };
+            let mut row = Row::new();
+            for (i, factor) in along.into_iter().enumerate().take(d) {
+                self.displacement(&mut row, body, node, i, factor);
+                self.displacement(&mut row, number, node, i, -factor);
+            }
+            if let Some(constraints) = self.add(&row, false) {
+                constraints.tied = true;
+            }
+        }
+        for own in ring_spring_rows(ring, &model.frame) {
+            self.add(&Row::from([(number, own)]), true);
         }
     }
 
@@ -158,7 +186,7 @@ impl<'m> AllConstraints<'m> {
     fn springs(&mut self) {
         let (model, d) = (self.model, self.model.dimension);
         for spring in &model.springs {
-            for factors in factor_rows(&spring.matrix) {
+            for SpringRow { factors, .. } in spring_rows(&spring.matrix) {
                 let mut row = Row::new();
                 for (place, &factor) in factors.iter().enumerate() {
                     let node = spring.nodes.get(place / d).copied();
@@ -214,6 +242,25 @@ impl Constraints {
     }
 }
 
+/// What each spring of a ring resists, in the motions of the ring about its own centre.
+pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> {
+    let motions = ring_motions(ring, frame, frame.centre());
+    let translations = if ring.is_in_space() { 3 } else { 2 };
+    let of_spring = ring.springs().iter().map(|spring| {
+        let mut row = [0.0; 6];
+        for (motion, entry) in row.iter_mut().enumerate().take(motions.ncols()) {
+            let turn = if motion < translations {
+                1.0
+            } else {
+                ring.section().radius
+            };
+            *entry = spring.stretch(motions.col_as_slice(motion)) / turn;
+        }
+        row
+    });
+    of_spring.collect()
+}
+
 /// Number of singular values of some rows that do not count as zero.
 pub(super) fn rank(rows: &[Vec<f64>]) -> usize {
     let columns = rows.first().map_or(0, Vec::len);
@@ -224,52 +271,4 @@ pub(super) fn rank(rows: &[Vec<f64>]) -> usize {
     // rows that are not finite hold nothing
     let values = matrix.singular_values().unwrap_or_default();
     values.into_iter().filter(|value| *value > RANK).count()
-}
-
-/// Rows with the null space of a positive semidefinite S [n x n], each with 1 as its largest entry.
-///
-/// Cholesky's factor with the component that has most of its own stiffness left as the next pivot: a soft spring
-/// across a stiff one is found however soft it is. Source: Higham, Accuracy and Stability of Numerical Algorithms
-/// (2002), section 10.3.
-fn factor_rows(stiffness: &DMatrix<f64>) -> Vec<Vec<f64>> {
-    let mut left = stiffness.clone();
-    let n = left.nrows().min(left.ncols());
-    let share = |left: &DMatrix<f64>, i: usize| {
-        let own = stiffness[(i, i)];
-        if own > 0.0 { left[(i, i)] / own } else { 0.0 }
-    };
-    let mut rows = Vec::new();
-    for _ in 0..n {
-        let best = (0..n).max_by(|&i, &j| share(&left, i).total_cmp(&share(&left, j)));
-        let Some(pivot) = best.filter(|&pivot| share(&left, pivot) > OWN_STIFFNESS) else {
-            break;
-        };
-        let own = left[(pivot, pivot)];
-        let row: Vec<f64> = (0..n).map(|j| left[(pivot, j)]).collect();
-        for i in 0..n {
-            for j in 0..n {
-                left[(i, j)] -= row[i] * row[j] / own;
-            }
-        }
-        let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        rows.push(row.into_iter().map(|x| x / largest).collect());
-    }
-    rows
-}
-
-#[cfg(test)]
-mod tests {
-    use super::factor_rows;
-    use nalgebra::DMatrix;
-
-    #[test]
-    fn a_soft_spring_beside_a_stiff_one_is_found() {
-        let k = DMatrix::from_diagonal(&nalgebra::dvector![1e9, 0.0, 1e-6]);
-        let rows = factor_rows(&k);
-        assert_eq!(rows.len(), 2);
-        // a spring along (1, 1): one row, whatever the rounding
-        let k = DMatrix::from_element(2, 2, 0.1 + 0.2);
-        assert_eq!(factor_rows(&k), [vec![1.0, 1.0]]);
-        assert!(factor_rows(&DMatrix::zeros(3, 3)).is_empty());
-    }
 }

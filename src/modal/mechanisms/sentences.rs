@@ -116,6 +116,9 @@ impl Mechanisms {
             0 | 1 => String::new(),
             count => format!(" with {}", bodies(count - 1)),
         };
+        if body.is_ring {
+            return format!("the ring{others}");
+        }
         let word = if body.parts.len() > 1 {
             "parts"
         } else {
@@ -137,6 +140,9 @@ impl Mechanisms {
         let Some(own) = self.bodies.get(body) else {
             return String::new();
         };
+        if own.is_ring {
+            return "the ring".to_owned();
+        }
         let name = quoted(&own.parts);
         let alike = self
             .bodies

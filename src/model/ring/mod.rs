@@ -1,9 +1,12 @@
 //! The ring: curved beams on equally spaced nodes, with springs to the ground, in a plane or in space.
 
+mod energy;
 mod rows;
 mod space;
 mod support;
 
+pub(crate) use energy::RingSpring;
+pub use energy::RingStrain;
 pub use rows::RingRows;
 pub use space::RingSpaceRows;
 pub use support::{RingSupport, SpringShare};
@@ -35,6 +38,7 @@ pub struct Ring {
     out_of_plane: Option<OutOfPlaneArc>,
     stiffness: DenseMatrix,
     mass: DenseMatrix,
+    springs: Vec<RingSpring>,
 }
 
 /// A ring that cannot be built.
@@ -107,6 +111,7 @@ impl Ring {
             out_of_plane,
             stiffness: DenseMatrix::zeros(dof, dof),
             mass: DenseMatrix::zeros(dof, dof),
+            springs: Vec::new(),
         };
         for index in 0..nodes {
             let (dofs, turn) = ring.frame(index);

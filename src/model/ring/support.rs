@@ -1,6 +1,6 @@
 //! Springs between a ring and the ground.
 
-use super::{NODE_DOF, Ring, RingError};
+use super::{NODE_DOF, Ring, RingError, RingSpring};
 use std::f64::consts::TAU;
 
 /// Springs between part of a ring and the ground.
@@ -72,6 +72,13 @@ impl Ring {
             let directions = if self.is_in_space() { 3 } else { 2 };
             let acting = rows.iter().zip(support.spring).take(directions);
             for ((first, row), stiffness) in acting {
+                if stiffness > 0.0 {
+                    self.springs.push(RingSpring {
+                        dofs: [*first, first + 1, first + 2],
+                        row: *row,
+                        stiffness: share * stiffness,
+                    });
+                }
                 for i in 0..NODE_DOF {
                     for j in 0..NODE_DOF {
                         self.stiffness[(*first + i, *first + j)] +=
