@@ -4,8 +4,8 @@
 SetFactory("Built-in");
 inner = 6;      // mm
 outer = 9;      // mm
-quarter = 18;   // elements in 90 degrees
-radial = 3;     // elements from bore to outside
+DefineConstant[ quarter = 18 ];  // elements in 90 degrees; the coarser meshes of the same ring set both
+DefineConstant[ radial = 3 ];    // elements from bore to outside
 
 Point(1) = {inner, 0, 0};
 Point(2) = {outer, 0, 0};

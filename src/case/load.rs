@@ -1,6 +1,6 @@
 //! Reading a case in stages, and what a command needs of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
@@ -64,8 +64,10 @@ impl Case {
         unsupported::refuse(&document)?;
         let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
         material::add_built_in(&mut case.materials);
-        if let (Some(housing), Some(folder)) = (&mut case.housing, source.path.parent()) {
-            housing.mesh = folder.join(&housing.mesh);
+        if let Some(folder) = source.path.parent() {
+            for path in case.paths_mut() {
+                *path = folder.join(&path);
+            }
         }
         case.validate()
             .map_err(|BrokenRule { key, rule }| CaseError::Rule {
@@ -78,6 +80,15 @@ impl Case {
             case.title = case.name();
         }
         Ok(case)
+    }
+
+    /// Every file that the case names.
+    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let mesh = self.housing.iter_mut().map(|housing| &mut housing.mesh);
+        let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
+        let meshes = self.modes.convergence.iter_mut();
+        mesh.chain(compared)
+            .chain(meshes.flat_map(|convergence| &mut convergence.meshes))
     }
 
     /// Returns the variants under `modes.variants`: this case again, with the command line's and then the variant's

@@ -28,6 +28,7 @@ mod housing;
 mod link;
 mod load;
 mod material;
+mod mode_checks;
 mod modes;
 mod motion;
 mod nearest;
@@ -58,6 +59,7 @@ pub use housing::{Integration, LinearElements, PlaneAssumption};
 pub use link::{Joint, Link};
 pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
+pub use mode_checks::{ComparedModes, ConvergenceMeshes};
 pub use modes::{
     Condense, Expected, FixedInterfaceModes, Interface, Linearise, ModeExtent, Modes, Variant,
 };

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::mode_checks::{ComparedModes, ConvergenceMeshes};
 use super::union::{Loose, Mismatch, written_as};
 
 /// What the `modes` command computes and checks.
@@ -15,6 +16,10 @@ pub struct Modes {
     pub linearise: Linearise,
     /// The same case with other keys set, shown beside; may be empty.
     pub variants: Vec<Variant>,
+    /// Modes from elsewhere that these are compared with; may be empty.
+    pub compare: Vec<ComparedModes>,
+    /// Other meshes of the housing that tell the discretisation's error.
+    pub convergence: Option<ConvergenceMeshes>,
 }
 
 /// How many modes are computed.
@@ -38,6 +43,8 @@ impl Default for Modes {
             expected: Vec::new(),
             linearise: Linearise::None,
             variants: Vec::new(),
+            compare: Vec::new(),
+            convergence: None,
         }
     }
 }
@@ -91,6 +98,10 @@ struct ModesForm {
     linearise: Linearise,
     #[serde(default)]
     variants: Vec<Variant>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    compare: Vec<ComparedModes>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    convergence: Option<ConvergenceMeshes>,
 }
 
 written_as!(Modes, ModesForm);
@@ -125,6 +136,8 @@ impl TryFrom<ModesForm> for Modes {
             expected: form.expected,
             linearise: form.linearise,
             variants: form.variants,
+            compare: form.compare,
+            convergence: form.convergence,
         })
     }
 }
@@ -143,6 +156,8 @@ impl From<Modes> for ModesForm {
             expected: modes.expected,
             linearise: modes.linearise,
             variants: modes.variants,
+            compare: modes.compare,
+            convergence: modes.convergence,
         }
     }
 }

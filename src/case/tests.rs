@@ -95,6 +95,14 @@ fn every_key_of_the_full_case_arrives() {
     assert_eq!(case.sensors[1].spot, SensorSpot::RingDeg(90.0));
     assert_eq!(case.sensors[2].spot, SensorSpot::Point([0.0, 9e-3, 0.0]));
     assert_eq!(case.modes.extent, ModeExtent::UpToHz(1e5));
+    let compare = &case.modes.compare[0];
+    assert_eq!(compare.file, Path::new("folder/calculix.csv"));
+    assert_eq!(compare.name(), "CalculiX 2.20");
+    assert!(near(compare.mac, 0.9) && near(compare.within, 0.02));
+    assert!(compare.points_within.is_some_and(|d| near(d, 1e-5)));
+    let convergence = case.modes.convergence.as_ref().unwrap();
+    assert_eq!(convergence.meshes[1], Path::new("folder/pedestal_fine.msh"));
+    assert!(convergence.order.is_some_and(|p| near(p, 2.0)));
     assert_eq!(
         case.condense.fixed_interface_modes,
         FixedInterfaceModes::UpToHz(2e5)

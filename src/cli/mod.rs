@@ -6,6 +6,7 @@
 mod arguments;
 mod failure;
 mod inspect;
+mod mode_checks;
 mod modes;
 mod outcome;
 mod output;

@@ -1,5 +1,6 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
+use super::mode_checks::{check_lines, failures};
 use super::results::{modes_json, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
@@ -29,7 +30,6 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     );
     let text = format!("{json:#}\n");
     let json_path = folder.write("modes.json", text.as_bytes())?;
-    let failed = result.base.expected.iter().filter(|row| !row.ok).count();
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -38,12 +38,9 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
             Verdict::Good
         } else {
             Verdict::Bad {
-                what: format!(
-                    "{failed} of {} expected eigenfrequencies were not found within their tolerance",
-                    result.base.expected.len()
-                ),
+                what: failures(&result).join("; "),
                 help: Some(
-                    "the table names each; modes.expected in the case file holds them".to_owned(),
+                    "the table names each; modes.expected and modes.compare in the case file hold the limits".to_owned(),
                 ),
             }
         },
@@ -78,6 +75,7 @@ fn summary(result: &ModesResult) -> String {
         lines.push(format!("unloaded (Hz): {}", listed(&variant.unloaded_hz)));
         lines.extend(reading(variant));
     }
+    lines.extend(check_lines(result));
     lines.join("\n")
 }
 

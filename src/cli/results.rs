@@ -141,6 +141,8 @@ pub(super) fn modes_json(
         "condensation_difference": result.base.condensation_difference,
         "loaded": loaded(&result.base),
         "expected": result.base.expected,
+        "comparisons": result.comparisons,
+        "convergence": result.convergence,
         "variants": result.variants.iter().map(|variant| json!({
             "what": variant.what,
             "set": variant.set,

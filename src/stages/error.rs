@@ -4,7 +4,7 @@ use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
 use crate::case::CaseError;
 use crate::element::ElementError;
-use crate::exchange::NpzError;
+use crate::exchange::{CsvError, NpzError, ReadModesError};
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
 use crate::mesh::MeshError;
@@ -16,6 +16,7 @@ use crate::series::SeriesError;
 use crate::signal::SignalError;
 use crate::system::SystemError;
 use crate::transient::TransientError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Failure of a stage.
@@ -47,6 +48,48 @@ pub enum StageError {
     /// Modes that cannot be analysed.
     #[error(transparent)]
     Modal(#[from] ModalError),
+    /// A file of mode shapes that cannot be read.
+    #[error(transparent)]
+    ModeShapes(#[from] ReadModesError),
+    /// Mode shapes at points that are nowhere.
+    #[error("{}: expected mode shapes at points, found {found}", file.display())]
+    PointsUnknown {
+        /// The file.
+        file: PathBuf,
+        /// What it has instead.
+        found: &'static str,
+    },
+    /// Modes of a file that cannot be compared.
+    #[error("{}: {source}", file.display())]
+    Compared {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        source: Box<ModalError>,
+    },
+    /// Another mesh of the case that fails.
+    #[error("modes.convergence.meshes[{index}] ({}): {source}", path.display())]
+    OtherMesh {
+        /// Which one, from 0.
+        index: usize,
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<StageError>,
+    },
+    /// A mesh of something else.
+    #[error(
+        "expected a mesh of the same body, of area or volume {own:.4e} (m^2, m^3), found {found:.4e}"
+    )]
+    OtherBody {
+        /// Area or volume of the case's mesh, m^2 or m^3.
+        own: f64,
+        /// That of the other.
+        found: f64,
+    },
+    /// Meshes that make no sequence.
+    #[error("modes.convergence: {0}")]
+    Sequence(ModalError),
     /// The ring.
     #[error("ring: {0}")]
     Ring(#[from] RingError),
@@ -159,6 +202,13 @@ impl StageError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help(),
+            Self::OtherMesh { source, .. } => source.help(),
+            Self::ModeShapes(ReadModesError::Csv(CsvError::Content { .. })) => Some(
+                "frequencies without shapes are checked by `modes.expected` in the case file".to_owned(),
+            ),
+            Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(
+                "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned(),
+            ),
             _ => None,
         }
     }
@@ -177,6 +227,7 @@ impl StageError {
             Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),
             Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
+            Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
             Self::Series(_) | Self::Npz(_) | Self::Report(_) => false,
             _ => true,

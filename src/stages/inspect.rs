@@ -119,7 +119,10 @@ impl Inspection {
     }
 }
 
-fn elements_of(mesh: &Mesh, dimension: usize) -> impl Iterator<Item = ElementId> + Clone + '_ {
+pub(super) fn elements_of(
+    mesh: &Mesh,
+    dimension: usize,
+) -> impl Iterator<Item = ElementId> + Clone + '_ {
     let blocks = mesh.blocks.iter().enumerate();
     blocks
         .filter(move |(_, block)| block.kind.dimension() == dimension)
@@ -132,7 +135,7 @@ fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
 }
 
 /// Sum of lengths, areas or volumes.
-fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f64 {
+pub(super) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f64 {
     elements
         .map(|id| {
             let kind = mesh.blocks[id.block].kind;

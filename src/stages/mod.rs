@@ -6,13 +6,18 @@
 
 mod analysis;
 mod bearing;
+mod comparison;
+mod convergence;
 mod drawing;
 mod energy_tables;
 mod error;
 mod housing;
 mod inspect;
+mod mesh_sequence;
 mod modal_system;
 mod modal_tables;
+mod mode_checks_report;
+mod mode_set;
 mod modes;
 mod modes_report;
 mod run;
@@ -24,10 +29,13 @@ mod tables;
 
 pub use analysis::{WindowAnalysis, analyse};
 pub use bearing::{bearing_setup, contact_table};
+pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
+pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use housing::HousingStage;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use modal_tables::free_motions;
+pub use mode_checks_report::{error_text, misses_text, mode_numbers, plain, signed};
 pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
 pub use modes_report::modes_report;
 pub use run::{RunEnd, RunResult, compute_run};

@@ -1,6 +1,9 @@
 //! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded, and the
 //! verification against expected ones.
 
+use super::comparison::{ComparedFile, FileComparison};
+use super::convergence::{MeshConvergence, mesh_convergence};
+use super::mesh_sequence::MeshSequence;
 use super::modal_system::{UnloadedModes, unloaded_modes};
 use super::shape_view::{shape_view, shown_places};
 use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
@@ -62,6 +65,10 @@ pub struct ModesResult {
     pub structure: Option<StructureStage>,
     /// Mesh and model of a housing alone.
     pub housing: Option<(Mesh, HousingModel)>,
+    /// These modes against those of other programs or measurements, in the order of the case file.
+    pub comparisons: Vec<FileComparison>,
+    /// The same modes on other meshes.
+    pub convergence: Option<MeshConvergence>,
 }
 
 impl ModesResult {
@@ -101,9 +108,10 @@ impl ModesResult {
         }
     }
 
-    /// Whether every expected frequency was found.
+    /// Whether every expected frequency was found and every comparison passes.
     pub fn passes(&self) -> bool {
         self.base.expected.iter().all(|expected| expected.ok)
+            && self.comparisons.iter().all(|comparison| comparison.ok)
     }
 }
 
@@ -136,6 +144,23 @@ impl Reading {
 /// # Errors
 /// [`StageError`] of the stages that it goes through.
 pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
+    // what is wrong with the files is told before anything is computed
+    let files = ComparedFile::read_all(case)?;
+    let sequence = MeshSequence::read(case)?;
+    let mut result = own_modes(case, watch)?;
+    if !files.is_empty() {
+        watch.stage("compare");
+    }
+    for file in &files {
+        result.comparisons.push(file.compare(&result)?);
+    }
+    if let Some(sequence) = sequence {
+        result.convergence = mesh_convergence(case, &sequence, &result, watch)?;
+    }
+    Ok(result)
+}
+
+fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
     let Some(stage) = StructureStage::build(case, watch)? else {
         return housing_alone(case, watch);
     };
@@ -165,6 +190,8 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
         survey,
         structure: Some(stage),
         housing: None,
+        comparisons: Vec::new(),
+        convergence: None,
     })
 }
 
@@ -199,6 +226,8 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         survey,
         structure: None,
         housing: Some((mesh, model)),
+        comparisons: Vec::new(),
+        convergence: None,
     })
 }
 

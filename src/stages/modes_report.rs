@@ -6,6 +6,7 @@ use super::modal_tables::{
     complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts,
     material_table, proof_facts,
 };
+use super::mode_checks_report::{comparison_section, convergence_section, headlines};
 use super::shape_view::shape_view;
 use super::tables::{
     assumptions, bearing_table, equilibrium_table, expected_table, mode_table, model_facts,
@@ -39,6 +40,12 @@ pub fn modes_report(
         .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
         .facts(proof_facts(&result.survey));
     report = report.section(proof);
+    for comparison in &result.comparisons {
+        report = report.section(comparison_section(comparison, &result.survey));
+    }
+    if let Some(convergence) = &result.convergence {
+        report = report.section(convergence_section(convergence, &result.survey));
+    }
     if result.survey.basis.count() > 0 {
         let mut mass = Section::new("Effective mass")
             .bars(effective_mass_bars(&result.survey))
@@ -73,7 +80,9 @@ pub fn modes_report(
     for text in assumptions(case, setup.as_ref()) {
         report = report.assumption(text);
     }
-    for text in free_motions(result) {
+    let notes = result.convergence.iter();
+    let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
+    for text in free_motions(result).into_iter().chain(notes) {
         report = report.warning(text);
     }
     Ok(report)
@@ -96,6 +105,9 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
             |hz| format!("{} Hz", significant(hz, 4)),
         );
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
+    }
+    for of_check in headlines(result) {
+        report = report.headline(of_check.label, of_check.value, of_check.verdict);
     }
     let basis = &result.survey.basis;
     let modes = format!(

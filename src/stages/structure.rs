@@ -55,14 +55,7 @@ impl StructureStage {
         let ring = ring(case, asked, in_space)?;
         let (structure, fixed_interface_modes, tie) = match (&housing, &asked.tie) {
             (Some(housing), Some(tie)) => {
-                let fit = match tie.fit {
-                    case::Fit::Bonded => Fit::Bonded,
-                    case::Fit::Sliding => Fit::Sliding,
-                };
-                // a tie without an outer radius was refused with the case
-                let outer = asked.outer_radius.unwrap_or(f64::NAN);
-                let tie =
-                    RingTie::new(&housing.mesh, &housing.model, &tie.group, &ring, outer, fit)?;
+                let tie = self::tie(housing, asked, tie, &ring)?;
                 watch.stage("condense");
                 let matrices = housing.matrices.clone().for_tie(&tie);
                 let selection = selection(case, housing.model.dimension());
@@ -107,8 +100,25 @@ fn selection(case: &Case, dimension: usize) -> FixedModeSelection {
     }
 }
 
+/// The ring's tie to the bore of a housing.
+pub(super) fn tie(
+    housing: &HousingStage,
+    asked: &case::Ring,
+    tie: &case::Tie,
+    ring: &Ring,
+) -> Result<RingTie, StageError> {
+    let fit = match tie.fit {
+        case::Fit::Bonded => Fit::Bonded,
+        case::Fit::Sliding => Fit::Sliding,
+    };
+    // a tie without an outer radius was refused with the case
+    let outer = asked.outer_radius.unwrap_or(f64::NAN);
+    let tie = RingTie::new(&housing.mesh, &housing.model, &tie.group, ring, outer, fit)?;
+    Ok(tie)
+}
+
 /// The ring of a case with its supports; in space for a solid housing.
-fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, StageError> {
+pub(super) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, StageError> {
     let layers = asked
         .sections
         .iter()

@@ -197,7 +197,7 @@ fn unless_crumbs(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechani
 }
 
 impl RingShapes {
-    fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
+    pub(super) fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
         let radius = ring.section().radius;
         let centre = frame.centre();
         let points = (0..ring.nodes()).map(|node| {

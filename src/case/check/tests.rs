@@ -31,7 +31,7 @@ fn holds(text: &str, set: &[&str]) {
     }
 }
 
-const ABOVE_ZERO: [&str; 32] = [
+const ABOVE_ZERO: [&str; 34] = [
     "materials.\"my alloy\".young",
     "materials.\"my alloy\".density",
     "materials.printed.young[1]",
@@ -60,6 +60,8 @@ const ABOVE_ZERO: [&str; 32] = [
     "damping.ratios[1].frequency_hz",
     "modes.up_to_hz",
     "modes.expected[0].hz",
+    "modes.compare[0].points_within",
+    "modes.convergence.order",
     "condense.fixed_interface_modes.up_to_hz",
     "transient.step",
     "transient.output_hz",
@@ -119,18 +121,23 @@ fn ratios_and_fractions_stay_within_one() {
     }
     let rule = "found 1.5, expected a number from 0 to below 1";
     breaks(FULL, &["damping={modal=1.5}"], "damping.modal", rule);
-    for key in ["modes.expected[0].within", "accuracy.target"] {
+    for key in [
+        "modes.expected[0].within",
+        "modes.compare[0].within",
+        "accuracy.target",
+    ] {
         for value in ["0", "1"] {
             let rule = format!("found {value}, expected a number above 0 and below 1");
             full(&format!("{key}={value}"), &rule);
         }
     }
-    let key = "ring.sections[1].shear_coefficient";
-    for value in ["0", "1.1"] {
-        let rule = format!("found {value}, expected a number above 0, at most 1");
-        full(&format!("{key}={value}"), &rule);
+    for key in ["ring.sections[1].shear_coefficient", "modes.compare[0].mac"] {
+        for value in ["0", "1.1"] {
+            let rule = format!("found {value}, expected a number above 0, at most 1");
+            full(&format!("{key}={value}"), &rule);
+        }
+        holds(FULL, &[&format!("{key}=1")]);
     }
-    holds(FULL, &[&format!("{key}=1")]);
     for value in ["-1", "0.5"] {
         let rule = format!("found {value}, expected a number above -1 and below 0.5");
         full(&format!("materials.\"my alloy\".poisson={value}"), &rule);
@@ -166,6 +173,7 @@ fn lists_and_names_that_must_hold_something_do() {
         ("speed.profile=[]", "at least one point"),
         ("sensors[0].name=\"\"", "a name"),
         ("modes.variants[0].set=[]", "at least one KEY=VALUE"),
+        ("modes.convergence.meshes=[]", "at least one other mesh"),
     ] {
         full(argument, &format!("found nothing, expected {expected}"));
     }
@@ -216,6 +224,13 @@ fn nothing_stands_twice() {
         "housing.parts[1].group",
         &twice("a"),
     );
+    for mesh in ["pedestal.msh", "pedestal_coarse.msh"] {
+        // the case's own, or one of the others again
+        full(
+            &format!("modes.convergence.meshes[1]={mesh}"),
+            &twice(&format!("folder/{mesh}")),
+        );
+    }
     full(
         "sensors[0].name=shaft_x",
         "\"shaft_x\" is the name of another signal",
@@ -294,6 +309,8 @@ fn what_needs_another_table_says_so() {
         let key = format!("sensors[0].{}", spot.split_once('=').unwrap().0);
         breaks(RING, &[&argument], &key, &needs("[housing]"));
     }
+    let meshes = ["modes.convergence.meshes=[\"a.msh\"]"];
+    breaks(RING, &meshes, "modes.convergence", &needs("[housing]"));
     let spot = ["sensors=[{name='a',direction=[0,1,0],ring_deg=1}]"];
     breaks(HOUSING, &spot, "sensors[0].ring_deg", &needs("[ring]"));
     let start = FULL.find("[bearing]").unwrap();

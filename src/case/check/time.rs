@@ -4,7 +4,7 @@ use super::super::{
     Case, Damping, FixedInterfaceModes, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, direction, each_once, fraction, not_empty, ratio, zero_or_more,
+    above, above_zero, below, direction, each_once, fraction, not_empty, ratio, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 
@@ -110,7 +110,37 @@ pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
         let key = format!("modes.variants[{index}].set");
         not_empty(key, variant.set.len(), "at least one KEY=VALUE")?;
     }
-    Ok(())
+    mode_checks(case)
+}
+
+fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
+    for (index, other) in case.modes.compare.iter().enumerate() {
+        let at = |key: &str| format!("modes.compare[{index}].{key}");
+        share(at("mac"), other.mac)?;
+        fraction(at("within"), other.within)?;
+        if let Some(distance) = other.points_within {
+            above_zero(at("points_within"), distance)?;
+        }
+    }
+    let Some(convergence) = &case.modes.convergence else {
+        return Ok(());
+    };
+    let Some(housing) = &case.housing else {
+        let other = "[housing]";
+        return Err(Rule::Needs { other }.at("modes.convergence"));
+    };
+    let key = "modes.convergence.meshes";
+    not_empty(key, convergence.meshes.len(), "at least one other mesh")?;
+    // the case's own mesh is the first of the sequence
+    let own = housing.mesh.to_string_lossy();
+    let others = convergence.meshes.iter().map(|mesh| mesh.to_string_lossy());
+    let names: Vec<_> = [own].into_iter().chain(others).collect();
+    let names = names.iter().map(AsRef::as_ref);
+    each_once(names, |place| format!("{key}[{}]", place.saturating_sub(1)))?;
+    match convergence.order {
+        Some(order) => above_zero("modes.convergence.order", order),
+        None => Ok(()),
+    }
 }
 
 /// A band begins at zero or above and ends above its beginning.

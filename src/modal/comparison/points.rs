@@ -72,7 +72,7 @@ impl ModeSet {
     }
 
     /// Diagonal of the box round the points, m.
-    pub(super) fn diagonal(&self) -> f64 {
+    pub fn diagonal(&self) -> f64 {
         let side = |axis: usize| {
             let along = self.points.iter().map(|point| point[axis]);
             let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {

@@ -157,6 +157,14 @@ pub fn mode_convergence(
 }
 
 impl MeshLevels {
+    /// Whether an extrapolation can be made from these.
+    ///
+    /// # Errors
+    /// As [`richardson`], as far as it looks at the meshes.
+    pub fn check(&self) -> Result<(), ModalError> {
+        self.finest_first().map(drop)
+    }
+
     /// The meshes by size, finest first.
     fn finest_first(&self) -> Result<Vec<usize>, ModalError> {
         let positive = |name, found: f64| match found > 0.0 && found.is_finite() {

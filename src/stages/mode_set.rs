@@ -1,0 +1,95 @@
+//! Modes at points: those that were computed, and those of a file, for a comparison.
+
+use super::{RingShapes, StageError};
+use crate::exchange::ModeShapes;
+use crate::linalg::DenseMatrix;
+use crate::mesh::Mesh;
+use crate::modal::ModeSet;
+use crate::model::HousingModel;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OwnModes<'a> {
+    /// Frequencies, Hz.
+    pub frequencies_hz: &'a [f64],
+    /// The housing with its displacements in the mesh's axes [dof x modes].
+    pub housing: Option<(&'a Mesh, &'a HousingModel, &'a DenseMatrix)>,
+    /// The ring.
+    pub ring: Option<&'a RingShapes>,
+}
+
+impl OwnModes<'_> {
+    /// Points and displacements in one list; labelled by the mesh's tags where no node of a ring is among them.
+    pub fn set(&self) -> ModeSet {
+        let mut points = Vec::new();
+        if let Some((mesh, ..)) = self.housing {
+            points.extend_from_slice(&mesh.nodes);
+        }
+        let nodes = points.len();
+        points.extend(self.ring.iter().flat_map(|ring| &ring.points));
+        let shapes =
+            DenseMatrix::from_fn(3 * points.len(), self.frequencies_hz.len(), |row, mode| {
+                let (point, axis) = (row / 3, row % 3);
+                match (self.housing, self.ring) {
+                    (Some((_, model, shapes)), _) if point < nodes => {
+                        let d = model.dimension();
+                        if axis < d {
+                            shapes[(d * point + axis, mode)]
+                        } else {
+                            0.0
+                        }
+                    }
+                    (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
+                    _ => 0.0,
+                }
+            });
+        let tags = match (self.housing, self.ring) {
+            (Some((mesh, ..)), None) => Some(mesh.node_tags.clone()),
+            _ => None,
+        };
+        ModeSet {
+            frequencies_hz: self.frequencies_hz.to_vec(),
+            points,
+            node_tags: tags,
+            shapes,
+        }
+    }
+}
+
+/// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
+///
+/// # Errors
+/// [`StageError::PointsUnknown`] if neither gives their places.
+pub(super) fn placed(
+    file: &Path,
+    modes: &ModeShapes,
+    mesh: Option<&Mesh>,
+) -> Result<ModeSet, StageError> {
+    let unknown = |found| StageError::PointsUnknown {
+        file: file.to_owned(),
+        found,
+    };
+    // index in the file of each point, and where it is
+    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh)
+    {
+        (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),
+        (None, Some(tags), Some(mesh)) => {
+            let places: HashMap<u64, usize> = mesh.node_tags.iter().copied().zip(0..).collect();
+            let known = |(row, tag): (usize, &u64)| Some((row, mesh.nodes[*places.get(tag)?]));
+            tags.iter().enumerate().filter_map(known).unzip()
+        }
+        (None, Some(_), None) => return Err(unknown("node labels, and the case has no mesh")),
+        (None, None, _) => return Err(unknown("neither points nor node labels")),
+    };
+    let tags = modes.node_tags.as_ref();
+    Ok(ModeSet {
+        frequencies_hz: modes.frequencies_hz.clone(),
+        node_tags: tags.map(|tags| rows.iter().map(|&row| tags[row]).collect()),
+        shapes: DenseMatrix::from_fn(3 * rows.len(), modes.count_modes(), |row, mode| {
+            modes.shapes[mode][3 * rows[row / 3] + row % 3]
+        }),
+        points,
+    })
+}

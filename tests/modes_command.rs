@@ -1,0 +1,273 @@
+//! `plummer modes` against files of other modes and on several meshes, from outside.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn project(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// A folder of this test's own with the ring of examples/modal in it, on its coarse mesh and without checks.
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("modes_{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let example = fs::read_to_string(project("examples/modal/ring.toml")).unwrap();
+    let end = example.find("# Modes of another program").unwrap();
+    let meshes = project("meshes").display().to_string();
+    let text = example[..end]
+        .replace("../../meshes", &meshes)
+        .replace("ring_6_9.msh", "ring_6_9_48.msh");
+    fs::write(folder.join("ring.toml"), text).unwrap();
+    let tri = "ring_6_9_tri.msh";
+    fs::copy(project("meshes").join(tri), folder.join(tri)).unwrap();
+    folder
+}
+
+fn modes(folder: &Path, set: &[&str]) -> Output {
+    let set = set.iter().flat_map(|argument| ["--set", argument]);
+    Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(folder)
+        .args(["modes", "ring.toml", "--force"])
+        .args(set)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn result(folder: &Path) -> Value {
+    let text = fs::read_to_string(folder.join("out/ring/modes.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+fn report(folder: &Path) -> String {
+    fs::read_to_string(folder.join("out/ring/report.html")).unwrap()
+}
+
+/// The exact modes of the ring, the frequency of mode `mode` multiplied.
+fn write_exact(path: &Path, mode: &str, factor: f64) {
+    let exact = fs::read_to_string(project("examples/modal/exact_ring.csv")).unwrap();
+    let lines = exact.lines().map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if cells[0] == mode {
+            cells[1] = (cells[1].parse::<f64>().unwrap() * factor).to_string();
+        }
+        cells.join(",") + "\n"
+    });
+    fs::write(path, lines.collect::<String>()).unwrap();
+}
+
+#[test]
+fn a_result_agrees_with_its_own_file() {
+    let folder = scratch("own");
+    assert_eq!(modes(&folder, &[]).status.code(), Some(0));
+    fs::rename(folder.join("out/ring/modes.npz"), folder.join("before.npz")).unwrap();
+    let compare = "modes.compare=[{file=\"before.npz\",what=\"itself\"}]";
+    let output = modes(&folder, &[compare]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(
+        shown.contains("against itself (before.npz): 384 points in common (here 384, there 384), MAC >= 0.95, within 1 %"),
+        "{shown}"
+    );
+    let json = result(&folder);
+    let comparison = &json["comparisons"][0];
+    assert_eq!(comparison["ok"], true);
+    assert_eq!(comparison["points"]["by"], "tag");
+    let pairs = comparison["pairs"].as_array().unwrap();
+    // the rigid motions, four pairs and the breathing mode
+    assert_eq!(pairs.len(), 6);
+    for pair in pairs {
+        assert_eq!(pair["here"], pair["there"]);
+        // shapes go through the file bit by bit: rounding of the products is left
+        assert!(pair["mac"].as_f64().unwrap() > 1.0 - 1e-12);
+        let difference = pair["relative_difference"].as_f64();
+        assert!(difference.is_none_or(|difference| difference.abs() < 1e-15));
+    }
+    let page = report(&folder);
+    assert!(page.contains("Comparison with itself"));
+    assert!(page.contains("Agreement with itself") && page.contains("12 of 12 modes"));
+}
+
+/// One frequency 1 % off, one percent and a half allowed, half a percent not; the exact pairs lie at other angles.
+#[test]
+fn a_frequency_that_is_off_is_exit_code_1() {
+    let folder = scratch("off");
+    write_exact(&folder.join("bench.csv"), "5", 1.01);
+    let with = |within: &str| {
+        format!(
+            "modes.compare=[{{file=\"bench.csv\",what=\"the bench\",mac=0.99,within={within}}}]"
+        )
+    };
+    let wide = modes(&folder, &[&with("0.015")]);
+    assert_eq!(wide.status.code(), Some(0), "{}", text(&wide.stdout));
+    let narrow = modes(&folder, &[&with("0.005")]);
+    assert_eq!(narrow.status.code(), Some(1));
+    assert!(
+        text(&narrow.stderr)
+            .starts_with("error: 8 of 9 modes agree with the bench (bench.csv)\nhelp: "),
+        "{}",
+        text(&narrow.stderr)
+    );
+    let shown = text(&narrow.stdout);
+    assert_eq!(shown.matches("FAILS").count(), 1, "{shown}");
+    assert!(shown.contains("FAILS: frequency"), "{shown}");
+    let json = result(&folder);
+    let pairs = json["comparisons"][0]["pairs"].as_array().unwrap();
+    let failed: Vec<&Value> = pairs
+        .iter()
+        .filter(|pair| pair["misses"] != serde_json::json!([]))
+        .collect();
+    assert_eq!(failed.len(), 1);
+    assert_eq!(failed[0]["misses"], serde_json::json!(["frequency"]));
+    assert_eq!(failed[0]["here"], serde_json::json!([7]));
+    // both what was expected and what was compared
+    let expected = "modes.expected=[{hz=1000,within=0.01}]";
+    let both = modes(&folder, &[&with("0.005"), expected]);
+    assert_eq!(both.status.code(), Some(1));
+    assert!(
+        text(&both.stderr).starts_with("error: 1 of 1 expected eigenfrequencies were not found within their tolerance; 8 of 9 modes agree"),
+        "{}",
+        text(&both.stderr)
+    );
+}
+
+#[test]
+fn wrong_files_are_exit_code_2_with_file_and_line() {
+    let folder = scratch("wrong");
+    let errors = |file: &str| {
+        let output = modes(&folder, &[&format!("modes.compare=[{{file=\"{file}\"}}]")]);
+        assert_eq!(output.status.code(), Some(2), "{file}");
+        text(&output.stderr)
+    };
+    fs::write(
+        folder.join("hz.csv"),
+        "# a list\nmode,frequency_hz\n1,500\n",
+    )
+    .unwrap();
+    assert_eq!(
+        errors("hz.csv"),
+        "error: hz.csv:2: expected the header mode,frequency_hz,x,y,z,ux,uy,uz or mode,frequency_hz,node,ux,uy,uz, found \"mode,frequency_hz\"\n\
+         help: frequencies without shapes are checked by `modes.expected` in the case file\n"
+    );
+    assert_eq!(
+        errors("no.csv"),
+        "error: cannot read no.csv: No such file or directory (os error 2)\n"
+    );
+    assert_eq!(
+        errors("ring.toml"),
+        "error: expected a file of mode shapes (.npz, .csv, .uff or .unv), found ring.toml\n"
+    );
+    let far = "mode,frequency_hz,x,y,z,ux,uy,uz\n1,500,9,0,0,1,0,0\n1,500,0,9,0,1,0,0\n1,500,6,0,0,1,0,0\n";
+    fs::write(folder.join("far.csv"), far).unwrap();
+    let far = errors("far.csv");
+    assert!(
+        far.starts_with("error: far.csv: only 0 points of the two sets of modes coincide"),
+        "{far}"
+    );
+    assert!(
+        far.contains("help: points are in m; `points_within`"),
+        "{far}"
+    );
+    let missing = modes(&folder, &["modes.convergence.meshes=[\"no.msh\"]"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(
+        text(&missing.stderr).starts_with(
+            "error: modes.convergence.meshes[0] (no.msh): cannot read the mesh no.msh: "
+        ),
+        "{}",
+        text(&missing.stderr)
+    );
+    assert!(!folder.join("out/ring/modes.json").exists());
+}
+
+/// The shipped example as it stands: both checks in summary, JSON and report.
+#[test]
+fn the_example_compares_and_converges() {
+    let folder = scratch("example");
+    let output = Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(project("."))
+        .args(["modes", "examples/modal/ring.toml", "--force", "--out"])
+        .arg(folder.join("out/ring"))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(
+        shown.contains(
+            "against the exact solution (examples/modal/exact_ring.csv): 48 points in common"
+        ),
+        "{shown}"
+    );
+    assert!(shown.contains("convergence over 3 meshes, h = 2.43 mm, 1.21 mm, 0.809 mm (this case); order promised: 4"), "{shown}");
+    let json = result(&folder);
+    assert_eq!(json["comparisons"][0]["ok"], true);
+    assert_eq!(
+        json["comparisons"][0]["lone_here"]
+            .as_array()
+            .unwrap()
+            .len(),
+        3
+    );
+    let exact = &json["comparisons"][0]["there_hz"];
+    let converged = json["convergence"]["modes"].as_array().unwrap();
+    assert_eq!(converged.len(), 9);
+    for (place, mode) in converged.iter().enumerate() {
+        let number = |key: &str| mode[key].as_f64().unwrap();
+        let own = mode["frequencies_hz"][2].as_f64().unwrap();
+        let real = own / exact[place].as_f64().unwrap() - 1.0;
+        let [error, around] = [number("mesh_error"), number("mesh_error_uncertainty")];
+        assert!((error - real).abs() <= around, "{error} {around} {real}");
+        // measured: 0.1 to 0.4 of the mesh error is left
+        assert!((error - real).abs() < 0.5 * real.abs(), "{error} {real}");
+    }
+    let page = report(&folder);
+    for text in [
+        "Comparison with the exact solution",
+        "Convergence of the mesh",
+        "Largest error of the mesh",
+        "class=\"matrix\"",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+}
+
+/// Quadrilaterals and triangles: nothing to extrapolate from.
+#[test]
+fn what_is_not_extrapolated_is_told() {
+    let folder = scratch("unlike");
+    let output = modes(
+        &folder,
+        &["modes.convergence.meshes=[\"ring_6_9_tri.msh\"]"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(
+        shown.contains("ring_6_9_tri.msh has Tri6 where this case's mesh has Quad8"),
+        "{shown}"
+    );
+    assert_eq!(
+        shown
+            .matches("not known, on no other mesh of its kind\n")
+            .count(),
+        9,
+        "{shown}"
+    );
+    let json = result(&folder);
+    let converged = json["convergence"]["modes"].as_array().unwrap();
+    assert!(
+        converged
+            .iter()
+            .all(|mode| mode["mesh_error"].is_null() && mode["frequencies_hz"][1].is_f64())
+    );
+    let page = report(&folder);
+    assert!(
+        page.contains("shown only") && page.contains("No other mesh has the elements of this case")
+    );
+}
