@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
 use crate::case::Case;
@@ -14,6 +14,7 @@ Examples:
   plummer inspect meshes/ring_6_9.msh --length-unit mm
   plummer run examples/tadina2011/outer-dent.toml
   plummer modes examples/tadina2011/beam.toml --set ring.shear=true --out out/with-shear --json
+  plummer export examples/scenes/pedestal.toml --to mtx
 
 Exit codes:
   0  done
@@ -31,6 +32,17 @@ Example: a solid housing drawn in millimetres
 const MODES_EXAMPLE: &str = "\
 Example: the published frequencies with the consistent equations instead of the printed ones
   plummer modes examples/tadina2011/beam.toml --set bearing.formulation=consistent --out out/consistent";
+
+const EXPORT_EXAMPLE: &str = "\
+Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again
+  plummer export examples/scenes/pedestal.toml --to mtx
+  plummer export out/pedestal --to vtu
+
+Files:
+  vtu  modes.vtu, ring.vtu: elements with a field a mode (ParaView, PyVista)
+  uff  modes.uff, ring.uff: nodes, elements, mode shapes (universal file, datasets 2411, 2412, 55)
+  mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
+  npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)";
 
 /// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
 #[derive(Debug, Clone, Parser)]
@@ -71,6 +83,50 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
+    /// Matrices and mode shapes in the formats of other programs
+    #[command(after_help = EXPORT_EXAMPLE)]
+    Export {
+        /// Case file (TOML), or a folder with results of `plummer modes`
+        #[arg(value_name = "CASE|DIR")]
+        from: PathBuf,
+        /// Format of the files
+        #[arg(long, value_name = "FORMAT", value_enum)]
+        to: ExportFormat,
+    },
+}
+
+/// A format of `plummer export`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// VTK grids with mode shapes
+    Vtu,
+    /// Universal files with mode shapes
+    Uff,
+    /// Matrices as Matrix Market files
+    Mtx,
+    /// Matrices and mode shapes as NumPy archives
+    Npz,
+    /// Matrices as Nastran's OUTPUT4 files; not written yet
+    #[value(hide = true)]
+    Op4,
+    /// A modal body of MBDyn; not written yet
+    #[value(hide = true)]
+    Mbdyn,
+}
+
+impl ExportFormat {
+    /// The word that stands after `--to`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vtu => "vtu",
+            Self::Uff => "uff",
+            Self::Mtx => "mtx",
+            Self::Npz => "npz",
+            Self::Op4 => "op4",
+            Self::Mbdyn => "mbdyn",
+        }
+    }
 }
 
 impl Command {
@@ -81,6 +137,7 @@ impl Command {
             Self::Run { .. } => "run",
             Self::Modes { .. } => "modes",
             Self::Inspect { .. } => "inspect",
+            Self::Export { .. } => "export",
         }
     }
 }
@@ -140,9 +197,9 @@ impl Options {
 
 #[cfg(test)]
 mod tests {
-    use clap::{CommandFactory, Parser};
+    use clap::{CommandFactory, Parser, ValueEnum};
 
-    use super::{Arguments, Command, Visibility};
+    use super::{Arguments, Command, ExportFormat, Visibility};
 
     fn parse(words: &str) -> Result<Arguments, clap::Error> {
         Arguments::try_parse_from(words.split(' '))
@@ -178,6 +235,8 @@ mod tests {
             "plummer modes a.toml --fast",
             "plummer inspect a.msh --length-unit feet",
             "plummer inspect a.msh --density -1",
+            "plummer export a.toml",
+            "plummer export a.toml --to stl",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }
@@ -193,10 +252,20 @@ mod tests {
             "plummer run --help",
             "plummer modes --help",
             "plummer inspect --help",
+            "plummer export --help",
         ] {
             let help = parse(words).unwrap_err().to_string();
             assert!(help.contains("Example"), "{words}");
             assert!(help.contains("  plummer "), "{words}");
+        }
+    }
+
+    #[test]
+    fn formats_are_called_what_is_typed() {
+        for format in ExportFormat::value_variants() {
+            let words = format!("plummer export a.toml --to {}", format.name());
+            let command = parse(&words).unwrap().command;
+            assert!(matches!(command, Command::Export { to, .. } if to == *format));
         }
     }
 

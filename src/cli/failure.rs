@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::ExportError;
 use crate::case::CaseError;
 use crate::stages::StageError;
 
@@ -51,6 +52,15 @@ pub enum CliError {
     /// A stage of the computation failed, by its input or by itself.
     #[error(transparent)]
     Stage(Box<StageError>),
+    /// Something was not exported.
+    #[error(transparent)]
+    Export(Box<ExportError>),
+}
+
+impl From<ExportError> for CliError {
+    fn from(error: ExportError) -> Self {
+        Self::Export(Box::new(error))
+    }
 }
 
 impl From<StageError> for CliError {
@@ -66,10 +76,12 @@ impl CliError {
         match self {
             Self::Case(_) | Self::ResultExists { .. } | Self::Folder { .. } => 2,
             Self::Stage(error) if error.is_input() => 2,
+            Self::Export(error) if error.is_input() => 2,
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
-            | Self::Stage(_) => 1,
+            | Self::Stage(_)
+            | Self::Export(_) => 1,
         }
     }
 
@@ -79,6 +91,7 @@ impl CliError {
         match self {
             Self::Case(error) => error.help(),
             Self::Stage(error) => error.help(),
+            Self::Export(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
@@ -103,8 +116,9 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::CliError;
+    use super::{CliError, ExportError};
     use crate::case::Case;
+    use crate::exchange::DofTableError;
     use crate::stages::StageError;
 
     fn every() -> Vec<(CliError, u8, &'static str)> {
@@ -155,6 +169,25 @@ mod tests {
                 CliError::from(StageError::TieFrame),
                 2,
                 "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
+            ),
+            (
+                CliError::from(ExportError::NotWritten { format: "op4" }),
+                2,
+                "error: --to op4 is not written yet: expected vtu, uff, mtx or npz\n",
+            ),
+            (
+                CliError::from(ExportError::NoResults { folder: path() }),
+                2,
+                "error: out/a has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
+                 help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
+            ),
+            (
+                CliError::from(ExportError::Dofs(DofTableError {
+                    path: path(),
+                    source: source(),
+                })),
+                1,
+                "error: cannot write out/a: full\n",
             ),
         ]
     }

@@ -4,6 +4,7 @@
 //! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
 
 mod arguments;
+mod export;
 mod failure;
 mod inspect;
 mod mode_checks;
@@ -11,6 +12,7 @@ mod modes;
 mod outcome;
 mod output;
 mod progress;
+mod report_files;
 mod results;
 mod run;
 
@@ -20,7 +22,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-pub use arguments::{Arguments, Command, Options};
+pub use arguments::{Arguments, Command, ExportFormat, Options};
+pub use export::ExportError;
 pub use failure::CliError;
 pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
@@ -63,6 +66,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
     let outcome = match &arguments.command {
         Command::Run { case } => compute(case, Purpose::Run, arguments),
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
+        Command::Export { from, to } => export::export(from, *to, options),
         Command::Inspect {
             mesh,
             length_unit,

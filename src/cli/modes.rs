@@ -1,12 +1,13 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
 use super::mode_checks::{check_lines, failures};
+use super::report_files::ReportFiles;
 use super::results::{modes_json, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::stages::{ModesResult, Reading, compute_modes, modes_report};
 
-/// Computes the modes of a case and writes `report.html` and, last, `modes.json`.
+/// Computes the modes of a case and writes `report.html`, its tables, `modes.npz` and, last, `modes.json`.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
@@ -16,24 +17,22 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let command = options.command_line("modes", case);
-    let html = modes_report(case, &result, &command)?
-        .to_html()
-        .map_err(crate::stages::StageError::from)?;
-    let report = folder.write(&folder.report_name("modes"), html.as_bytes())?;
+    let report = modes_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "modes", case, report)?;
     let shapes = write_modes(&folder, &result)?;
     let json = modes_json(
         case,
         &result,
         progress,
         started.elapsed().as_secs_f64(),
-        options,
+        &files,
     );
     let text = format!("{json:#}\n");
     let json_path = folder.write("modes.json", text.as_bytes())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
-        written: vec![json_path, shapes, report],
+        written: [vec![json_path, shapes], files.paths].concat(),
         verdict: if result.passes() {
             Verdict::Good
         } else {

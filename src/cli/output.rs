@@ -51,6 +51,14 @@ impl OutputFolder {
         Self { path }
     }
 
+    /// Returns the folder of this path.
+    #[must_use]
+    pub fn at(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+        }
+    }
+
     /// Returns the folder's path.
     #[must_use]
     pub fn path(&self) -> &Path {
@@ -62,8 +70,16 @@ impl OutputFolder {
     /// # Errors
     /// [`CliError::ResultExists`] or [`CliError::Folder`].
     pub fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
-        let path = self.path.join(format!("{command}.json"));
-        if !force && path.exists() {
+        self.claim_files(&[&format!("{command}.json")], force)
+    }
+
+    /// Makes the folder and checks that none of these files would be replaced without `force`.
+    ///
+    /// # Errors
+    /// As [`claim`](Self::claim).
+    pub fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
+        let mut paths = names.iter().map(|name| self.path.join(name));
+        if let Some(path) = paths.find(|path| !force && path.exists()) {
             return Err(CliError::ResultExists { path });
         }
         fs::create_dir_all(&self.path).map_err(|source| CliError::Folder {

@@ -1,20 +1,21 @@
 //! Result files: `run.json`, `modes.json`, `signals.npz`.
 
-use super::{CliError, Options, OutputFolder, Progress};
+use super::report_files::ReportFiles;
+use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
 use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
-use crate::stages::{ModesResult, Reading, RunEnd, RunResult, StageError};
+use crate::stages::{MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 /// What every result carries.
-fn common(
+pub(super) fn common(
     command: &str,
     case: &Case,
     progress: &Progress,
     wall_s: f64,
-    options: &Options,
+    meshes: &[MeshDigest],
 ) -> Map<String, Value> {
     let stages: Map<String, Value> = progress
         .times()
@@ -25,7 +26,8 @@ fn common(
     map.insert("plummer".to_owned(), json!(env!("CARGO_PKG_VERSION")));
     map.insert("command".to_owned(), json!(command));
     map.insert("case".to_owned(), json!(case.source.path));
-    map.insert("set".to_owned(), json!(options.set));
+    map.insert("set".to_owned(), json!(case.source.set));
+    map.insert("meshes".to_owned(), json!(meshes));
     map.insert("wall_s".to_owned(), json!(wall_s));
     map.insert("stages_s".to_owned(), Value::Object(stages));
     map.insert("threads".to_owned(), json!(rayon::current_num_threads()));
@@ -38,9 +40,10 @@ pub(super) fn run_json(
     result: &RunResult,
     progress: &Progress,
     wall_s: f64,
-    options: &Options,
+    files: &ReportFiles,
 ) -> Value {
-    let mut map = common("run", case, progress, wall_s, options);
+    let mut map = common("run", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), json!(files.tables));
     let equilibrium = &result.equilibrium;
     let balls = |value: fn(&crate::system::BallLoad) -> f64| -> Vec<f64> {
         equilibrium.balls.iter().map(value).collect()
@@ -108,9 +111,10 @@ pub(super) fn modes_json(
     result: &ModesResult,
     progress: &Progress,
     wall_s: f64,
-    options: &Options,
+    files: &ReportFiles,
 ) -> Value {
-    let mut map = common("modes", case, progress, wall_s, options);
+    let mut map = common("modes", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), json!(files.tables));
     let survey = &result.survey;
     let basis = &survey.basis;
     let fields = json!({

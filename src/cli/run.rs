@@ -1,11 +1,12 @@
 //! `plummer run`: the simulation in time.
 
+use super::report_files::ReportFiles;
 use super::results::{run_json, write_signals};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::stages::{RunEnd, RunResult, compute_run, run_report};
 
-/// Computes the run of a case and writes `signals.npz`, `report.html` and, last, `run.json`.
+/// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
@@ -16,23 +17,21 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     let folder = OutputFolder::of(case, options);
     let signals = write_signals(&folder, &result)?;
     let command = options.command_line("run", case);
-    let html = run_report(case, &result, &command)?
-        .to_html()
-        .map_err(crate::stages::StageError::from)?;
-    let report = folder.write(&folder.report_name("run"), html.as_bytes())?;
+    let report = run_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "run", case, report)?;
     let json = run_json(
         case,
         &result,
         progress,
         started.elapsed().as_secs_f64(),
-        options,
+        &files,
     );
     let text = format!("{json:#}\n");
     let json_path = folder.write("run.json", text.as_bytes())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
-        written: vec![signals, json_path, report],
+        written: [vec![signals, json_path], files.paths].concat(),
         verdict: verdict(&result),
     })
 }

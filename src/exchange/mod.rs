@@ -7,12 +7,14 @@
 //! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices | |
+//! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
 //! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.
 //! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
 
 mod atomic;
 pub mod csv;
+pub mod dof_table;
 pub mod matrix_market;
 mod mode_shapes;
 pub mod npz;
@@ -22,6 +24,9 @@ pub mod vtu;
 
 pub use atomic::{AtomicFile, write_atomic};
 pub use csv::{CsvError, read_modes_csv, write_modes_csv};
+pub use dof_table::{
+    DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,
+};
 pub use matrix_market::{MatrixMarketError, write_matrix_market};
 pub use mode_shapes::{ModeShapes, ModeShapesError};
 pub use npz::{

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::ElementKind;
+use super::{ElementKind, Mesh};
 
 /// A geometrical entity of the CAD model behind the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -60,5 +60,15 @@ impl ElementBlock {
     pub(super) fn nodes_of(&self, index: usize) -> &[usize] {
         let nodes = self.kind.nodes();
         &self.connectivity[index * nodes..][..nodes]
+    }
+}
+
+impl Mesh {
+    /// The elements of one dimension (0 points to 3 volumes), in the order of the mesh.
+    pub fn element_ids(&self, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
+        let blocks = self.blocks.iter().enumerate();
+        blocks
+            .filter(move |(_, block)| block.kind.dimension() == dimension)
+            .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
     }
 }

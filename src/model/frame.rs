@@ -63,6 +63,11 @@ impl RingFrame {
         (self.turn.transpose() * Vector3::from(vector)).into()
     }
 
+    /// A point of the frame (m) in the mesh's axes.
+    pub fn point_to_mesh(&self, point: [f64; 3]) -> [f64; 3] {
+        (self.turn.transpose() * Vector3::from(point) + self.centre).into()
+    }
+
     /// Unit vectors (radial, tangential, axial) at a point (m, mesh axes), in the mesh's axes as rows; radial
     /// is the frame's x on the axis itself.
     pub fn polar_axes(&self, point: [f64; 3]) -> [[f64; 3]; 3] {
@@ -88,6 +93,10 @@ mod tests {
         assert!(near(frame.point([1.5, 2.25, 3.125]), [0.125, 0.5, 0.25]));
         assert!(near(frame.vector_to_mesh([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]));
         assert!(near(frame.axis(), [0.0, 1.0, 0.0]));
+        assert!(near(
+            frame.point_to_mesh([0.125, 0.5, 0.25]),
+            [1.5, 2.25, 3.125]
+        ));
         let [radial, tangential, axial] = frame.polar_axes([2.0, 7.0, 3.0]);
         assert!(near(radial, [1.0, 0.0, 0.0]));
         assert!(near(tangential, [0.0, 0.0, -1.0]));

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::content::{Block, Fact, Section};
+use super::content::{Block, Fact, Section, TableFiles};
 use super::layout::Layout;
 use super::plot::{CurveStyle, Plot};
 use super::shapes::{self, LegendEntry, ModeShapeView, Packed, ShapeFigures, Still, Surface};
@@ -36,6 +36,8 @@ enum BlockView<'a> {
         rows: Vec<Row<'a>>,
         footnotes: &'a [String],
         file: String,
+        /// Folder beside the report that has the file too.
+        folder: Option<String>,
         address: String,
     },
     Plot {
@@ -116,6 +118,7 @@ struct ModeEntry {
 pub(super) struct Numbers {
     figure: usize,
     table: usize,
+    table_files: Option<TableFiles>,
     live: usize,
     curve_share: usize,
     shapes_share: usize,
@@ -123,7 +126,7 @@ pub(super) struct Numbers {
 
 impl Numbers {
     /// Nothing numbered yet; the budgets shared among what the sections hold.
-    pub(super) fn new(sections: &[Section]) -> Self {
+    pub(super) fn new(sections: &[Section], table_files: Option<&TableFiles>) -> Self {
         let blocks = || sections.iter().flat_map(|s| &s.blocks);
         let plots = blocks().filter_map(|block| match block {
             Block::Plot(plot) => Some(plot),
@@ -132,6 +135,7 @@ impl Numbers {
         Self {
             figure: 0,
             table: 0,
+            table_files: table_files.cloned(),
             live: 0,
             curve_share: embed::share(plots),
             shapes_share: SHAPES_BUDGET / blocks().filter(|b| is_live(b)).count().max(1),
@@ -224,7 +228,11 @@ fn table_view<'a>(table: &'a Table, numbers: &mut Numbers) -> Result<BlockView<'
         columns: &table.columns,
         rows: rows.collect(),
         footnotes: &table.footnotes,
-        file: format!("table-{number}-{}", table.csv_name()),
+        file: csv::file_name(numbers.table_files.as_ref(), number, table),
+        folder: numbers
+            .table_files
+            .as_ref()
+            .map(|files| files.folder.clone()),
         address: csv::address(table),
     })
 }

@@ -55,10 +55,21 @@ pub struct Report {
     pub headlines: Vec<Headline>,
     /// The body.
     pub sections: Vec<Section>,
+    /// Where the tables are beside the report, if they are.
+    pub table_files: Option<TableFiles>,
     /// What was assumed, a sentence each.
     pub assumptions: Vec<String>,
     /// What the reader must know before trusting the results, a sentence each.
     pub warnings: Vec<String>,
+}
+
+/// The report's tables as files of their own.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct TableFiles {
+    /// Their folder, seen from the report.
+    pub folder: String,
+    /// First word of their names.
+    pub prefix: String,
 }
 
 /// One of the figures on top of a report.
@@ -213,6 +224,7 @@ impl Report {
             judgement: None,
             headlines: Vec::new(),
             sections: Vec::new(),
+            table_files: None,
             assumptions: Vec::new(),
             warnings: Vec::new(),
         }
@@ -222,6 +234,17 @@ impl Report {
     #[must_use]
     pub fn subtitle(mut self, text: impl Into<String>) -> Self {
         self.subtitle = Some(text.into());
+        self
+    }
+
+    /// The report with its tables as files beside it, `FOLDER/PREFIX-NUMBER-CAPTION.csv`; [`Report::csv_files`] gives
+    /// their contents.
+    #[must_use]
+    pub fn tables_in(mut self, folder: impl Into<String>, prefix: impl Into<String>) -> Self {
+        self.table_files = Some(TableFiles {
+            folder: folder.into(),
+            prefix: prefix.into(),
+        });
         self
     }
 

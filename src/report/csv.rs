@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::table::{Align, Cell, Column, Table};
-use super::{Verdict, pretty_unit};
+use super::{Block, Report, TableFiles, Verdict, pretty_unit};
 
 /// Longest file name without its ending.
 const LONGEST_NAME: usize = 60;
@@ -74,6 +74,35 @@ impl Table {
     }
 }
 
+impl Report {
+    /// Name and content ([`Table::to_csv`]) of each table's file, in the order and with the numbers of the page; names
+    /// begin with the folder of [`Report::tables_in`].
+    #[must_use]
+    pub fn csv_files(&self) -> Vec<(String, String)> {
+        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
+        let tables = blocks.filter_map(|block| match block {
+            Block::Table(table) => Some(table),
+            _ => None,
+        });
+        let files = self.table_files.as_ref();
+        let name = |(number, table): (usize, &Table)| {
+            let name = file_name(files, number, table);
+            let name = match files {
+                Some(files) => format!("{}/{name}", files.folder),
+                None => name,
+            };
+            (name, table.to_csv())
+        };
+        (1..).zip(tables).map(name).collect()
+    }
+}
+
+/// Name of a table's file without its folder.
+pub(super) fn file_name(files: Option<&TableFiles>, number: usize, table: &Table) -> String {
+    let prefix = files.map_or("table", |files| &files.prefix);
+    format!("{prefix}-{number}-{}", table.csv_name())
+}
+
 /// The table as an address that a browser saves; with a byte order mark, by which spreadsheets know UTF-8.
 pub(super) fn address(table: &Table) -> String {
     let text = format!("\u{feff}{}", table.to_csv());
@@ -134,6 +163,7 @@ fn quoted(field: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Section;
     use super::*;
 
     #[test]
@@ -210,6 +240,30 @@ mod tests {
         assert_eq!(name("Modes (all)"), "modes-all.csv");
         assert_eq!(name("„µ“"), "table.csv");
         assert!(name(&"long ".repeat(50)).len() <= LONGEST_NAME + 4);
+    }
+
+    #[test]
+    fn files_are_numbered_as_on_the_page() {
+        let table = |caption| Table::new(caption, [Column::text("x")]).row([Cell::text("1")]);
+        let report = Report::new("t", "c", "v")
+            .section(Section::new("a").table(table("Modes")).paragraph("p"))
+            .section(Section::new("b").table(table("Modes")));
+        let names = |report: &Report| -> Vec<String> {
+            report.csv_files().into_iter().map(|file| file.0).collect()
+        };
+        assert_eq!(names(&report), ["table-1-modes.csv", "table-2-modes.csv"]);
+        assert!(!report.to_html().unwrap().contains("beside this report"));
+        let report = report.tables_in("tables", "run");
+        assert_eq!(
+            names(&report),
+            ["tables/run-1-modes.csv", "tables/run-2-modes.csv"]
+        );
+        assert_eq!(report.csv_files()[1].1, "x\r\n1\r\n");
+        let html = report.to_html().unwrap();
+        for name in ["run-1-modes.csv", "run-2-modes.csv"] {
+            assert!(html.contains(&format!("download=\"{name}\"")), "{name}");
+            assert!(html.contains(&format!("tables/{name}")), "{name}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use super::blocks::{self, Numbers, SectionView};
-use super::content::{Headline, Report};
+use super::content::{Headline, Report, TableFiles};
 use super::document::{Document, css_string};
 use super::{ReportError, shapes};
 
@@ -35,6 +35,7 @@ struct Page<'a> {
     judgement: Option<&'a Headline>,
     headlines: &'a [Headline],
     sections: Vec<SectionView<'a>>,
+    tables: Option<&'a TableFiles>,
     assumptions: &'a [String],
     warnings: &'a [String],
     style: String,
@@ -57,7 +58,7 @@ impl Report {
     /// # Errors
     /// [`ReportError`] for contents that do not fit together; nothing that depends on the machine.
     pub fn to_html(&self) -> Result<String, ReportError> {
-        let mut numbers = Numbers::new(&self.sections);
+        let mut numbers = Numbers::new(&self.sections, self.table_files.as_ref());
         let sections = self
             .sections
             .iter()
@@ -77,6 +78,7 @@ impl Report {
             judgement: self.judgement.as_ref(),
             headlines: &self.headlines,
             sections,
+            tables: self.table_files.as_ref(),
             assumptions: &self.assumptions,
             warnings: &self.warnings,
             style: format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),

@@ -30,7 +30,7 @@ mod table;
 mod ticks;
 
 pub use bars::{BarSeries, Bars};
-pub use content::{Block, Fact, Headline, Report, Section, Verdict};
+pub use content::{Block, Fact, Headline, Report, Section, TableFiles, Verdict};
 pub use document::{Document, MeshFile};
 pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub use error::ReportError;

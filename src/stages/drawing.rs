@@ -2,7 +2,7 @@
 
 use super::StructureStage;
 use crate::case::{Case, SensorSpot};
-use crate::mesh::{ElementId, Mesh};
+use crate::mesh::Mesh;
 use crate::model::HousingModel;
 use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 use crate::system::BearingSetup;
@@ -68,19 +68,11 @@ fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
     }
 }
 
-/// Elements of one dimension.
-pub(super) fn elements_of(mesh: &Mesh, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
-    let blocks = mesh.blocks.iter().enumerate();
-    blocks
-        .filter(move |(_, block)| block.kind.dimension() == dimension)
-        .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
-}
-
 /// Every edge of a plane housing once.
 fn element_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut drawn = BTreeSet::new();
     let mut edges = Vec::new();
-    for id in elements_of(mesh, 2) {
+    for id in mesh.element_ids(2) {
         let block = &mesh.blocks[id.block];
         let nodes = block.element(id.index).unwrap_or_default();
         for face in block.kind.faces() {
@@ -98,7 +90,7 @@ fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     // nodes of an edge, and the normals of the faces that meet there
     type Meeting = (Vec<usize>, Vec<Vector3<f64>>);
     let mut meeting: BTreeMap<[usize; 2], Meeting> = BTreeMap::new();
-    for face in mesh.boundary_faces(elements_of(mesh, 3)) {
+    for face in mesh.boundary_faces(mesh.element_ids(3)) {
         let corner = |k: usize| Vector3::from(mesh.nodes[face.nodes[k]]);
         let normal = (corner(1) - corner(0)).cross(&(corner(2) - corner(0)));
         let normal = normal.try_normalize(0.0).unwrap_or_default();

@@ -4,6 +4,7 @@ use super::{StageError, Watch};
 use crate::assembly::SystemMatrices;
 use crate::case::{self, Case, Hold, Joint, PerNodeOrGroup};
 use crate::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
+use crate::linalg::LinalgError;
 use crate::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::mesh::Mesh;
 use crate::model::{
@@ -43,6 +44,21 @@ impl HousingStage {
             model,
             matrices,
         }))
+    }
+}
+
+impl HousingStage {
+    /// The housing of a case without a ring.
+    ///
+    /// # Errors
+    /// As [`HousingStage::build`].
+    pub(super) fn of(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+        // a case with neither ring nor housing was refused before
+        let nothing = LinalgError::TooManyModes {
+            asked: 1,
+            available: 0,
+        };
+        Self::build(case, watch)?.ok_or_else(|| nothing.into())
     }
 }
 

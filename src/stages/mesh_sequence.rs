@@ -2,7 +2,7 @@
 
 use super::inspect::{elements_of, size};
 use super::mode_set::OwnModes;
-use super::structure::{ring, tie};
+use super::structure::ring_and_tie;
 use super::{HousingStage, RingShapes, StageError, Unwatched};
 use crate::assembly::CoupledMatrices;
 use crate::case::Case;
@@ -179,11 +179,8 @@ impl ModesOnMesh {
             return Ok(None);
         };
         let (mesh, model) = (&housing.mesh, &housing.model);
-        let Some((asked, fit)) = case
-            .ring
-            .as_ref()
-            .and_then(|ring| Some((ring, ring.tie.as_ref()?)))
-        else {
+        let asked = case.ring.as_ref().filter(|ring| ring.tie.is_some());
+        let Some(asked) = asked else {
             let free = model.free_dofs();
             let matrices = &housing.matrices;
             let basis = solve(&matrices.stiffness, &matrices.mass, &free, range)?;
@@ -198,8 +195,9 @@ impl ModesOnMesh {
                 free_dof: free.len(),
             }));
         };
-        let ring = ring(&case, asked, model.dimension() == 3)?;
-        let tie = tie(&housing, asked, fit, &ring)?;
+        let (ring, Some(tie)) = ring_and_tie(&case, asked, Some(&housing))? else {
+            return Ok(None);
+        };
         let coupled = CoupledMatrices::new(&housing.matrices, &tie, &ring);
         let free = &coupled.free_dofs;
         let basis = solve(&coupled.stiffness, &coupled.mass, free, range)?;

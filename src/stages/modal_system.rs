@@ -127,7 +127,8 @@ fn range(extent: ModeExtent, free_dof: usize) -> ModeRange {
     }
 }
 
-fn sparse(dense: &DenseMatrix) -> SparseMatrix {
+/// The entries of a dense matrix that are not zero.
+pub(super) fn sparse(dense: &DenseMatrix) -> SparseMatrix {
     let mut entries = TripletBuilder::new(dense.nrows(), dense.ncols());
     for column in 0..dense.ncols() {
         for row in 0..dense.nrows() {

@@ -5,7 +5,7 @@ use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use super::modal_system::{UnloadedModes, unloaded_modes};
-use super::shape_view::{shape_view, shown_places};
+use super::mode_shapes::mode_shapes;
 use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
 use crate::case::{Case, Expected, Linearise, ModeExtent};
 use crate::exchange::ModeShapes;
@@ -84,28 +84,7 @@ impl ModesResult {
 
     /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
     pub fn mode_shapes(&self) -> ModeShapes {
-        let view = shape_view(self);
-        let tags = match (&self.survey.ring, self.mesh_and_model()) {
-            (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
-            _ => None,
-        };
-        ModeShapes {
-            frequencies_hz: self.survey.basis.frequencies_hz.clone(),
-            node_tags: tags,
-            points: Some(view.points),
-            shapes: shown_places(&self.survey)
-                .into_iter()
-                .flatten()
-                .map(|place| {
-                    view.modes[place]
-                        .displacement
-                        .iter()
-                        .flatten()
-                        .copied()
-                        .collect()
-                })
-                .collect(),
-        }
+        mode_shapes(&self.survey, self.mesh_and_model())
     }
 
     /// Whether every expected frequency was found and every comparison passes.
@@ -196,19 +175,11 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
 }
 
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
-    let Some(housing) = HousingStage::build(case, watch)? else {
-        // a case with neither ring nor housing was refused before
-        return Err(crate::linalg::LinalgError::TooManyModes {
-            asked: 1,
-            available: 0,
-        }
-        .into());
-    };
     let HousingStage {
         mesh,
         model,
         matrices,
-    } = housing;
+    } = HousingStage::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
     let mut base = Reading {
         what: String::new(),

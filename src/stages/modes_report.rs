@@ -89,13 +89,10 @@ pub fn modes_report(
 }
 
 fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
-    let mut document = Document::new()
+    let document = Document::new()
         .case(case.source.path.display().to_string())
         .signed_by("Prepared by")
         .signed_by("Checked by");
-    if let Some(housing) = &case.housing {
-        document = document.mesh(housing.mesh.display().to_string(), None);
-    }
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Modal verification report")
         .document(document);
@@ -234,13 +231,14 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
         };
         let mut cells = vec![Cell::text(name)];
         for expected in &reading.expected {
-            let text = match (expected.found_hz, expected.relative_error) {
+            let cell = match (expected.found_hz, expected.relative_error) {
                 (Some(hz), Some(error)) => {
-                    format!("{} ({:+.1} %)", significant(hz, 4), 100.0 * error)
+                    let error = 100.0 * error;
+                    Cell::text(format!("{} ({error:+.1} %)", significant(hz, 4))).value(hz)
                 }
-                _ => "none".to_owned(),
+                _ => Cell::text("none"),
             };
-            cells.push(Cell::text(text).judged(Verdict::of(expected.ok)));
+            cells.push(cell.judged(Verdict::of(expected.ok)));
         }
         cells.push(Cell::text(own_modes(reading)));
         cells.push(match reading.condensation_difference {

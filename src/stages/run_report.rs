@@ -148,17 +148,17 @@ fn envelope(window: &WindowAnalysis) -> Section {
         let (name, expected, deviation) = match &peak.line {
             Some(line) => (
                 format!("{} x {}", line.harmonic, line.nearest),
-                significant(line.expected_hz, 4),
-                format!("{:+.1}", 100.0 * line.deviation),
+                Cell::number(line.expected_hz, 4),
+                Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
             ),
-            None => Default::default(),
+            None => (String::new(), Cell::text(""), Cell::text("")),
         };
         peaks = peaks.row([
             Cell::number(peak.frequency_hz, 4),
             Cell::number(peak.amplitude, 3),
             Cell::text(name),
-            Cell::text(expected),
-            Cell::text(deviation),
+            expected,
+            deviation,
         ]);
     }
     Section::new(format!("Envelope analysis of {}", window.sensor))

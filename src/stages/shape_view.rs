@@ -1,6 +1,5 @@
 //! The surface of a housing and the line of its ring, with mode shapes, as the report shows them.
 
-use super::drawing::elements_of;
 use super::{ModalSurvey, ModesResult, RingShapes};
 use crate::mesh::{BoundaryFace, ElementId, ElementKind, Mesh};
 use crate::model::HousingModel;
@@ -117,7 +116,7 @@ fn add_band(view: &mut ModeShapeView, ring: &RingShapes) {
 fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
     view.points.clone_from(&mesh.nodes);
     let dimension = model.dimension();
-    let ids = || elements_of(mesh, dimension);
+    let ids = || mesh.element_ids(dimension);
     let faces: Vec<BoundaryFace> = match dimension {
         3 => mesh.boundary_faces(ids()),
         _ => ids().filter_map(|id| plane_face(mesh, id)).collect(),

@@ -51,11 +51,9 @@ impl StructureStage {
             .as_ref()
             .map_or([0.0, -9.81], |shaft| shaft.gravity);
         let housing = HousingStage::build(case, watch)?;
-        let in_space = (housing.as_ref()).is_some_and(|housing| housing.model.dimension() == 3);
-        let ring = ring(case, asked, in_space)?;
-        let (structure, fixed_interface_modes, tie) = match (&housing, &asked.tie) {
+        let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
+        let (structure, fixed_interface_modes, tie) = match (&housing, tie) {
             (Some(housing), Some(tie)) => {
-                let tie = self::tie(housing, asked, tie, &ring)?;
                 watch.stage("condense");
                 let matrices = housing.matrices.clone().for_tie(&tie);
                 let selection = selection(case, housing.model.dimension());
@@ -100,21 +98,28 @@ fn selection(case: &Case, dimension: usize) -> FixedModeSelection {
     }
 }
 
-/// The ring's tie to the bore of a housing.
-pub(super) fn tie(
-    housing: &HousingStage,
+/// The ring of a case, and how it sits in its housing if it does.
+///
+/// # Errors
+/// [`StageError`] of the ring and of the tie.
+pub(super) fn ring_and_tie(
+    case: &Case,
     asked: &case::Ring,
-    tie: &case::Tie,
-    ring: &Ring,
-) -> Result<RingTie, StageError> {
+    housing: Option<&HousingStage>,
+) -> Result<(Ring, Option<RingTie>), StageError> {
+    let in_space = housing.is_some_and(|housing| housing.model.dimension() == 3);
+    let ring = ring(case, asked, in_space)?;
+    let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
+        return Ok((ring, None));
+    };
     let fit = match tie.fit {
         case::Fit::Bonded => Fit::Bonded,
         case::Fit::Sliding => Fit::Sliding,
     };
     // a tie without an outer radius was refused with the case
     let outer = asked.outer_radius.unwrap_or(f64::NAN);
-    let tie = RingTie::new(&housing.mesh, &housing.model, &tie.group, ring, outer, fit)?;
-    Ok(tie)
+    let tie = RingTie::new(&housing.mesh, &housing.model, &tie.group, &ring, outer, fit)?;
+    Ok((ring, Some(tie)))
 }
 
 /// The ring of a case with its supports; in space for a solid housing.

@@ -198,13 +198,7 @@ fn unless_crumbs(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechani
 
 impl RingShapes {
     pub(super) fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
-        let radius = ring.section().radius;
-        let centre = frame.centre();
-        let points = (0..ring.nodes()).map(|node| {
-            let (sin, cos) = ring.node_angle(node).sin_cos();
-            let arm = frame.vector_to_mesh([radius * cos, radius * sin, 0.0]);
-            [0, 1, 2].map(|axis| centre[axis] + arm[axis])
-        });
+        let points = (0..ring.nodes()).map(|node| frame.point_to_mesh(ring.node_position(node)));
         let displacements = (0..shapes.ncols())
             .map(|mode| {
                 let shape = shapes.col_as_slice(mode);

@@ -228,7 +228,7 @@ pub(super) fn mode_table(unloaded_hz: &[f64], loaded: Option<&LoadedModes>) -> T
     );
     let listed = loaded.map_or(&[][..], |loaded| &loaded.modes);
     let rows = LISTED_MODES.min(unloaded_hz.len().max(listed.len()));
-    let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value));
+    let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value)).value(100.0 * value);
     for row in 0..rows {
         let unloaded = unloaded_hz
             .get(row)
@@ -284,16 +284,17 @@ pub(super) fn expected_table(expected: &[ExpectedMode]) -> Table {
         let verdict = Verdict::of(row.ok);
         let found = row
             .found_hz
-            .map_or_else(|| "none".to_owned(), |hz| significant(hz, 5));
-        let difference = row
-            .relative_error
-            .map_or_else(String::new, |error| format!("{:+.2}", 100.0 * error));
+            .map_or_else(|| Cell::text("none"), |hz| Cell::number(hz, 5));
+        let difference = row.relative_error.map_or_else(
+            || Cell::text(""),
+            |error| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error),
+        );
         table = table.row([
             Cell::text(&row.what),
             Cell::number(row.hz, 5),
-            Cell::text(found),
-            Cell::text(difference).judged(verdict),
-            Cell::text(format!("{:.2}", 100.0 * row.within)),
+            found,
+            difference.judged(verdict),
+            Cell::text(format!("{:.2}", 100.0 * row.within)).value(100.0 * row.within),
             Cell::text(if row.ok { "passes" } else { "fails" }).judged(verdict),
         ]);
     }

@@ -123,6 +123,7 @@ mod tests {
             "{'descr': '<f8', 'fortran_order': False, 'shape': (-3,), }",
             "{'descr': '<f8' 'fortran_order': False, 'shape': (3,), }",
             "{'descr': '<f8', 'fortran_order': False, 'shape': (3,), 'x': 1}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (3,), 'x': }",
         ] {
             assert_eq!(parse(damaged.as_bytes()), None, "{damaged}");
         }

@@ -14,7 +14,7 @@ use super::*;
 use crate::linalg::SparseMatrix;
 
 /// An archive of entries given as header text and bytes.
-fn archive(entries: &[(&str, &str, &[u8])], method: CompressionMethod) -> Vec<u8> {
+pub(super) fn archive(entries: &[(&str, &str, &[u8])], method: CompressionMethod) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, header, values) in entries {
         let options = SimpleFileOptions::DEFAULT.compression_method(method);
@@ -33,7 +33,7 @@ fn open(folder: &Path, bytes: &[u8]) -> Result<NpzReader, NpzReadError> {
     NpzReader::open(&path)
 }
 
-fn le(values: &[f64]) -> Vec<u8> {
+pub(super) fn le(values: &[f64]) -> Vec<u8> {
     values
         .iter()
         .flat_map(|value| value.to_le_bytes())
@@ -157,12 +157,17 @@ fn texts_bytes_and_sparse_matrices_have_scipy_s_layout() {
     );
     assert!(bytes.ends_with(b"\ncsc"));
     let mut npz = NpzWriter::create(&path).unwrap();
-    npz.texts("groups", &["body", "é", ""]).unwrap();
+    npz.texts("groups", &["body", "éèê", ""]).unwrap();
+    npz.texts("empty", &[""]).unwrap();
     npz.finish().unwrap();
+    let bytes = entry("empty");
+    let npy = npyz::NpyFile::new(&bytes[..]).unwrap();
+    // NumPy's shortest text
+    assert_eq!(npy.dtype().descr(), "'<U1'");
     let bytes = entry("groups");
     let npy = npyz::NpyFile::new(&bytes[..]).unwrap();
     assert_eq!(npy.dtype().descr(), "'<U4'");
-    assert_eq!(npy.into_vec::<String>().unwrap(), ["body", "é", ""]);
+    assert_eq!(npy.into_vec::<String>().unwrap(), ["body", "éèê", ""]);
 }
 
 #[test]
@@ -225,6 +230,13 @@ fn errors_fire_with_their_exact_messages() {
     flipped[place] ^= 1;
     let error = open(folder.path(), &flipped).unwrap().f64("x").unwrap_err();
     assert!(matches!(error, NpzReadError::Damaged { .. }), "{error}");
+    let none = archive(&[], CompressionMethod::Stored);
+    let error = open(folder.path(), &none).unwrap().f64("x").unwrap_err();
+    let expected = format!(
+        "{}: expected an array \"x\", found no arrays",
+        path.display()
+    );
+    assert_eq!(error.to_string(), expected);
     let error = open(folder.path(), b"mode,frequency_hz")
         .unwrap_err()
         .to_string();
@@ -233,6 +245,35 @@ fn errors_fire_with_their_exact_messages() {
         path.display()
     );
     assert!(error.starts_with(&expected), "{error}");
+}
+
+/// Versions 2 and 3 have four bytes for the header's length, which is not believed beyond reason.
+#[test]
+fn later_versions_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }";
+    let version = |version: u8, length: u32| {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        zip.start_file("x.npy", SimpleFileOptions::DEFAULT).unwrap();
+        zip.write_all(b"\x93NUMPY").unwrap();
+        zip.write_all(&[version, 0]).unwrap();
+        zip.write_all(&length.to_le_bytes()).unwrap();
+        zip.write_all(header.as_bytes()).unwrap();
+        zip.write_all(&le(&[1.5, -2.5])).unwrap();
+        let bytes = zip.finish().unwrap().into_inner();
+        open(folder.path(), &bytes).unwrap().f64("x")
+    };
+    for number in [2, 3] {
+        let found = version(number, header.len() as u32).unwrap();
+        assert_eq!(found.values, [1.5, -2.5]);
+    }
+    for (number, length) in [(4, header.len() as u32), (2, 1 << 20)] {
+        let error = version(number, length).unwrap_err().to_string();
+        assert!(
+            error.ends_with("expected a NumPy array, found a damaged header"),
+            "{error}"
+        );
+    }
 }
 
 proptest! {

@@ -161,6 +161,12 @@ impl Ring {
         TAU * node as f64 / self.nodes as f64
     }
 
+    /// Position (x, y, z) of a node in the ring's own frame, m.
+    pub fn node_position(&self, node: usize) -> [f64; 3] {
+        let (sin, cos) = self.node_angle(node).sin_cos();
+        [self.section.radius * cos, self.section.radius * sin, 0.0]
+    }
+
     /// Element that contains an angle, and the angle from that element's middle, rad.
     pub fn locate(&self, angle: f64) -> (usize, f64) {
         let turns = angle.rem_euclid(TAU) / TAU * self.nodes as f64;

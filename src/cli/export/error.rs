@@ -1,0 +1,119 @@
+//! What can go wrong with an export, and whose fault it is.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::exchange::{
+    DofTableError, MatrixMarketError, ModeShapesError, NpzError, NpzReadError, UffError, VtuError,
+};
+
+/// Why something was not exported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A format to come.
+    #[error("--to {format} is not written yet: expected vtu, uff, mtx or npz")]
+    NotWritten {
+        /// The format.
+        format: &'static str,
+    },
+    /// A folder without results of `plummer modes`.
+    #[error("{} has no modes.json: expected a case file or a folder with results of `plummer modes`", folder.display())]
+    NoResults {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A `modes.json` that cannot be read, or is none.
+    #[error("{}: expected {expected}, found {found}", path.display())]
+    Results {
+        /// The file.
+        path: PathBuf,
+        /// What should be there.
+        expected: &'static str,
+        /// What is there.
+        found: String,
+    },
+    /// The case of earlier results is elsewhere.
+    #[error("{} names the case file {}, which is not there", path.display(), case.display())]
+    CaseGone {
+        /// The result file.
+        path: PathBuf,
+        /// The case file.
+        case: PathBuf,
+    },
+    /// Keys set for results that are computed already.
+    #[error("--set changes the case, but {} holds results of it as it was", folder.display())]
+    SetForResults {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Mode shapes of another model.
+    #[error("{} does not fit the case: expected {expected}, found {found}", path.display())]
+    DoesNotFit {
+        /// The file with the shapes.
+        path: PathBuf,
+        /// What the case has.
+        expected: String,
+        /// What the file has.
+        found: String,
+    },
+    /// No modes, or some that contradict themselves.
+    #[error("mode shapes: {0}")]
+    Shapes(#[from] ModeShapesError),
+    /// Mode shapes that cannot be read.
+    #[error(transparent)]
+    Read(#[from] NpzReadError),
+    /// A NumPy archive.
+    #[error(transparent)]
+    Npz(#[from] NpzError),
+    /// A Matrix Market file.
+    #[error(transparent)]
+    MatrixMarket(#[from] MatrixMarketError),
+    /// A table of degrees of freedom.
+    #[error(transparent)]
+    Dofs(#[from] DofTableError),
+    /// A grid.
+    #[error(transparent)]
+    Vtu(#[from] VtuError),
+    /// A universal file.
+    #[error(transparent)]
+    Uff(#[from] UffError),
+}
+
+impl ExportError {
+    /// Whether the input is wrong, rather than writing failed.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        !matches!(
+            self,
+            Self::Npz(_)
+                | Self::MatrixMarket(_)
+                | Self::Dofs(_)
+                | Self::Vtu(VtuError::Write { .. })
+                | Self::Uff(UffError::Write { .. })
+        )
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::NoResults { folder } => format!(
+                "run `plummer modes CASE.toml --out {}` first, or name the case file",
+                folder.display()
+            ),
+            Self::CaseGone { .. } => {
+                "export from the folder in which `plummer modes` was called, or name the case file"
+                    .to_owned()
+            }
+            Self::SetForResults { .. } => "name the case file to compute it again".to_owned(),
+            Self::Results { .. } | Self::DoesNotFit { .. } | Self::Read(_) => {
+                "run `plummer modes` again with --force, or name the case file".to_owned()
+            }
+            Self::Shapes(_) => "ask for more modes in [modes]".to_owned(),
+            _ => return None,
+        };
+        Some(text)
+    }
+}

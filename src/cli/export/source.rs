@@ -1,0 +1,164 @@
+//! Where an export takes its data from: a case file, or a folder with results of `plummer modes`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::{CliError, ExportError};
+use crate::case::Case;
+use crate::cli::{Options, Progress};
+use crate::exchange::{ModeShapes, read_modes_npz};
+use crate::mesh::Mesh;
+use crate::stages::{StageError, compute_mode_shapes};
+
+/// Farthest that a point of the results may be from its node, relative to the mesh's largest coordinate. Coordinates are
+/// written with every bit; a mesh read in another unit or made again is off by far more.
+const SAME_POINT: f64 = 1e-9;
+
+/// A case, and the folder with its results if they are to be taken from there.
+pub(super) struct Source {
+    case: Case,
+    folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// Opens a case file, or the case that the `modes.json` of a folder names.
+    ///
+    /// # Errors
+    /// [`CliError::Case`], [`ExportError`] for a folder without usable results.
+    pub(super) fn open(from: &Path, options: &Options) -> Result<Self, CliError> {
+        if !from.is_dir() {
+            let case = Case::load(from, &options.set)?;
+            return Ok(Self { case, folder: None });
+        }
+        let folder = from.to_owned();
+        if !options.set.is_empty() {
+            return Err(ExportError::SetForResults { folder }.into());
+        }
+        let (path, set) = named_case(from)?;
+        let case = Case::load(path, &set)?;
+        Ok(Self {
+            case,
+            folder: Some(folder),
+        })
+    }
+
+    pub(super) fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// The folder with results; `None`: they are to be computed.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// The file with the mode shapes of earlier results.
+    pub(super) fn modes_npz(&self) -> Option<PathBuf> {
+        self.folder().map(|folder| folder.join("modes.npz"))
+    }
+
+    /// The mesh, if the case has one, and the mode shapes: at the mesh's nodes, then at the ring's.
+    ///
+    /// # Errors
+    /// [`CliError::Stage`] of the computation, [`ExportError`] if earlier results cannot be read or are of another mesh.
+    pub(super) fn shapes(
+        &self,
+        progress: &Progress,
+    ) -> Result<(Option<Mesh>, ModeShapes), CliError> {
+        let Some(path) = self.modes_npz() else {
+            let (mesh, shapes) = compute_mode_shapes(&self.case, progress)?;
+            shapes.check().map_err(ExportError::from)?;
+            return Ok((mesh, shapes));
+        };
+        progress.stage("read");
+        let shapes = read_modes_npz(&path).map_err(ExportError::from)?;
+        let housing = self.case.housing.as_ref();
+        let mesh = housing
+            .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
+            .transpose()
+            .map_err(StageError::from)?;
+        let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
+        check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
+        Ok((mesh, shapes))
+    }
+}
+
+/// Case file and `--set` arguments of the results in a folder.
+fn named_case(folder: &Path) -> Result<(PathBuf, Vec<String>), ExportError> {
+    let path = folder.join("modes.json");
+    if !path.exists() {
+        let folder = folder.to_owned();
+        return Err(ExportError::NoResults { folder });
+    }
+    let wrong = |expected, found: String| ExportError::Results {
+        path: path.clone(),
+        expected,
+        found,
+    };
+    let text = fs::read_to_string(&path)
+        .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;
+    let json: Value = serde_json::from_str(&text)
+        .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;
+    let Some(case) = json["case"].as_str() else {
+        return Err(wrong(
+            "the case file's name under \"case\"",
+            json["case"].to_string(),
+        ));
+    };
+    let set: Option<Vec<String>> = match &json["set"] {
+        Value::Null => Some(Vec::new()),
+        set => serde_json::from_value(set.clone()).ok(),
+    };
+    let Some(set) = set else {
+        return Err(wrong(
+            "a list of texts under \"set\"",
+            json["set"].to_string(),
+        ));
+    };
+    let case = PathBuf::from(case);
+    if case.exists() {
+        Ok((case, set))
+    } else {
+        Err(ExportError::CaseGone { path, case })
+    }
+}
+
+/// Whether shapes are at the nodes of this mesh and of a ring of so many nodes.
+fn check_fit(
+    path: &Path,
+    mesh: Option<&Mesh>,
+    ring_nodes: usize,
+    shapes: &ModeShapes,
+) -> Result<(), ExportError> {
+    let wrong = |expected: String, found: String| ExportError::DoesNotFit {
+        path: path.to_owned(),
+        expected,
+        found,
+    };
+    let nodes: &[[f64; 3]] = mesh.map_or(&[], |mesh| &mesh.nodes);
+    let found = shapes.count_points();
+    if found != nodes.len() + ring_nodes {
+        let expected = format!(
+            "{} nodes of the mesh and {ring_nodes} of the ring",
+            nodes.len()
+        );
+        return Err(wrong(expected, format!("{found} nodes")));
+    }
+    let largest = nodes
+        .as_flattened()
+        .iter()
+        .fold(0.0_f64, |size, x| size.max(x.abs()));
+    let points = shapes.points.iter().flatten();
+    for (index, (node, point)) in nodes.iter().zip(points).enumerate() {
+        let apart = (0..3).any(|axis| (node[axis] - point[axis]).abs() > SAME_POINT * largest);
+        if let (true, Some(mesh)) = (apart, mesh) {
+            let tag = mesh.node_tags[index];
+            return Err(wrong(
+                format!("node {tag} of {} at {node:?} m", mesh.source.display()),
+                format!("{point:?} m"),
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,31 @@
+//! NumPy `.npz` archives of named arrays: written without compression, read with and without.
+//!
+//! Written are arrays of f64, i32, i64, text and a string of bytes, and sparse matrices as SciPy has them; read are arrays
+//! of f64 and i64. Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
+//! version, header length, Python dictionary with descr, fortran_order, shape) followed by the values, little-endian.
+//! Read back with `numpy.load(path)["NAME"]`.
+
+mod array;
+mod element;
+mod error;
+mod header;
+mod modes;
+#[cfg(test)]
+mod modes_tests;
+mod read_error;
+mod reader;
+#[cfg(test)]
+mod reader_tests;
+mod sparse;
+mod writer;
+#[cfg(test)]
+mod writer_tests;
+
+pub use array::NpzArray;
+pub use element::NpzElement;
+pub use error::NpzError;
+pub use modes::{read_modes_npz, write_modes_npz};
+pub use read_error::NpzReadError;
+pub use reader::{NpzReader, NpzValues};
+pub use sparse::write_sparse_npz;
+pub use writer::NpzWriter;

@@ -1,0 +1,412 @@
+//! `plummer export` and the tables of `plummer modes` from outside: files that other readers understand, of earlier results
+//! where there are some, and nothing replaced by accident.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use nalgebra::DMatrix;
+use nalgebra_sparse::io::load_coo_from_matrix_market_file;
+use plummer::exchange::{read_mode_shapes, write_modes_npz};
+use plummer::stages::MeshDigest;
+use serde_json::Value;
+use vtkio::Vtk;
+use vtkio::model::{Attribute, DataSet, Piece};
+
+const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\
+    sections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n";
+const SPRINGS: &str =
+    "supports = [{ from_deg = 180, to_deg = 360, spring = { x = 1e5, y = 1e5 } }]\n";
+const TIE: &str =
+    "tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [1, 0, 0] }\n";
+const MODES: &str = "[modes]\ncount = 6\n";
+
+/// A folder of this test's own: a ring alone, a plane housing, and both coupled.
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("export-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/ring_6_9_coarse.msh");
+    fs::copy(mesh, folder.join("a.msh")).unwrap();
+    let housing = "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\n\
+        plane = { assumption = \"stress\", thickness = 4e-3 }\n\
+        parts = [{ group = \"housing\", material = \"aluminium\" }]\n\
+        supports = [{ group = \"lower\", spring = { x = 1e5, y = 1e5 } }]\n";
+    let write = |name: &str, text: String| fs::write(folder.join(name), text).unwrap();
+    write("ring.toml", format!("{RING}{SPRINGS}{MODES}"));
+    write("housing.toml", format!("{housing}{MODES}"));
+    write("coupled.toml", format!("{housing}{RING}{TIE}{MODES}"));
+    folder
+}
+
+fn plummer(folder: &Path, words: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(folder)
+        .args(words.split(' '))
+        .output()
+        .unwrap()
+}
+
+fn good(folder: &Path, words: &str) -> String {
+    let output = plummer(folder, words);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{words}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, words: &str) -> String {
+    let output = plummer(folder, words);
+    assert_eq!(output.status.code(), Some(2), "{words}");
+    assert!(output.stdout.is_empty(), "{words}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn json(path: PathBuf) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().unwrap().iter();
+    list.map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn mtx(path: &Path) -> DMatrix<f64> {
+    DMatrix::from(&load_coo_from_matrix_market_file::<f64, _>(path).unwrap())
+}
+
+/// An array of an archive by the reader `npyz`.
+fn array<T: npyz::Deserialize>(path: &Path, name: &str) -> Vec<T> {
+    let mut zip = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    let mut entry = zip.by_name(&format!("{name}.npy")).unwrap();
+    entry.read_to_end(&mut bytes).unwrap();
+    npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap()
+}
+
+/// Lowest frequencies of `K x = (2 pi f)^2 M x`, Hz, by a dense solver.
+fn frequencies(k: &DMatrix<f64>, m: &DMatrix<f64>, count: usize) -> Vec<f64> {
+    let l = m.clone().cholesky().unwrap().l();
+    let half = l.solve_lower_triangular(k).unwrap();
+    let whole = l.solve_lower_triangular(&half.transpose()).unwrap();
+    let mut values: Vec<f64> = whole.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    let hz = |value: &f64| value.max(0.0).sqrt() / std::f64::consts::TAU;
+    values.iter().take(count).map(hz).collect()
+}
+
+/// Point fields of a grid with three components, by the reader `vtkio`; and its numbers of points and cells.
+fn grid(path: &Path) -> (BTreeMap<String, Vec<f64>>, usize, usize) {
+    let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(path).unwrap().data else {
+        panic!("an unstructured grid");
+    };
+    let [Piece::Inline(piece)] = pieces.as_slice() else {
+        panic!("one piece");
+    };
+    let fields = piece.data.point.iter().map(|field| match field {
+        Attribute::DataArray(array) => (array.name.clone(), array.data.cast_into().unwrap()),
+        Attribute::Field { .. } => panic!("an array"),
+    });
+    (
+        fields.collect(),
+        piece.num_points(),
+        piece.cells.num_cells(),
+    )
+}
+
+/// Matrices of ring, housing and both, read by `nalgebra-sparse` and `npyz` and solved densely, have the frequencies of
+/// `modes.json`.
+#[test]
+fn matrices_have_the_frequencies_of_modes() {
+    let folder = scratch("matrices");
+    for case in ["ring", "housing", "coupled"] {
+        good(&folder, &format!("modes {case}.toml --quiet"));
+        good(&folder, &format!("export {case}.toml --to mtx"));
+        good(&folder, &format!("export out/{case} --to npz"));
+        let out = folder.join("out").join(case);
+        let (k, m) = (mtx(&out.join("stiffness.mtx")), mtx(&out.join("mass.mtx")));
+        let expected = numbers(&json(out.join("modes.json"))["frequencies_hz"]);
+        assert_eq!(expected.len(), 6);
+        for (found, expected) in frequencies(&k, &m, 6).iter().zip(&expected) {
+            // a dense solver errs by 1e-15 of the largest eigenvalue, (2 pi 1e7 Hz)^2, and these lie above 1 kHz
+            assert!(
+                (found / expected - 1.0).abs() < 1e-8,
+                "{case} {found} {expected}"
+            );
+        }
+        let mut table = csv::Reader::from_path(out.join("dofs.csv")).unwrap();
+        let rows: Vec<BTreeMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), k.nrows());
+        let last = rows.len() - 1;
+        assert_eq!(
+            (&rows[last]["row"], &rows[last]["mtx_row"]),
+            (&last.to_string(), &(last + 1).to_string())
+        );
+        let directions = array::<String>(&out.join("dofs.npz"), "direction");
+        assert!(rows.iter().map(|row| &row["direction"]).eq(&directions));
+        for (name, whole) in [("stiffness", &k), ("mass", &m)] {
+            let path = out.join(format!("{name}.npz"));
+            let (data, rows) = (array::<f64>(&path, "data"), array::<i32>(&path, "indices"));
+            let offsets = array::<i32>(&path, "indptr");
+            let mut found = DMatrix::zeros(whole.nrows(), whole.ncols());
+            for (column, ends) in offsets.windows(2).enumerate() {
+                for at in ends[0] as usize..ends[1] as usize {
+                    found[(rows[at] as usize, column)] = data[at];
+                }
+            }
+            // the upper triangle may differ from the lower one by a rounding
+            assert!(
+                (found - whole).amax() < 1e-15 * whole.amax(),
+                "{case} {name}"
+            );
+        }
+        let record = json(out.join("export.json"));
+        assert_eq!(record["to"], "npz");
+        assert_eq!(record["earlier"][0]["to"], "mtx");
+        for file in record["files"].as_array().unwrap() {
+            let size = fs::metadata(out.join(file["file"].as_str().unwrap()))
+                .unwrap()
+                .len();
+            assert_eq!(file["bytes"], size);
+        }
+    }
+}
+
+/// Shapes of a folder come from its `modes.npz`, here with a frequency that no computation gives.
+#[test]
+fn shapes_of_earlier_results_are_not_solved_for_again() {
+    let folder = scratch("shapes");
+    good(&folder, "modes coupled.toml --quiet");
+    let out = folder.join("out/coupled");
+    let path = out.join("modes.npz");
+    let mut shapes = read_mode_shapes(&path).unwrap();
+    assert_eq!(shapes.count_points(), 160 + 24);
+    shapes.frequencies_hz[1] = 123.25;
+    write_modes_npz(&path, &shapes).unwrap();
+    let shown = good(&folder, "export out/coupled --to vtu");
+    assert!(
+        shown.contains("wrote out/coupled/modes.vtu\nwrote out/coupled/ring.vtu\n"),
+        "{shown}"
+    );
+    good(&folder, "export out/coupled --to uff --quiet");
+    let (fields, points, cells) = grid(&out.join("modes.vtu"));
+    assert_eq!((fields.len(), points, cells), (6, 160, 40));
+    assert_eq!(fields["mode 2, 123.2500 Hz"], shapes.shapes[1][..480]);
+    let (fields, points, cells) = grid(&out.join("ring.vtu"));
+    assert_eq!((fields.len(), points, cells), (6, 24, 24));
+    assert_eq!(fields["mode 2, 123.2500 Hz"], shapes.shapes[1][480..]);
+    let of_housing = read_mode_shapes(&out.join("modes.uff")).unwrap();
+    assert_eq!(
+        (of_housing.count_points(), of_housing.count_modes()),
+        (160, 6)
+    );
+    let of_ring = read_mode_shapes(&out.join("ring.uff")).unwrap();
+    for (found, expected) in of_ring.shapes[1].iter().zip(&shapes.shapes[1][480..]) {
+        // the format has six digits
+        assert!(
+            (found - expected).abs() <= 1e-5 * expected.abs(),
+            "{found} {expected}"
+        );
+    }
+    let record = json(out.join("export.json"));
+    assert_eq!(record["results"], "out/coupled");
+    assert!(record["stages_s"].get("eigen").is_none());
+    // a case file is computed
+    good(&folder, "export coupled.toml --to vtu --out fresh");
+    let (fields, ..) = grid(&folder.join("fresh/modes.vtu"));
+    assert!(!fields.contains_key("mode 2, 123.2500 Hz"));
+    assert!(
+        json(folder.join("fresh/export.json"))["stages_s"]
+            .get("eigen")
+            .is_some()
+    );
+}
+
+/// A node that no element uses, as gmsh leaves at the centre of an arc.
+#[test]
+fn unused_nodes_stay_out_of_the_files() {
+    let folder = scratch("unused");
+    let mesh = fs::read_to_string(folder.join("a.msh")).unwrap();
+    let (head, rest) = mesh.split_once("$Nodes\n").unwrap();
+    let (counts, rest) = rest.split_once('\n').unwrap();
+    let counts: Vec<usize> = counts.split(' ').map(|n| n.parse().unwrap()).collect();
+    let (blocks, nodes, last) = (counts[0] + 1, counts[1] + 1, counts[3] + 1);
+    let entity = rest.split_once(" 0 ").unwrap().0;
+    let more = format!("{entity} 0 1\n{last}\n0 0 0\n$EndNodes");
+    let rest = rest.replacen("$EndNodes", &more, 1);
+    let mesh = format!(
+        "{head}$Nodes\n{blocks} {nodes} {} {last}\n{rest}",
+        counts[2]
+    );
+    fs::write(folder.join("a.msh"), mesh).unwrap();
+    good(&folder, "modes housing.toml --quiet");
+    good(&folder, "export out/housing --to uff");
+    good(&folder, "export out/housing --to vtu");
+    let out = folder.join("out/housing");
+    assert_eq!(
+        read_mode_shapes(&out.join("modes.npz"))
+            .unwrap()
+            .count_points(),
+        161
+    );
+    assert_eq!(
+        read_mode_shapes(&out.join("modes.uff"))
+            .unwrap()
+            .count_points(),
+        160
+    );
+    assert_eq!(grid(&out.join("modes.vtu")).1, 160);
+}
+
+#[test]
+fn results_that_do_not_fit_are_refused() {
+    let folder = scratch("misfit");
+    assert_eq!(
+        refused(&folder, "export . --to vtu"),
+        "error: . has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
+         help: run `plummer modes CASE.toml --out .` first, or name the case file\n"
+    );
+    good(&folder, "modes coupled.toml --quiet");
+    let out = folder.join("out/coupled");
+    let path = out.join("modes.npz");
+    let whole = read_mode_shapes(&path).unwrap();
+    let mut fewer = whole.clone();
+    fewer.points.as_mut().unwrap().pop();
+    fewer
+        .shapes
+        .iter_mut()
+        .for_each(|shape| shape.truncate(3 * 183));
+    write_modes_npz(&path, &fewer).unwrap();
+    let error = refused(&folder, "export out/coupled --to uff");
+    assert!(
+        error.starts_with("error: out/coupled/modes.npz does not fit the case: expected 160 nodes of the mesh and 24 of the ring, found 183 nodes\n"),
+        "{error}"
+    );
+    let mut moved = whole.clone();
+    moved.points.as_mut().unwrap()[5][1] += 1e-6;
+    write_modes_npz(&path, &moved).unwrap();
+    let error = refused(&folder, "export out/coupled --to vtu");
+    assert!(
+        error.contains("does not fit the case: expected node "),
+        "{error}"
+    );
+    let error = refused(&folder, "export out/coupled --to mtx --set ring.nodes=12");
+    assert!(
+        error.starts_with("error: --set changes the case, but out/coupled holds"),
+        "{error}"
+    );
+    fs::write(&path, "damaged").unwrap();
+    assert!(refused(&folder, "export out/coupled --to vtu").contains("expected a NumPy archive"));
+    fs::rename(folder.join("coupled.toml"), folder.join("moved.toml")).unwrap();
+    let error = refused(&folder, "export out/coupled --to mtx");
+    assert!(
+        error.contains("names the case file coupled.toml, which is not there"),
+        "{error}"
+    );
+    fs::write(out.join("modes.json"), "{ \"case\": 3 }").unwrap();
+    let error = refused(&folder, "export out/coupled --to mtx");
+    assert!(
+        error.contains("expected the case file's name under \"case\", found 3"),
+        "{error}"
+    );
+    assert!(!out.join("export.json").exists() && !out.join("modes.vtu").exists());
+}
+
+#[test]
+fn formats_to_come_and_files_in_the_way_are_refused() {
+    let folder = scratch("refused");
+    for format in ["op4", "mbdyn"] {
+        assert_eq!(
+            refused(&folder, &format!("export ring.toml --to {format}")),
+            format!("error: --to {format} is not written yet: expected vtu, uff, mtx or npz\n")
+        );
+    }
+    assert!(
+        refused(&folder, "export ring.toml --to stl")
+            .contains("[possible values: vtu, uff, mtx, npz]")
+    );
+    assert!(!folder.join("out").exists());
+    let out = folder.join("out/ring");
+    fs::create_dir_all(&out).unwrap();
+    fs::write(out.join("mass.mtx"), "kept").unwrap();
+    let error = refused(&folder, "export ring.toml --to mtx");
+    assert!(error.starts_with(
+        "error: out/ring/mass.mtx is the result of an earlier run\nhelp: replace it with --force"
+    ));
+    assert_eq!(fs::read_to_string(out.join("mass.mtx")).unwrap(), "kept");
+    assert!(!out.join("stiffness.mtx").exists());
+    assert_eq!(
+        good(&folder, "export ring.toml --to mtx --force --quiet"),
+        ""
+    );
+    assert_eq!(mtx(&out.join("mass.mtx")).nrows(), 72);
+    let shown = good(&folder, "export ring.toml --to mtx --force --json");
+    let shown: Value = serde_json::from_str(&shown).unwrap();
+    assert_eq!(shown, json(out.join("export.json")));
+    assert_eq!(shown["earlier"], serde_json::json!([]));
+    let names: Vec<&Value> = shown["files"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|file| &file["file"])
+        .collect();
+    assert_eq!(names, ["stiffness.mtx", "mass.mtx", "dofs.csv"]);
+    let left: Vec<String> = fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".partial"))
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+/// Every table of the report is a file with whole numbers, and the report's head names the mesh by its digest.
+#[test]
+fn tables_lie_beside_the_report() {
+    let folder = scratch("tables");
+    good(&folder, "modes housing.toml --quiet");
+    let out = folder.join("out/housing");
+    let result = json(out.join("modes.json"));
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    let tables: Vec<&str> = result["tables"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
+    assert_eq!(tables.len(), report.matches("class=\"csv\"").count());
+    for name in &tables {
+        assert!(report.contains(name), "{name}");
+    }
+    let table = tables
+        .iter()
+        .find(|name| name.contains("-eigenfrequencies"))
+        .unwrap();
+    let mut rows = csv::Reader::from_path(out.join(table)).unwrap();
+    let column = rows
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|title| title == "Frequency [Hz]")
+        .unwrap();
+    let found: Vec<f64> = rows
+        .records()
+        .map(|row| row.unwrap()[column].parse().unwrap())
+        .collect();
+    // every bit of what the archive has
+    let shapes = read_mode_shapes(&out.join("modes.npz")).unwrap();
+    assert_eq!(found, shapes.frequencies_hz);
+    let digest = MeshDigest::of_file(&folder.join("a.msh")).unwrap().sha256;
+    assert_eq!(
+        result["meshes"],
+        serde_json::json!([{ "path": "a.msh", "sha256": digest }])
+    );
+    assert!(report.contains(&format!("SHA-256 {digest}")));
+    // what an earlier report left goes, what others put there stays
+    fs::write(out.join("tables/modes-99-old.csv"), "old").unwrap();
+    fs::write(out.join("tables/notes.csv"), "mine").unwrap();
+    let shown = good(&folder, "modes housing.toml --force");
+    assert!(shown.contains("wrote out/housing/tables\n"), "{shown}");
+    assert!(!out.join("tables/modes-99-old.csv").exists());
+    assert!(out.join("tables/notes.csv").exists());
+}
