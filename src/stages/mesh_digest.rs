@@ -59,17 +59,20 @@ impl From<&MeshDigest> for MeshFile {
     }
 }
 
-/// The meshes of a case and of its variants, each once.
+/// The meshes of a case, of its variants and of its mesh convergence, each once.
 ///
 /// # Errors
 /// [`StageError::Mesh`] for a file that cannot be read, [`StageError::Case`] for a variant that is no case.
 pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, StageError> {
     let variants = case.variants()?;
     let cases = std::iter::once(case).chain(variants.iter().map(|variant| &variant.case));
+    let housings = cases.filter_map(|case| case.housing.as_ref());
+    let others = case.modes.convergence.iter();
+    let others = others.flat_map(|convergence| &convergence.meshes);
     let mut paths: Vec<&Path> = Vec::new();
-    for housing in cases.filter_map(|case| case.housing.as_ref()) {
-        if !paths.contains(&housing.mesh.as_path()) {
-            paths.push(&housing.mesh);
+    for path in housings.map(|housing| &housing.mesh).chain(others) {
+        if !paths.contains(&path.as_path()) {
+            paths.push(path);
         }
     }
     let digest = |path: &&Path| {
