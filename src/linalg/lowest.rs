@@ -80,6 +80,8 @@ pub(super) struct Search<'p> {
     pub shift: f64,
     /// Seeds used so far: every new block starts elsewhere.
     started: u64,
+    /// Values at which the pursued pairs have converged.
+    done: Vec<Option<f64>>,
     /// Three blocks of vectors [n x CORRECTED] that every step overwrites: new memory would cost more than some of the
     /// products (a page fault for each 4 KiB).
     blocks: [DenseMatrix; 3],
@@ -119,6 +121,7 @@ impl<'p> Search<'p> {
             round_off: ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass),
             shift,
             started: 0,
+            done: vec![None; pursued],
             blocks: [(); 3].map(|()| DenseMatrix::zeros(mass.order(), CORRECTED)),
         }
     }
@@ -216,61 +219,79 @@ impl<'p> Search<'p> {
         Ok(())
     }
 
+    /// Corrects the Ritz pairs once; returns the values of all that are pursued.
+    ///
+    /// # Errors
+    /// [`LinalgError::DenseEigen`].
+    pub fn approach(&mut self, factor: &Factor) -> Result<Vec<f64>, LinalgError> {
+        self.correct(factor)?;
+        let mut values = self.ritz()?.values;
+        values.truncate(self.pursued);
+        Ok(values)
+    }
+
     /// Corrects the Ritz pairs until they have converged.
     ///
     /// # Errors
     /// [`LinalgError::NotConverged`], [`LinalgError::DenseEigen`].
     pub fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
-        let mut done: Vec<Option<f64>> = vec![None; self.pursued];
         for _ in 0..CORRECTIONS {
-            let spectrum = self.ritz()?;
-            let pursued = self.pursued.min(self.basis.size());
-            let changed = (0..pursued).find(|&place| {
-                let value = spectrum.values[place];
-                let apart = |before: f64| (value - before).abs() > CHANGED * value.abs();
-                place < self.wanted && done[place].is_some_and(apart)
-            });
-            if let Some(first) = changed {
-                done[first..].fill(None);
+            if let Some(pairs) = self.correct(factor)? {
+                return Ok(pairs);
             }
-            let chosen: Vec<usize> = (0..pursued)
-                .filter(|&place| done[place].is_none())
-                .take(CORRECTED)
-                .collect();
-            if chosen.is_empty() {
-                let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
-                let values = spectrum.values[..pursued].to_vec();
-                return Ok(Ritz { values, vectors });
-            }
-            let steps = self.steps(&spectrum, &chosen, factor);
-            let mut open = Vec::new();
-            for (column, &place) in chosen.iter().enumerate() {
-                let length = steps.lengths[column];
-                let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
-                let converged = if place < self.wanted {
-                    length <= CONVERGED.max(floor)
-                        && steps.residuals[column] <= SMALL_RESIDUAL.max(floor)
-                        && steps.energies[column] <= SMALL_ENERGY.max(floor * floor)
-                } else {
-                    length <= GUARD_CONVERGED
-                };
-                if converged {
-                    done[place] = Some(spectrum.values[place]);
-                } else {
-                    open.push(column);
-                }
-            }
-            self.keep(&open);
-            if open.len() > self.basis.room() {
-                self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
-            }
-            self.extend(open.len())?;
         }
         Err(LinalgError::NotConverged {
             asked: self.wanted,
-            converged: done[..self.wanted].iter().flatten().count(),
+            converged: self.done[..self.wanted].iter().flatten().count(),
             restarts: CORRECTIONS,
         })
+    }
+
+    /// Adds a correction of every pair that has not converged, or returns all of them if there is none.
+    fn correct(&mut self, factor: &Factor) -> Result<Option<Ritz>, LinalgError> {
+        let spectrum = self.ritz()?;
+        let pursued = self.pursued.min(self.basis.size());
+        let changed = (0..pursued).find(|&place| {
+            let value = spectrum.values[place];
+            let apart = |before: f64| (value - before).abs() > CHANGED * value.abs();
+            place < self.wanted && self.done[place].is_some_and(apart)
+        });
+        if let Some(first) = changed {
+            self.done[first..].fill(None);
+        }
+        let chosen: Vec<usize> = (0..pursued)
+            .filter(|&place| self.done[place].is_none())
+            .take(CORRECTED)
+            .collect();
+        if chosen.is_empty() {
+            let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
+            let values = spectrum.values[..pursued].to_vec();
+            return Ok(Some(Ritz { values, vectors }));
+        }
+        let steps = self.steps(&spectrum, &chosen, factor);
+        let mut open = Vec::new();
+        for (column, &place) in chosen.iter().enumerate() {
+            let length = steps.lengths[column];
+            let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
+            let converged = if place < self.wanted {
+                length <= CONVERGED.max(floor)
+                    && steps.residuals[column] <= SMALL_RESIDUAL.max(floor)
+                    && steps.energies[column] <= SMALL_ENERGY.max(floor * floor)
+            } else {
+                length <= GUARD_CONVERGED
+            };
+            if converged {
+                self.done[place] = Some(spectrum.values[place]);
+            } else {
+                open.push(column);
+            }
+        }
+        self.keep(&open);
+        if open.len() > self.basis.room() {
+            self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
+        }
+        self.extend(open.len())?;
+        Ok(None)
     }
 
     /// Corrections `F^-1 (K x - lambda M x)` of the chosen Ritz pairs: into the first block, their products with M into

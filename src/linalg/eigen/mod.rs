@@ -1,14 +1,21 @@
 //! Eigenpairs of a sparse symmetric problem, with a residual and a bound for each and a proof that none is missing.
 
+mod factors;
+mod iteration;
+mod pairs;
+
+pub use pairs::{EigenPairs, EigenTimes};
+
 use super::bound::Quality;
 use super::count::{CountCheck, count_below, count_between};
 use super::factor::{Factor, FactorMemory};
-use super::lowest::{Ritz, Search, largest_basis};
+use super::lowest::{Ritz, largest_basis};
 use super::numeric::Kind;
 use super::ordering::Ordering;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, band, small};
+use iteration::Iterated;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -18,59 +25,12 @@ const DENSE_LIMIT: usize = 60;
 /// Pairs pursued beyond those wanted: among them a gap is found in which to count.
 const BEYOND: usize = 4;
 
-/// Gap in which it is counted, relative to the distance from the shift.
-const SMALLEST_GAP: f64 = 1e-5;
-
 /// How often missing pairs, or a gap, are looked for.
 const ROUNDS: usize = 5;
-
-/// Shift for a structure that can move freely, in units of the smallest `K_ii / M_ii`: far below the first elastic
-/// eigenvalue of a mesh worth computing, far above the round-off of a rigid motion.
-const FREE_SHIFT: f64 = -1e-4;
-
-/// Entries of a factor above which `L B L^T` is faster than `L L^T`, definite or not (9.1 s against 11.1 s for 2.1e8
-/// entries; 0.7 s against 0.5 s for 2.1e7).
-const LARGE: usize = 1 << 26;
 
 /// Largest relative residual of a mode. That of a rigid mode is a ratio of round-off to the shift's term; a
 /// frequency's relative error is below the square of it.
 const LARGEST_RESIDUAL: f64 = 1e-5;
-
-/// Where the time of an eigenvalue computation went, s.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct EigenTimes {
-    /// Ordering, permutation, symbolic analysis.
-    pub order: f64,
-    /// Numerical factorisation for the iteration.
-    pub factor: f64,
-    /// Iteration.
-    pub iterate: f64,
-    /// Factorisations that count eigenvalues.
-    pub count: f64,
-}
-
-/// Eigenpairs of `K x = lambda M x`.
-#[derive(Debug, Clone)]
-pub struct EigenPairs {
-    /// Eigenvalues lambda = (2 pi f)^2, 1/s^2, ascending.
-    pub values: Vec<f64>,
-    /// Eigenvectors [n x count], `x^T M x = 1`.
-    pub vectors: DenseMatrix,
-    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)` of every pair, sigma the shift.
-    pub residuals: Vec<f64>,
-    /// How far each eigenvalue may be from the true one of these matrices, 1/s^2.
-    pub bounds: Vec<f64>,
-    /// Part of the bound that is round-off of `x^T K x`, 1/s^2: an eigenvalue that is not larger is zero.
-    pub rounding: Vec<f64>,
-    /// Largest entry of `X^T M X - 1`.
-    pub orthogonality: f64,
-    /// Eigenvalues counted and found below a value: the proof that none is missing.
-    pub count_check: CountCheck,
-    /// Shift sigma of the factor that it was iterated with, 1/s^2.
-    pub shift: f64,
-    /// Where the time went.
-    pub times: EigenTimes,
-}
 
 /// Stiffness K and mass M in the order in which they are factorised.
 #[derive(Debug, Clone)]
@@ -185,15 +145,18 @@ impl EigenProblem {
             if order <= DENSE_LIMIT || largest_basis(count + beyond) > order {
                 return self.by_dense_solver(count, times);
             }
-            let (ritz, quality, shift, memory) = self.iterate(count, beyond, round, &mut times)?;
-            let Some((gap, below)) = widest_gap(&ritz.values, count, shift) else {
+            let iterated = self.iterate(count, beyond, round, &mut times)?;
+            let Iterated {
+                ritz,
+                quality,
+                shift,
+                counted,
+            } = iterated;
+            let Some((value, counted)) = counted else {
                 beyond = (2 * beyond + BEYOND).min(order - count);
                 continue;
             };
-            let started = Instant::now();
-            let (value, counted) =
-                count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
-            times.count += started.elapsed().as_secs_f64();
+            let below = ritz.values.iter().filter(|&&found| found < value).count();
             let found = CountCheck {
                 above: None,
                 below: value,
@@ -305,116 +268,6 @@ impl EigenProblem {
         }
     }
 
-    fn middle_factor(&self, low: f64, high: f64) -> Result<(f64, Factor), LinalgError> {
-        let mut failed = LinalgError::NoGap { asked: 1 };
-        for place in [0.5, 0.47, 0.53, 0.44] {
-            let sigma = low + place * (high - low);
-            let shifted = self.stiffness.shifted(sigma, &self.mass);
-            match Factor::double(&self.symbolic, &shifted, Kind::Indefinite) {
-                Ok(factor) => return Ok((sigma, factor)),
-                Err(error) => failed = error,
-            }
-        }
-        Err(failed)
-    }
-
-    /// Factor of K, or of K less a shift below zero if K is not positive definite.
-    fn definite_factor(&self) -> Result<(f64, Arc<Factor>), LinalgError> {
-        if let Some(factor) = self.factor.as_ref().filter(|factor| factor.is_sharp()) {
-            return Ok((0.0, Arc::clone(factor)));
-        }
-        let attempt = |sigma: f64| -> Result<(f64, Arc<Factor>), LinalgError> {
-            let shifted = self.stiffness.shifted(sigma, &self.mass);
-            let factor = self.definite(&shifted, sigma != 0.0)?;
-            Ok((sigma, Arc::new(factor)))
-        };
-        let mut tried = attempt(0.0);
-        if let Ok((_, factor)) = &tried
-            && !factor.is_sharp()
-        {
-            tried = Err(LinalgError::NearlySingular {
-                order: self.order(),
-                contraction: factor.contraction,
-            });
-        }
-        let first = self.free_shift();
-        for larger in [1.0, 1e2, 1e4] {
-            match tried {
-                Err(LinalgError::Factorisation { .. }) | Ok(_) => break,
-                Err(_) => tried = attempt(larger * first),
-            }
-        }
-        tried
-    }
-
-    /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
-    fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
-        let factorise = if thorough { Factor::new } else { Factor::quick };
-        let large = self.symbolic.entries() > LARGE;
-        let kind = if large {
-            Kind::Indefinite
-        } else {
-            Kind::Definite
-        };
-        let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
-        match factor.negative() {
-            0 => Ok(factor),
-            negative => Err(LinalgError::Indefinite {
-                order: a.order(),
-                negative,
-            }),
-        }
-    }
-
-    fn free_shift(&self) -> f64 {
-        let (k, m) = (self.stiffness.diagonal(), self.mass.diagonal());
-        let smallest = k
-            .iter()
-            .zip(&m)
-            .map(|(k, m)| k / m)
-            .filter(|ratio| ratio.is_finite() && *ratio > 0.0)
-            .fold(f64::INFINITY, f64::min);
-        if smallest.is_finite() {
-            FREE_SHIFT * smallest
-        } else {
-            -1.0
-        }
-    }
-
-    fn iterate(
-        &self,
-        count: usize,
-        beyond: usize,
-        rounds: usize,
-        times: &mut EigenTimes,
-    ) -> Result<(Ritz, Quality, f64, FactorMemory), LinalgError> {
-        let started = Instant::now();
-        let (mut shift, mut factor) = self.definite_factor()?;
-        times.factor += started.elapsed().as_secs_f64();
-        let started = Instant::now();
-        let mut search = Search::new(&self.stiffness, &self.mass, shift, count, beyond);
-        for _ in 0..rounds {
-            search.explore(&factor)?;
-        }
-        // a shift far below the wanted values makes all of them look alike
-        let last = search.value(count - 1)?;
-        if shift < 0.0 && last > 0.0 && last < -0.1 * shift {
-            let nearer = self.stiffness.shifted(-last, &self.mass);
-            if let Ok(better) = self.definite(&nearer, false) {
-                (shift, factor) = (-last, Arc::new(better));
-                search.shift = shift;
-                search.explore(&factor)?;
-            }
-        }
-        let ritz = search.converge(&factor)?;
-        drop(search);
-        let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
-        times.iterate += started.elapsed().as_secs_f64();
-        let memory =
-            Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
-        Ok((ritz, quality, shift, memory))
-    }
-
     fn finished(
         &self,
         ritz: Ritz,
@@ -464,59 +317,5 @@ impl EigenProblem {
     }
 }
 
-impl EigenPairs {
-    fn none(order: usize, below: f64) -> Self {
-        Self {
-            values: Vec::new(),
-            vectors: DenseMatrix::zeros(order, 0),
-            residuals: Vec::new(),
-            bounds: Vec::new(),
-            rounding: Vec::new(),
-            orthogonality: 0.0,
-            count_check: CountCheck {
-                above: None,
-                below,
-                counted: 0,
-                found: 0,
-            },
-            shift: 0.0,
-            times: EigenTimes::default(),
-        }
-    }
-
-    fn drop_first(&mut self, dropped: usize) {
-        for list in [
-            &mut self.values,
-            &mut self.residuals,
-            &mut self.bounds,
-            &mut self.rounding,
-        ] {
-            list.drain(..dropped);
-        }
-        self.vectors = self
-            .vectors
-            .subcols(dropped, self.vectors.ncols() - dropped)
-            .to_owned();
-    }
-}
-
-/// The widest gap between the last wanted value and the last pursued one, relative to the distance from the shift,
-/// and how many values lie below it; `None` if all are too narrow to count in.
-fn widest_gap(values: &[f64], count: usize, shift: f64) -> Option<([f64; 2], usize)> {
-    let width = |place: usize| (values[place] - values[place - 1]) / (values[place] - shift);
-    let widest = (count..values.len()).max_by(|&a, &b| width(a).total_cmp(&width(b)));
-    match widest {
-        Some(place) if width(place) > SMALLEST_GAP => {
-            Some(([values[place - 1], values[place]], place))
-        }
-        Some(_) => None,
-        // every eigenvalue of the problem was asked for
-        None => values
-            .last()
-            .map(|&last| ([last, 2.0 * last - shift], values.len())),
-    }
-}
-
 #[cfg(test)]
-#[path = "eigen_tests.rs"]
 mod tests;

@@ -1,0 +1,116 @@
+//! The lowest pairs, and beside the iteration the count that proves them.
+
+use super::super::LinalgError;
+use super::super::bound::Quality;
+use super::super::count::count_between;
+use super::super::factor::{Factor, FactorMemory};
+use super::super::lowest::{Ritz, Search};
+use super::{EigenProblem, EigenTimes};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Gap in which it is counted, relative to the distance from the shift.
+const SMALLEST_GAP: f64 = 1e-5;
+
+/// Pairs, and a count of eigenvalues below a value behind those wanted; `None` if they end in a crowd.
+pub(super) struct Iterated {
+    pub ritz: Ritz,
+    pub quality: Quality,
+    pub shift: f64,
+    pub counted: Option<(f64, usize)>,
+}
+
+impl EigenProblem {
+    /// The pairs, and how many eigenvalues lie below a value in a gap behind those wanted.
+    pub(super) fn iterate(
+        &self,
+        count: usize,
+        beyond: usize,
+        rounds: usize,
+        times: &mut EigenTimes,
+    ) -> Result<Iterated, LinalgError> {
+        let started = Instant::now();
+        let (mut shift, mut factor) = self.definite_factor()?;
+        times.factor += started.elapsed().as_secs_f64();
+        let started = Instant::now();
+        let mut search = Search::new(&self.stiffness, &self.mass, shift, count, beyond);
+        for _ in 0..rounds {
+            search.explore(&factor)?;
+        }
+        // a shift far below the wanted values makes all of them look alike
+        let last = search.value(count - 1)?;
+        if shift < 0.0 && last > 0.0 && last < -0.1 * shift {
+            let nearer = self.stiffness.shifted(-last, &self.mass);
+            if let Ok(better) = self.definite(&nearer, false) {
+                (shift, factor) = (-last, Arc::new(better));
+                search.shift = shift;
+                search.explore(&factor)?;
+            }
+        }
+        // six digits by now: enough to say where to count, which takes as long as what is left of the iteration
+        let near = search.approach(&factor)?;
+        let early = widest_gap(&near, count, shift);
+        let iteration = || {
+            let ritz = search.converge(&factor)?;
+            drop(search);
+            let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+            Ok((ritz, quality, started.elapsed().as_secs_f64()))
+        };
+        let (iterated, mut counted) = match early {
+            Some(gap) if rayon::current_num_threads() > 1 => {
+                let count = || self.count_in(gap, FactorMemory::default());
+                let (iterated, counted) = rayon::join(iteration, count);
+                (iterated?, Some(counted?))
+            }
+            _ => (iteration()?, None),
+        };
+        let (ritz, quality, elapsed) = iterated;
+        times.iterate += elapsed;
+        let mut memory =
+            Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
+        if let (Some(gap), None) = (early, &counted) {
+            counted = Some(self.count_in(gap, std::mem::take(&mut memory))?);
+        }
+        // a value among those wanted says nothing of the last of them
+        let behind = |value: f64| ritz.values[count - 1] < value;
+        if !counted.is_some_and(|(value, ..)| behind(value)) {
+            times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
+            counted = match widest_gap(&ritz.values, count, shift) {
+                Some(gap) => Some(self.count_in(gap, memory)?),
+                None => None,
+            };
+        }
+        times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
+        Ok(Iterated {
+            ritz,
+            quality,
+            shift,
+            counted: counted.map(|(value, counted, _)| (value, counted)),
+        })
+    }
+
+    /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.
+    fn count_in(
+        &self,
+        gap: [f64; 2],
+        memory: FactorMemory,
+    ) -> Result<(f64, usize, f64), LinalgError> {
+        let started = Instant::now();
+        let (value, counted) =
+            count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
+        Ok((value, counted, started.elapsed().as_secs_f64()))
+    }
+}
+
+/// The widest gap between the last wanted value and the last pursued one, relative to the distance from the shift;
+/// `None` if all are too narrow to count in.
+fn widest_gap(values: &[f64], count: usize, shift: f64) -> Option<[f64; 2]> {
+    let width = |place: usize| (values[place] - values[place - 1]) / (values[place] - shift);
+    let widest = (count..values.len()).max_by(|&a, &b| width(a).total_cmp(&width(b)));
+    match widest {
+        Some(place) if width(place) > SMALLEST_GAP => Some([values[place - 1], values[place]]),
+        Some(_) => None,
+        // every eigenvalue of the problem was asked for
+        None => values.last().map(|&last| [last, 2.0 * last - shift]),
+    }
+}
