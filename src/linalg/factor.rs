@@ -20,7 +20,7 @@ const SMALL: usize = 1 << 22;
 
 /// Vectors with which the contraction is measured, and how often it is applied to them: the first time brings out
 /// the factor's worst directions, the second measures them.
-const PROBES: (usize, usize) = (4, 2);
+const PROBES: (usize, usize) = (2, 2);
 
 #[derive(Debug)]
 enum Numbers {

@@ -11,6 +11,10 @@ use std::sync::{Mutex, PoisonError};
 /// Whose turn it is.
 static TURN: Mutex<()> = Mutex::new(());
 
+/// Nodes above which separators are refined from both sides: that saved 18 and 10 % of the operations of a factorisation
+/// with 80 000 and 160 000 nodes, and cost 10 % with 20 000. METIS's luck alone is worth 5 %.
+const LARGE: usize = 50_000;
+
 /// An undirected graph: the neighbours of node i are `neighbours[starts[i]..starts[i + 1]]`, without i itself; each
 /// edge is stored at both ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,8 +56,10 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
     // `options` METIS_NOPTIONS; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
-        options[metis_sys::moptions_et_METIS_OPTION_RTYPE as usize] =
-            metis_sys::mrtype_et_METIS_RTYPE_SEP2SIDED as c_int;
+        if nodes > LARGE {
+            options[metis_sys::moptions_et_METIS_OPTION_RTYPE as usize] =
+                metis_sys::mrtype_et_METIS_RTYPE_SEP2SIDED as c_int;
+        }
         metis_sys::METIS_NodeND(
             &mut count,
             starts.as_mut_ptr(),
