@@ -170,12 +170,12 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
         let setup = bearing_setup(case)?;
         section = section
             .drawing(draw(case, stage, setup.as_ref()))
-            .facts(model_facts(case, stage));
+            .facts(model_facts(case, stage, result.base.loaded.is_some()));
     }
     section = section.table(material_table(case));
     if result.mesh_and_model().is_some() {
         let still = ModeShapeView {
-            title: "Mesh and groups".to_owned(),
+            title: "The model".to_owned(),
             figures: ShapeFigures::Mesh,
             modes: Vec::new(),
             ..view.clone()

@@ -36,7 +36,7 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
     report = report.section(
         Section::new("Model")
             .drawing(draw(case, &result.stage, Some(&result.setup)))
-            .facts(model_facts(case, &result.stage)),
+            .facts(model_facts(case, &result.stage, true)),
     );
     report = report.section(
         Section::new("Bearing")

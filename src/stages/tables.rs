@@ -9,8 +9,8 @@ use crate::system::{BearingSetup, Equilibrium, Formulation, LoadedModes};
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
 
-/// The linear model in facts.
-pub(super) fn model_facts(case: &Case, stage: &StructureStage) -> Vec<Fact> {
+/// The linear model in facts; `condensed`: how, where something of the report was computed with it.
+pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) -> Vec<Fact> {
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![
@@ -54,16 +54,20 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage) -> Vec<Fact> {
                     significant(housing.matrices.total_mass(), 5)
                 ),
             ),
-            Fact::new(
-                "Condensed to",
-                format!(
-                    "{} ring displacements and {} fixed-interface modes",
-                    ring.dof(),
-                    stage.fixed_interface_modes
-                ),
-            )
-            .note("Craig-Bampton"),
         ]);
+        if condensed {
+            facts.push(
+                Fact::new(
+                    "Condensed to",
+                    format!(
+                        "{} ring displacements and {} fixed-interface modes",
+                        ring.dof(),
+                        stage.fixed_interface_modes
+                    ),
+                )
+                .note("Craig-Bampton"),
+            );
+        }
     }
     facts
 }
