@@ -123,6 +123,11 @@ pub struct Case {
     pub source: Source,
 }
 
+/// Default of what is on unless it is switched off.
+const fn yes() -> bool {
+    true
+}
+
 impl Case {
     /// Returns a material by name, given or built in.
     #[must_use]
@@ -156,6 +161,14 @@ impl Case {
             (None, Some(transient)) => Some([0.0, 0.5 * transient.output_hz]),
             (None, None) => None,
         }
+    }
+
+    /// Returns the relative error that the frequencies in the band may have: that of `[accuracy]`, else 0.01.
+    #[must_use]
+    pub fn target(&self) -> f64 {
+        self.accuracy
+            .as_ref()
+            .map_or(0.01, |accuracy| accuracy.target)
     }
 
     /// Returns the case file's name without folder and ending, or `case` if it has none.

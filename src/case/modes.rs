@@ -163,18 +163,28 @@ impl From<Modes> for ModesForm {
 }
 
 /// How the housing is condensed onto the ring.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Condense {
     /// What the condensed housing is attached by.
     #[serde(default)]
     pub interface: Interface,
-    /// How many fixed-interface modes are kept.
+    /// How many vectors of the interior are kept, residual vectors among them.
     #[serde(default)]
     pub fixed_interface_modes: FixedInterfaceModes,
-    /// Always false in this version: plain Craig-Bampton (`true` is refused by name).
-    #[serde(default)]
+    /// Whether residual vectors stand beside the fixed-interface modes; false: plain Craig-Bampton.
+    #[serde(default = "super::yes")]
     pub enhanced: bool,
+}
+
+impl Default for Condense {
+    fn default() -> Self {
+        Self {
+            interface: Interface::default(),
+            fixed_interface_modes: FixedInterfaceModes::default(),
+            enhanced: true,
+        }
+    }
 }
 
 /// What a condensed housing is attached by.

@@ -23,10 +23,10 @@ pub struct Ring {
     #[serde(default)]
     pub element: RingElement,
     /// Whether shear deformation is included.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub shear: bool,
     /// Whether the sections' rotary inertia is included.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub rotary_inertia: bool,
     /// Radius of the ring's outer surface in m, not below any section's radius; `None`: not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -42,10 +42,6 @@ pub struct Ring {
 fn default_nodes() -> usize {
     // Source paper, section 4: 72 elements.
     72
-}
-
-fn yes() -> bool {
-    true
 }
 
 /// The cross-section of one ring.

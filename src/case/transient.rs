@@ -40,12 +40,8 @@ pub struct Transient {
     #[serde(default)]
     pub modes: ModesKept,
     /// Whether the static compliance of the modes left out is kept, at the contacts and at the sensors.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub residual: bool,
-}
-
-fn yes() -> bool {
-    true
 }
 
 /// How time is stepped.

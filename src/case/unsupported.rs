@@ -12,8 +12,6 @@ enum Extent {
     Key,
     /// This word.
     Word(&'static str),
-    /// `true`.
-    True,
     /// A table, or an array of tables.
     Table,
     /// A table or an array.
@@ -43,7 +41,7 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 17] = [
+const UNSUPPORTED: [Unsupported; 16] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
@@ -89,11 +87,6 @@ const UNSUPPORTED: [Unsupported; 17] = [
         Extent::Compound,
         "use interface = \"ring\"",
     ),
-    refused(
-        &["condense", "enhanced"],
-        Extent::True,
-        "leave the key out: plain Craig-Bampton, with more fixed_interface_modes",
-    ),
     refused(&["frf"], Extent::Key, "leave the table out"),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
     refused(
@@ -132,7 +125,6 @@ pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
                 place: document.marked(Some(mark)),
                 key: match entry.extent {
                     Extent::Word(word) => format!("{path} = \"{word}\""),
-                    Extent::True => format!("{path} = true"),
                     Extent::Key | Extent::Table | Extent::Compound => path,
                 },
                 instead: entry.instead,
@@ -153,7 +145,6 @@ fn find(
         let matches = match extent {
             Extent::Key => true,
             Extent::Word(word) => matches!(&node.value, Value::Text(text) if text == word),
-            Extent::True => matches!(node.value, Value::Flag(true)),
             Extent::Table => match &node.value {
                 Value::Table(_) => true,
                 Value::List(items) => {
@@ -215,7 +206,6 @@ mod tests {
         ),
         ("sensors[1].node=17", "sensors[1].node"),
         ("condense.interface={group='bore'}", "condense.interface"),
-        ("condense.enhanced=true", "condense.enhanced = true"),
         ("frf={from=[],to=[]}", "frf"),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),

@@ -1,261 +1,134 @@
-//! The reduction itself: one factorisation of K_ii for constraint modes and fixed-interface modes.
-//!
-//! With b the interface, i the interior, T the map from interface coordinates to the displacements
-//! it drives (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319, with the tie folded in):
+//! Craig-Bampton condensation: constraint modes and a basis of the interior become a superelement.
 //!
 //! ```text
-//! Psi = -K_ii^-1 K_ib T                                     constraint modes, statically exact
-//! K_ii Phi = M_ii Phi Lambda, Phi^T M_ii Phi = 1            fixed-interface modes
-//! k = [[T^T K_bb T + (K_ib T)^T Psi, 0], [0, Lambda]]
-//! m = [[T^T (M_bb T + M_bi Psi) + Psi^T (M_ib T + M_ii Psi), sym], [Phi^T (M_ib T + M_ii Psi), 1]]
+//! k = [[k_bb, 0], [0, diag(values)]]      m = [[m_bb, A^T Q], [Q^T A, 1]]
 //! ```
 //!
-//! Static interface response is exact; frequencies converge from above.
+//! (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319.) Static interface response is exact; frequencies converge from
+//! above.
 
-use super::Superelement;
+use super::coupled_modes::reduced_matrices;
+use super::selection::{BasisChoice, choose_basis};
+use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix,
-    sparse_times_dense, submatrix, transpose_times_dense,
-};
+use crate::linalg::{DenseMatrix, transpose_times_dense};
 use crate::model::HousingPartition;
-use std::f64::consts::TAU;
-use thiserror::Error;
 
-/// How many fixed-interface modes are kept.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FixedModeSelection {
-    /// The lowest so many.
-    Count(usize),
-    /// All up to a frequency, Hz.
-    UpTo(f64),
+/// A condensed housing with the way back to its nodes.
+#[derive(Debug, Clone)]
+pub struct CraigBampton {
+    /// The housing's split, its factor and its constraint modes.
+    pub substructure: Substructure,
+    /// What the interior may do beside following the interface.
+    pub basis: InteriorBasis,
+    /// The reduced matrices.
+    pub superelement: Superelement,
 }
 
-/// A reduction that cannot be made.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ReductionError {
-    /// The interior can move while the interface is held.
-    #[error(
-        "part of the housing is not connected to the ring: with the bore held it can still move ({interior} interior degrees of freedom); check that the mesh is in one piece and its nodes are merged"
-    )]
-    FloatingInterior {
-        /// Number of interior degrees of freedom.
-        interior: usize,
-    },
-    /// Nothing left to reduce.
-    #[error("the housing has no node besides those of the bore")]
-    NoInterior,
-    /// A linear algebra step failed.
-    #[error(transparent)]
-    Linalg(#[from] LinalgError),
-}
-
-/// Condenses a housing on the interface of `partition`.
+/// Condenses a housing on the interface of `partition` with a basis as `choice` asks for; `attached` is what it will
+/// be attached to, which decides which of its motions matter.
 ///
 /// # Errors
-/// [`ReductionError::FloatingInterior`] if K_ii is singular; what the eigenvalue iteration reports.
+/// [`ReductionError`] of the split, of the eigenvalue iteration, and of a basis that does not become good enough.
 pub fn craig_bampton(
     matrices: &SystemMatrices,
     partition: &HousingPartition,
-    selection: FixedModeSelection,
-) -> Result<Superelement, ReductionError> {
-    let (k, m) = (&matrices.stiffness, &matrices.mass);
-    let (b, i) = (&partition.driven, &partition.interior);
-    if i.is_empty() {
-        return Err(ReductionError::NoInterior);
-    }
-    let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
-    let floating = |error| match error {
-        LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. } => {
-            ReductionError::FloatingInterior { interior: i.len() }
-        }
-        other => other.into(),
-    };
-    let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
-    let tie = dense(&partition.tie);
-    let driven_k = sparse_times_dense(&submatrix(k, i, b), &tie);
-    let mut constraint_modes = &driven_k * faer::Scale(-1.0);
-    factor.solve_columns(&mut constraint_modes)?;
-    let pairs = fixed_interface_modes(&k_ii, &m_ii, &factor, selection)?;
-    let (q, phi) = (pairs.0.len(), &pairs.1);
-    let bb = |matrix: &SparseMatrix| {
-        tie.transpose() * sparse_times_dense(&submatrix(matrix, b, b), &tie)
-    };
-    let k_bb = bb(k) + driven_k.transpose() * &constraint_modes;
-    // inertia of the interior when the interface moves and the interior follows statically
-    let m_ib = submatrix(m, i, b);
-    let follow = sparse_times_dense(&m_ib, &tie) + sparse_times_dense(&m_ii, &constraint_modes);
-    let m_bb = bb(m)
-        + tie.transpose() * transpose_times_dense(&m_ib, &constraint_modes)
-        + constraint_modes.transpose() * &follow;
-    let m_qb = phi.transpose() * &follow;
-    let interface = tie.ncols();
-    let entry =
-        |bb: &DenseMatrix, row: usize, column: usize| 0.5 * (bb[(row, column)] + bb[(column, row)]);
-    let order = interface + q;
-    let stiffness = DenseMatrix::from_fn(order, order, |row, column| {
-        match (row.checked_sub(interface), column.checked_sub(interface)) {
-            (None, None) => entry(&k_bb, row, column),
-            (Some(mode), Some(other)) if mode == other => pairs.0[mode],
-            _ => 0.0,
-        }
-    });
-    let mass = DenseMatrix::from_fn(order, order, |row, column| {
-        match (row.checked_sub(interface), column.checked_sub(interface)) {
-            (None, None) => entry(&m_bb, row, column),
-            (Some(mode), None) => m_qb[(mode, column)],
-            (None, Some(mode)) => m_qb[(mode, row)],
-            (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
-        }
-    });
-    Ok(Superelement::new(
-        partition.clone(),
-        stiffness,
-        mass,
-        constraint_modes,
-        phi.clone(),
-        &matrices.weight,
-    ))
+    choice: BasisChoice,
+    attached: Option<Attached<'_>>,
+) -> Result<CraigBampton, ReductionError> {
+    let substructure = Substructure::new(matrices, partition)?;
+    let basis = choose_basis(&substructure, choice, attached)?;
+    Ok(CraigBampton::new(substructure, basis))
 }
 
-/// Eigenvalues and vectors [interior x count] with the interface held.
-fn fixed_interface_modes(
-    k_ii: &SparseMatrix,
-    m_ii: &SparseMatrix,
-    factor: &SparseCholesky,
-    selection: FixedModeSelection,
-) -> Result<(Vec<f64>, DenseMatrix), ReductionError> {
-    let of_pairs = |pairs: EigenPairs| (pairs.values, pairs.vectors);
-    let problem = || EigenProblem::with_factor(k_ii, m_ii, factor);
-    Ok(match selection {
-        FixedModeSelection::Count(0) => (Vec::new(), DenseMatrix::zeros(k_ii.rows(), 0)),
-        FixedModeSelection::Count(count) => of_pairs(problem()?.lowest(count)?),
-        FixedModeSelection::UpTo(hz) => of_pairs(problem()?.below((TAU * hz).powi(2))?),
+impl CraigBampton {
+    /// The superelement of a basis.
+    pub fn new(substructure: Substructure, basis: InteriorBasis) -> Self {
+        let [stiffness, mass] = reduced_matrices(&substructure, &basis, None);
+        let superelement = Superelement {
+            stiffness,
+            mass,
+            weight: reduced_weight(&substructure, &basis),
+            interface_dof: substructure.interface_dof(),
+        };
+        Self {
+            substructure,
+            basis,
+            superelement,
+        }
+    }
+
+    /// Estimated errors of the frequencies in a band, with what will be attached.
+    ///
+    /// # Errors
+    /// As [`ErrorEstimate::of`].
+    pub fn estimate(
+        &self,
+        attached: Option<Attached<'_>>,
+        band_hz: f64,
+    ) -> Result<ErrorEstimate, ReductionError> {
+        ErrorEstimate::of(&self.substructure, &self.basis, attached, band_hz)
+    }
+
+    /// Data recovery: the row that gives a degree of freedom of the housing from the coordinates
+    /// \[order\]; `None` for one that is fixed.
+    pub fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
+        let partition = self.substructure.partition();
+        let interface = self.superelement.interface_dof;
+        if let Some(place) = partition.interior.iter().position(|&i| i == dof) {
+            let psi = self.substructure.constraint_modes();
+            let q = self.basis.vectors();
+            let constraint = (0..interface).map(|column| psi[(place, column)]);
+            let modal = (0..q.ncols()).map(|mode| q[(place, mode)]);
+            return Some(constraint.chain(modal).collect());
+        }
+        let place = partition.driven.iter().position(|&b| b == dof)?;
+        let mut row = vec![0.0; self.superelement.order()];
+        for (column, entries) in partition.tie.outer_iterator().enumerate() {
+            row[column] = entries.get(place).copied().unwrap_or(0.0);
+        }
+        Some(row)
+    }
+
+    /// Whole-field recovery: displacements over all degrees of freedom of the housing [dof x k] for coordinates
+    /// [order x k]; fixed ones are zero.
+    pub fn field(&self, coordinates: &DenseMatrix, dof: usize) -> DenseMatrix {
+        let partition = self.substructure.partition();
+        let interface = self.superelement.interface_dof;
+        let boundary = coordinates.subrows(0, interface);
+        let amplitudes = coordinates.subrows(interface, self.basis.count());
+        let interior =
+            self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
+        let driven = crate::linalg::sparse_times_dense(&partition.tie, &boundary.to_owned());
+        let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
+        for column in 0..coordinates.ncols() {
+            let to = all.col_as_slice_mut(column);
+            for (&dof, &value) in partition.interior.iter().zip(interior.col_as_slice(column)) {
+                to[dof] = value;
+            }
+            for (&dof, &value) in partition.driven.iter().zip(driven.col_as_slice(column)) {
+                to[dof] = value;
+            }
+        }
+        all
+    }
+}
+
+/// The mesh's own inertia load on the coordinates, so that the weight is that of the mesh whatever the reduction keeps.
+fn reduced_weight(substructure: &Substructure, basis: &InteriorBasis) -> DenseMatrix {
+    let [interior, driven] = substructure.weight();
+    let interface = transpose_times_dense(&substructure.partition().tie, driven)
+        + substructure.constraint_modes().transpose() * interior;
+    let modal = basis.vectors().transpose() * interior;
+    let first = interface.nrows();
+    DenseMatrix::from_fn(first + modal.nrows(), 2, |row, column| {
+        match row.checked_sub(first) {
+            None => interface[(row, column)],
+            Some(mode) => modal[(mode, column)],
+        }
     })
 }
 
-/// A sparse matrix with all its zeros.
-fn dense(sparse: &SparseMatrix) -> DenseMatrix {
-    let mut full = DenseMatrix::zeros(sparse.rows(), sparse.cols());
-    for (column, entries) in sparse.outer_iterator().enumerate() {
-        for (row, &value) in entries.iter() {
-            full[(row, column)] = value;
-        }
-    }
-    full
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::linalg::{TripletBuilder, symmetric_generalised_eigen};
-
-    /// Rod of unit springs and masses, free at both ends.
-    fn rod(nodes: usize) -> SystemMatrices {
-        let (mut k, mut m) = (
-            TripletBuilder::new(nodes, nodes),
-            TripletBuilder::new(nodes, nodes),
-        );
-        for node in 0..nodes {
-            m.add(node, node, 1.0);
-            if node + 1 < nodes {
-                for (row, column, value) in [(0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)] {
-                    k.add(node + row, node + column, value);
-                }
-            }
-        }
-        SystemMatrices {
-            stiffness: k.build(),
-            mass: m.build(),
-            weight: DenseMatrix::zeros(nodes, 2),
-            total_mass: nodes as f64,
-        }
-    }
-
-    fn partition(nodes: usize) -> HousingPartition {
-        let mut tie = TripletBuilder::new(1, 1);
-        tie.add(0, 0, 1.0);
-        HousingPartition {
-            driven: vec![0],
-            interior: (1..nodes).collect(),
-            tie: tie.build(),
-        }
-    }
-
-    #[test]
-    fn all_modes_kept_is_the_full_model() {
-        let rod = rod(12);
-        let reduced =
-            craig_bampton(&rod, &partition(12), FixedModeSelection::Count(11)).expect("connected");
-        let found = symmetric_generalised_eigen(reduced.stiffness(), reduced.mass()).expect("free");
-        let full =
-            symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
-        for mode in 0..12 {
-            let error = (found.values[mode] - full.values[mode]).abs();
-            assert!(error < 1e-11, "{mode}: {error:e}");
-        }
-    }
-
-    #[test]
-    fn frequencies_converge_from_above() {
-        let rod = rod(40);
-        let full =
-            symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
-        let mut before = f64::INFINITY;
-        for kept in [0, 2, 5, 10] {
-            let reduced = craig_bampton(&rod, &partition(40), FixedModeSelection::Count(kept))
-                .expect("connected");
-            let modes =
-                symmetric_generalised_eigen(reduced.stiffness(), reduced.mass()).expect("free");
-            // the rigid mode is exact, so is static response: k_bb of a free rod is zero
-            assert!(modes.values[0].abs() < 1e-12);
-            if kept > 0 {
-                let error = modes.values[1] - full.values[1];
-                assert!(error > -1e-13 && error < before);
-                before = error;
-            }
-        }
-        // ten of 39 modes: the loop shows that the error falls, this how far
-        assert!(
-            before < 3e-4 * full.values[1],
-            "{:e}",
-            before / full.values[1]
-        );
-    }
-
-    #[test]
-    fn a_loose_piece_is_named() {
-        let rod = rod(10);
-        let loose = HousingPartition {
-            interior: vec![5, 6, 7],
-            ..partition(10)
-        };
-        // nodes 5 to 7 hang on nothing once 4 and 8 are neither driven nor interior: held by them
-        assert!(craig_bampton(&rod, &loose, FixedModeSelection::Count(1)).is_ok());
-        let mut springs = TripletBuilder::new(10, 10);
-        springs.add(0, 0, 1.0);
-        let nothing = SystemMatrices {
-            stiffness: springs.build(),
-            ..rod
-        };
-        let error = craig_bampton(&nothing, &partition(10), FixedModeSelection::Count(1))
-            .expect_err("no stiffness");
-        assert_eq!(error, ReductionError::FloatingInterior { interior: 9 });
-    }
-
-    #[test]
-    fn a_cut_off_frequency_keeps_what_is_below() {
-        let rod = rod(60);
-        // fixed-free rod of 59 masses: lambda_j = 4 sin^2((2j - 1) pi / (2 (2n + 1)))
-        let limit: f64 = 0.5;
-        let exact = (1..=59)
-            .filter(|j| {
-                let angle = f64::from(2 * j - 1) * std::f64::consts::PI / (2.0 * 119.0);
-                2.0 * angle.sin() <= limit
-            })
-            .count();
-        let reduced = craig_bampton(&rod, &partition(60), FixedModeSelection::UpTo(limit / TAU))
-            .expect("connected");
-        assert_eq!(reduced.fixed_interface_modes(), exact);
-    }
-}
+#[path = "craig_bampton_tests.rs"]
+mod tests;

@@ -1,8 +1,23 @@
-//! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on the
-//! ring's displacements and a few modal amplitudes.
+//! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
+//! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
+mod coupled_modes;
 mod craig_bampton;
+mod error;
+mod estimate;
+mod interior_basis;
+#[cfg(test)]
+mod samples;
+mod selection;
+mod smallest_basis;
+mod substructure;
 mod superelement;
 
-pub use craig_bampton::{FixedModeSelection, ReductionError, craig_bampton};
+pub use coupled_modes::Attached;
+pub use craig_bampton::{CraigBampton, craig_bampton};
+pub use error::ReductionError;
+pub use estimate::{ErrorEstimate, EstimatedMode};
+pub use interior_basis::InteriorBasis;
+pub use selection::{BasisChoice, BasisSize, choose_basis};
+pub use substructure::Substructure;
 pub use superelement::Superelement;

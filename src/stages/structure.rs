@@ -6,18 +6,11 @@ use crate::case::{self, Case, FixedInterfaceModes, SensorSpot};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
-use crate::reduction::{FixedModeSelection, Superelement, craig_bampton};
+use crate::reduction::{Attached, BasisChoice, BasisSize, CraigBampton, craig_bampton};
 use crate::system::{Sensor, Structure, StructureModes};
 
-/// Fixed-interface modes kept by `auto`: those below so many times the band. With the 40 kHz band
-/// that is 1 MHz and 67 modes of the source's aluminium ring; forty leave 3e-5 on its first elastic
-/// frequencies and 5e-4 up to 200 kHz, none 3e-3 on the first (plain Craig-Bampton converges slowly
-/// through a stiff tie).
-const AUTO_CUT_OFF: f64 = 25.0;
-
-/// Fixed-interface modes kept by `auto` for a solid housing, which has thousands below so high a cut-off. On a pillow
-/// block of 10 000 degrees of freedom they leave 1.9e-5 to 2.2e-3 on its first ten frequencies, 20 modes up to 1.3e-2.
-const AUTO_IN_SPACE: usize = 80;
+/// Top of the band of a case that names none, Hz: that of the source's figures.
+const DEFAULT_BAND_HZ: f64 = 40e3;
 
 /// Farthest that a node may be from a sensor's point, relative to the housing's size.
 const SENSOR_TOLERANCE: f64 = 0.02;
@@ -56,14 +49,19 @@ impl StructureStage {
             (Some(housing), Some(tie)) => {
                 watch.stage("condense");
                 let matrices = housing.matrices.clone().for_tie(&tie);
-                let selection = selection(case, housing.model.dimension());
-                let condensed = craig_bampton(&matrices, tie.partition(), selection)?;
-                let mut structure = Structure::with_housing(ring, &condensed, gravity)?;
+                let attached = Attached {
+                    stiffness: ring.stiffness(),
+                    mass: ring.mass(),
+                };
+                let choice = basis_choice(case);
+                let condensed = craig_bampton(&matrices, tie.partition(), choice, Some(attached))?;
+                let mut structure =
+                    Structure::with_housing(ring, &condensed.superelement, gravity)?;
                 for sensor in &case.sensors {
                     let sensor = housing_sensor(&structure, housing, &tie, &condensed, sensor)?;
                     structure.add_sensor(sensor)?;
                 }
-                (structure, condensed.fixed_interface_modes(), Some(tie))
+                (structure, condensed.basis.count(), Some(tie))
             }
             _ => {
                 let mut structure = Structure::ring_alone(ring, gravity);
@@ -86,15 +84,16 @@ impl StructureStage {
     }
 }
 
-fn selection(case: &Case, dimension: usize) -> FixedModeSelection {
-    match case.condense.fixed_interface_modes {
-        FixedInterfaceModes::Count(count) => FixedModeSelection::Count(count),
-        FixedInterfaceModes::UpToHz(hz) => FixedModeSelection::UpTo(hz),
-        FixedInterfaceModes::Auto if dimension == 3 => FixedModeSelection::Count(AUTO_IN_SPACE),
-        FixedInterfaceModes::Auto => {
-            let top = case.band_hz().map_or(40e3, |band| band[1]);
-            FixedModeSelection::UpTo(AUTO_CUT_OFF * top)
-        }
+/// The basis that a case asks for.
+pub(super) fn basis_choice(case: &Case) -> BasisChoice {
+    BasisChoice {
+        size: match case.condense.fixed_interface_modes {
+            FixedInterfaceModes::Count(count) => BasisSize::Count(count),
+            FixedInterfaceModes::UpToHz(hz) => BasisSize::UpTo(hz),
+            FixedInterfaceModes::Auto => BasisSize::Auto(case.target()),
+        },
+        enhanced: case.condense.enhanced,
+        band_hz: case.band_hz().map_or(DEFAULT_BAND_HZ, |band| band[1]),
     }
 }
 
@@ -216,7 +215,7 @@ fn housing_sensor(
     structure: &Structure,
     housing: &HousingStage,
     tie: &RingTie,
-    condensed: &Superelement,
+    condensed: &CraigBampton,
     sensor: &case::Sensor,
 ) -> Result<Sensor, StageError> {
     let nodes = match &sensor.spot {

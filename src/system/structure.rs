@@ -61,10 +61,10 @@ impl Structure {
         gravity: [f64; 2],
     ) -> Result<Self, SystemError> {
         let interface = ring.dof();
-        if housing.interface_dof() != interface {
+        if housing.interface_dof != interface {
             return Err(SystemError::InterfaceSize {
                 expected: interface,
-                found: housing.interface_dof(),
+                found: housing.interface_dof,
             });
         }
         let add_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
@@ -81,8 +81,8 @@ impl Structure {
             *total += own;
         }
         Ok(Self {
-            stiffness: add_ring(housing.stiffness(), ring.stiffness()),
-            mass: add_ring(housing.mass(), ring.mass()),
+            stiffness: add_ring(&housing.stiffness, ring.stiffness()),
+            mass: add_ring(&housing.mass, ring.mass()),
             gravity: load,
             sensors: Vec::new(),
             ring,

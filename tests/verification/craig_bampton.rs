@@ -126,7 +126,7 @@ fn a_rigid_translation_weighs_the_mesh() {
                 let mut motion = housing.ring.rigid_motion(x, y, 0.0);
                 motion.resize(element.order(), 0.0);
                 let motion = column(&motion);
-                let found = (motion.transpose() * element.mass() * &motion)[(0, 0)];
+                let found = (motion.transpose() * &element.mass * &motion)[(0, 0)];
                 let weight = element.gravity_load(GRAVITY);
                 let load: f64 = (0..element.order())
                     .map(|i| weight[i] * motion[(i, 0)])

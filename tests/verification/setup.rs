@@ -33,7 +33,7 @@ use plummer::model::{
     Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
     Ring, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
-use plummer::reduction::{FixedModeSelection, Superelement, craig_bampton};
+use plummer::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
 use plummer::system::{BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure};
 use plummer::transient::{Method, Schedule, Stepping, integrate};
 use plummer::units::LengthUnit;
@@ -202,8 +202,13 @@ impl Housing {
     }
 
     pub fn superelement(&self, fixed_interface_modes: usize) -> Superelement {
-        let selection = FixedModeSelection::Count(fixed_interface_modes);
-        craig_bampton(&self.matrices, self.tie.partition(), selection).unwrap()
+        let choice = BasisChoice {
+            size: BasisSize::Count(fixed_interface_modes),
+            enhanced: false,
+            band_hz: 40e3,
+        };
+        let condensed = craig_bampton(&self.matrices, self.tie.partition(), choice, None);
+        condensed.unwrap().superelement
     }
 
     pub fn structure(&self, fixed_interface_modes: usize) -> Structure {

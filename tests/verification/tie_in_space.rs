@@ -29,7 +29,7 @@ use plummer::model::{
     Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
     Link, Ring, RingFrame, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
-use plummer::reduction::{FixedModeSelection, craig_bampton};
+use plummer::reduction::{BasisChoice, BasisSize, craig_bampton};
 use plummer::system::Structure;
 use plummer::units::LengthUnit;
 
@@ -93,10 +93,15 @@ fn pedestal(supports: Vec<HousingSupport>, frame: RingFrame, fit: Fit) -> Housin
 
 /// All frequencies^2 with so many fixed-interface modes.
 fn condensed(housing: &Housing, modes: usize) -> Vec<f64> {
-    let selection = FixedModeSelection::Count(modes);
-    let element = craig_bampton(&housing.matrices, housing.tie.partition(), selection).unwrap();
+    let choice = BasisChoice {
+        size: BasisSize::Count(modes),
+        enhanced: false,
+        band_hz: 40e3,
+    };
+    let partition = housing.tie.partition();
+    let condensed = craig_bampton(&housing.matrices, partition, choice, None).unwrap();
     let ring = housing.ring.clone();
-    let structure = Structure::with_housing(ring, &element, [0.0, -9.81]).unwrap();
+    let structure = Structure::with_housing(ring, &condensed.superelement, [0.0, -9.81]).unwrap();
     structure.modes().unwrap().squared_frequencies
 }
 

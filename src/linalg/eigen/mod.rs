@@ -121,6 +121,23 @@ impl EigenProblem {
         self.stiffness.order()
     }
 
+    /// `K X` for `X` [n x k].
+    pub fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.product(&self.stiffness, x)
+    }
+
+    /// `M X` for `X` [n x k].
+    pub fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.product(&self.mass, x)
+    }
+
+    fn product(&self, a: &SymmetricMatrix, x: &DenseMatrix) -> DenseMatrix {
+        let permuted = a.times(self.ordering.forward(x).as_ref());
+        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
+        self.ordering.backward(&permuted, &mut y);
+        y
+    }
+
     /// The `count` lowest eigenpairs.
     ///
     /// # Errors

@@ -1,0 +1,92 @@
+//! Modes of a condensed housing with what is attached to its interface, and how far they miss their equations.
+
+use super::{InteriorBasis, ReductionError, Substructure};
+use crate::linalg::{DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};
+
+/// What is attached to an interface: a bearing's ring with its springs.
+#[derive(Debug, Clone, Copy)]
+pub struct Attached<'a> {
+    /// Stiffness [interface x interface], N/m.
+    pub stiffness: &'a DenseMatrix,
+    /// Mass [interface x interface], kg.
+    pub mass: &'a DenseMatrix,
+}
+
+/// Matrices k, m [order x order] of a basis: the interface first, then the amplitudes of the interior's vectors.
+pub(super) fn reduced_matrices(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    attached: Option<Attached<'_>>,
+) -> [DenseMatrix; 2] {
+    let interface = substructure.interface_dof();
+    let order = interface + basis.count();
+    let with = |own: &DenseMatrix, more: Option<&DenseMatrix>| match more {
+        Some(more) => own + more,
+        None => own.clone(),
+    };
+    let k_bb = with(
+        substructure.stiffness(),
+        attached.map(|part| part.stiffness),
+    );
+    let m_bb = with(substructure.mass(), attached.map(|part| part.mass));
+    let (values, m_qb) = (basis.values(), basis.participation());
+    let stiffness = DenseMatrix::from_fn(order, order, |row, column| {
+        match (row.checked_sub(interface), column.checked_sub(interface)) {
+            (None, None) => k_bb[(row, column)],
+            (Some(mode), Some(other)) if mode == other => values[mode],
+            _ => 0.0,
+        }
+    });
+    let mass = DenseMatrix::from_fn(order, order, |row, column| {
+        match (row.checked_sub(interface), column.checked_sub(interface)) {
+            (None, None) => m_bb[(row, column)],
+            (Some(mode), None) => m_qb[(mode, column)],
+            (None, Some(mode)) => m_qb[(mode, row)],
+            (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
+        }
+    });
+    [stiffness, mass]
+}
+
+/// All modes of a condensed housing with what is attached to it.
+pub(super) fn coupled_modes(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    attached: Option<Attached<'_>>,
+) -> Result<SymmetricSpectrum, ReductionError> {
+    let [k, m] = reduced_matrices(substructure, basis, attached);
+    Ok(symmetric_generalised_eigen(&k, &m)?)
+}
+
+/// What the interior's equations lack, for modes `chosen` of `modes` [interior x chosen]:
+///
+/// ```text
+/// r = lambda (M_ib u_b + M_ii u_i) - (K_ib u_b + K_ii u_i)     with u_i = Psi u_b + Q eta
+///   = lambda (A u_b + M_ii Q eta) - K_ii Q eta
+/// ```
+///
+/// The interface's equations hold exactly. `K_ii^-1 r` is what the interior would move further: the residual vector.
+pub(super) fn interior_residuals(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    modes: &SymmetricSpectrum,
+    chosen: &[usize],
+) -> DenseMatrix {
+    let interface = substructure.interface_dof();
+    let part = |first: usize, rows: usize| {
+        DenseMatrix::from_fn(rows, chosen.len(), |row, column| {
+            modes.vectors[(first + row, chosen[column])]
+        })
+    };
+    let moved = basis.vectors() * part(interface, basis.count());
+    let mut residual = substructure.follow(&part(0, interface)) + substructure.mass_times(&moved);
+    let stiff = substructure.stiffness_times(&moved);
+    for (column, &mode) in chosen.iter().enumerate() {
+        let lambda = modes.values[mode];
+        let stiff = stiff.col_as_slice(column);
+        for (entry, stiff) in residual.col_as_slice_mut(column).iter_mut().zip(stiff) {
+            *entry = lambda * *entry - stiff;
+        }
+    }
+    residual
+}

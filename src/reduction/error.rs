@@ -1,0 +1,40 @@
+//! Reductions that cannot be made.
+
+use crate::linalg::LinalgError;
+use thiserror::Error;
+
+/// A reduction that cannot be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ReductionError {
+    /// The interior can move while the interface is held.
+    #[error(
+        "part of the housing is not connected to the interface: with the interface held it can still move ({interior} interior degrees of freedom); check that the mesh is in one piece and its nodes are merged"
+    )]
+    FloatingInterior {
+        /// Number of interior degrees of freedom.
+        interior: usize,
+    },
+    /// Nothing left to reduce.
+    #[error("the housing has no node besides those of the interface")]
+    NoInterior,
+    /// Nothing to attach it by.
+    #[error("the interface has no free degree of freedom: every one of its nodes is fixed or tied")]
+    NoInterface,
+    /// `auto` did not reach the target.
+    #[error(
+        "no basis of up to {vectors} vectors brings the estimated error in the band to {band_hz} Hz below {target}: {reached:.1e} was reached"
+    )]
+    TargetMissed {
+        /// Vectors of the last basis.
+        vectors: usize,
+        /// Top of the band, Hz.
+        band_hz: f64,
+        /// Error asked for.
+        target: f64,
+        /// Error of the last basis.
+        reached: f64,
+    },
+    /// A linear algebra step failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+}

@@ -1,0 +1,127 @@
+//! Which vectors a basis has: fixed-interface modes by number, by frequency, or as few as an error allows; with
+//! residual vectors for the modes of the coupled structure if it is enhanced.
+//!
+//! A residual vector `K_ii^-1 r` is the static response of the interior to what a mode of the reduced structure lacks:
+//! the residual flexibility of all modes left out, applied to the inertia that this mode puts on them. (Residual
+//! flexibility: MacNeal, Computers and Structures 1 (1971) 581-601. Kim and Lee, International Journal for Numerical
+//! Methods in Engineering 103 (2015) 79-93, fold it into the constraint modes instead, at no coordinate; that takes
+//! m^-1 k of the reduced structure, whose highest eigenvalues drown the correction where a ring of beams is attached.)
+
+use super::coupled_modes::{Attached, coupled_modes, interior_residuals};
+use super::smallest_basis::smallest_basis;
+use super::{InteriorBasis, ReductionError, Substructure};
+use crate::linalg::{EigenPairs, SymmetricSpectrum};
+use std::f64::consts::TAU;
+
+/// How many vectors a basis has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BasisSize {
+    /// So many.
+    Count(usize),
+    /// Fixed-interface modes up to a frequency, Hz.
+    UpTo(f64),
+    /// As few as keep the estimated relative error of the frequencies in the band below this.
+    Auto(f64),
+}
+
+/// What is asked of a basis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BasisChoice {
+    /// Its size.
+    pub size: BasisSize,
+    /// Whether residual vectors are among it: of `Count` every second one, to `UpTo` one for each elastic mode of the
+    /// coupled structure in the band.
+    pub enhanced: bool,
+    /// Top of the band of interest, Hz.
+    pub band_hz: f64,
+}
+
+/// A mode of which the squared frequency is below this share of the first fixed-interface one has no residual to speak of.
+const QUASI_STATIC: f64 = 1e-10;
+
+/// Modes computed at first when nobody says how many.
+const FIRST_MODES: usize = 8;
+
+/// Chooses a basis.
+///
+/// # Errors
+/// [`ReductionError::TargetMissed`] for `Auto`; what the eigenvalue iteration reports.
+pub fn choose_basis(
+    substructure: &Substructure,
+    choice: BasisChoice,
+    attached: Option<Attached<'_>>,
+) -> Result<InteriorBasis, ReductionError> {
+    let band = (TAU * choice.band_hz).powi(2);
+    match choice.size {
+        BasisSize::Count(count) => {
+            let count = count.min(substructure.interior_dof());
+            let residual = if choice.enhanced { count / 2 } else { 0 };
+            let pairs = modes(substructure, count - residual)?;
+            let basis = InteriorBasis::of_modes(substructure, &pairs, count - residual);
+            with_residuals(substructure, &basis, attached, |_, elastic| {
+                (elastic..elastic + residual).collect()
+            })
+        }
+        BasisSize::UpTo(hz) => {
+            let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0)?;
+            let basis = InteriorBasis::of_modes(substructure, &pairs, count);
+            with_residuals(substructure, &basis, attached, |spectrum, elastic| {
+                let end = spectrum.values.partition_point(|&value| value <= band);
+                if choice.enhanced {
+                    (elastic..end).collect()
+                } else {
+                    Vec::new()
+                }
+            })
+        }
+        BasisSize::Auto(target) => smallest_basis(substructure, choice, target, attached),
+    }
+}
+
+/// The lowest modes, and one more to say up to where they are complete.
+pub(super) fn modes(
+    substructure: &Substructure,
+    count: usize,
+) -> Result<EigenPairs, ReductionError> {
+    substructure.lowest_modes((count + 1).min(substructure.interior_dof()))
+}
+
+/// Modes of which at least one and `beyond` more are above an eigenvalue, and how many are not.
+pub(super) fn modes_to(
+    substructure: &Substructure,
+    value: f64,
+    beyond: usize,
+) -> Result<(EigenPairs, usize), ReductionError> {
+    let mut asked = FIRST_MODES + beyond;
+    loop {
+        let pairs = modes(substructure, asked)?;
+        let below = pairs.values.partition_point(|&found| found <= value);
+        if below + beyond < pairs.values.len() || pairs.values.len() == substructure.interior_dof()
+        {
+            return Ok((pairs, below));
+        }
+        asked = (2 * asked).max(below + beyond);
+    }
+}
+
+/// A basis with residual vectors of modes of the coupled structure; `choose` gives their places from the spectrum and
+/// the place of the first that is not quasi-static.
+pub(super) fn with_residuals(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    attached: Option<Attached<'_>>,
+    choose: impl FnOnce(&SymmetricSpectrum, usize) -> Vec<usize>,
+) -> Result<InteriorBasis, ReductionError> {
+    let spectrum = coupled_modes(substructure, basis, attached)?;
+    let lowest = basis.values().first().copied();
+    let limit = QUASI_STATIC * lowest.unwrap_or(basis.complete_below());
+    let elastic = spectrum.values.partition_point(|&value| value <= limit);
+    let available = spectrum.values.len();
+    let mut chosen = choose(&spectrum, elastic);
+    chosen.retain(|&mode| mode < available && spectrum.values[mode].is_finite());
+    if chosen.is_empty() {
+        return Ok(basis.clone());
+    }
+    let residual = interior_residuals(substructure, basis, &spectrum, &chosen);
+    basis.extended(substructure, substructure.solve_interior(residual)?)
+}

@@ -1,0 +1,243 @@
+//! What every reduction of a housing starts from, computed once: one factorisation of K_ii, the constraint modes and
+//! the interface's matrices.
+//!
+//! With b the driven degrees of freedom, i the interior and T the map from the interface coordinates to the
+//! displacements that they drive (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319, with the tie folded in):
+//!
+//! ```text
+//! Psi  = -K_ii^-1 K_ib T                                    constraint modes, statically exact
+//! A    = M_ib T + M_ii Psi                                  inertia of the interior that follows the interface
+//! k_bb = T^T K_bb T + (K_ib T)^T Psi
+//! m_bb = T^T M_bb T + (M_ib T)^T Psi + Psi^T A
+//! ```
+
+use super::ReductionError;
+use crate::assembly::SystemMatrices;
+use crate::linalg::{
+    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence,
+    sparse_times_dense, submatrix, transpose_times_dense,
+};
+use crate::model::HousingPartition;
+
+/// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
+/// modes.
+const BLOCK: usize = 64;
+
+/// A housing split into interface and interior, with the factor of its interior.
+#[derive(Debug, Clone)]
+pub struct Substructure {
+    partition: HousingPartition,
+    factor: SparseCholesky,
+    interior: EigenProblem,
+    /// M_ib T [interior x interface].
+    mass_ib: SparseMatrix,
+    constraint_modes: DenseMatrix,
+    stiffness: DenseMatrix,
+    mass: DenseMatrix,
+    /// Mass times unit accelerations, over the interior and over the driven degrees of freedom.
+    weight: [DenseMatrix; 2],
+}
+
+impl Substructure {
+    /// Splits a housing and condenses it statically.
+    ///
+    /// # Errors
+    /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
+    /// is singular.
+    pub fn new(
+        matrices: &SystemMatrices,
+        partition: &HousingPartition,
+    ) -> Result<Self, ReductionError> {
+        let (k, m) = (&matrices.stiffness, &matrices.mass);
+        let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
+        if i.is_empty() {
+            return Err(ReductionError::NoInterior);
+        }
+        if tie.cols() == 0 {
+            return Err(ReductionError::NoInterface);
+        }
+        let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
+        let floating = |error| match error {
+            LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. } => {
+                ReductionError::FloatingInterior { interior: i.len() }
+            }
+            other => other.into(),
+        };
+        let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
+        let interior = EigenProblem::with_factor(&k_ii, &m_ii, &factor)?;
+        drop((k_ii, m_ii));
+        let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
+        let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
+        let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
+        let pick = |dofs: &[usize]| {
+            let columns = matrices.weight.ncols();
+            DenseMatrix::from_fn(dofs.len(), columns, |row, column| {
+                matrices.weight[(dofs[row], column)]
+            })
+        };
+        let mut substructure = Self {
+            stiffness: driven(k),
+            mass: driven(m),
+            constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
+            weight: [pick(i), pick(b)],
+            partition: partition.clone(),
+            factor,
+            interior,
+            mass_ib,
+        };
+        substructure.condense_statically(&stiffness_ib)?;
+        Ok(substructure)
+    }
+
+    fn condense_statically(&mut self, stiffness_ib: &SparseMatrix) -> Result<(), ReductionError> {
+        let order = self.interface_dof();
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let mut modes = columns_of(stiffness_ib, first, width);
+            modes *= faer::Scale(-1.0);
+            self.factor.solve_columns(&mut modes)?;
+            for column in 0..width {
+                self.constraint_modes
+                    .col_as_slice_mut(first + column)
+                    .copy_from_slice(modes.col_as_slice(column));
+            }
+            let k = transpose_times_dense(stiffness_ib, &modes);
+            add_block(&mut self.stiffness, first, &k);
+            let m = transpose_times_dense(&self.mass_ib, &modes);
+            add_block(&mut self.mass, first, &m);
+        }
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let follow = self.follow_block(first, width);
+            let m = self.constraint_modes.transpose() * &follow;
+            add_block(&mut self.mass, first, &m);
+        }
+        symmetrise(&mut self.stiffness);
+        symmetrise(&mut self.mass);
+        Ok(())
+    }
+
+    /// How the degrees of freedom were split.
+    pub fn partition(&self) -> &HousingPartition {
+        &self.partition
+    }
+
+    /// Number of interface coordinates.
+    pub fn interface_dof(&self) -> usize {
+        self.partition.tie.cols()
+    }
+
+    /// Number of interior degrees of freedom.
+    pub fn interior_dof(&self) -> usize {
+        self.partition.interior.len()
+    }
+
+    /// Constraint modes Psi [interior x interface].
+    pub fn constraint_modes(&self) -> &DenseMatrix {
+        &self.constraint_modes
+    }
+
+    /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
+    pub fn stiffness(&self) -> &DenseMatrix {
+        &self.stiffness
+    }
+
+    /// m_bb [interface x interface], kg.
+    pub fn mass(&self) -> &DenseMatrix {
+        &self.mass
+    }
+
+    /// Mass times unit accelerations, over the interior [interior x k] and over the driven degrees of freedom
+    /// [driven x k], kg.
+    pub(super) fn weight(&self) -> [&DenseMatrix; 2] {
+        [&self.weight[0], &self.weight[1]]
+    }
+
+    /// `K_ii^-1 R` for `R` [interior x k].
+    ///
+    /// # Errors
+    /// [`LinalgError::Shape`].
+    pub fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+        self.factor.solve_columns(&mut r)?;
+        Ok(r)
+    }
+
+    /// `K_ii X` for `X` [interior x k].
+    pub fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.interior.stiffness_times(x)
+    }
+
+    /// `M_ii X` for `X` [interior x k].
+    pub fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.interior.mass_times(x)
+    }
+
+    /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
+    pub fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
+        let interior = &self.constraint_modes * u;
+        self.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
+    }
+
+    /// `A^T X` for `X` [interior x k].
+    pub fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.constraint_modes.transpose() * self.mass_times(x)
+            + transpose_times_dense(&self.mass_ib, x)
+    }
+
+    /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.
+    ///
+    /// # Errors
+    /// What the eigenvalue iteration reports.
+    pub fn lowest_modes(&self, count: usize) -> Result<EigenPairs, ReductionError> {
+        Ok(self.interior.lowest(count)?)
+    }
+
+    /// Fixed-interface modes below an eigenvalue, 1/s^2.
+    ///
+    /// # Errors
+    /// What the eigenvalue iteration reports.
+    pub fn modes_below(&self, value: f64) -> Result<EigenPairs, ReductionError> {
+        Ok(self.interior.below(value)?)
+    }
+
+    fn follow_block(&self, first: usize, width: usize) -> DenseMatrix {
+        let modes = self.constraint_modes.subcols(first, width).to_owned();
+        self.mass_times(&modes) + columns_of(&self.mass_ib, first, width)
+    }
+}
+
+/// A sparse matrix with all its zeros.
+pub(super) fn dense(sparse: &SparseMatrix) -> DenseMatrix {
+    columns_of(sparse, 0, sparse.cols())
+}
+
+/// Some columns of a sparse matrix with all their zeros.
+fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
+    let mut full = DenseMatrix::zeros(sparse.rows(), width);
+    for column in 0..width {
+        if let Some(entries) = sparse.outer_view(first + column) {
+            for (row, &value) in entries.iter() {
+                full[(row, column)] = value;
+            }
+        }
+    }
+    full
+}
+
+fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
+    for column in 0..block.ncols() {
+        for row in 0..block.nrows() {
+            matrix[(row, first + column)] += block[(row, column)];
+        }
+    }
+}
+
+fn symmetrise(matrix: &mut DenseMatrix) {
+    for column in 0..matrix.ncols() {
+        for row in 0..column {
+            let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
+            matrix[(row, column)] = mean;
+            matrix[(column, row)] = mean;
+        }
+    }
+}
