@@ -1,4 +1,4 @@
-//! A housing and the ring in its bore in one system of sparse matrices, nothing condensed.
+//! A housing, a ring, or the housing with the ring in its bore in one system of sparse matrices, nothing condensed.
 
 use super::SystemMatrices;
 use crate::linalg::{
@@ -7,8 +7,8 @@ use crate::linalg::{
 };
 use crate::model::{HousingModel, Ring, RingTie};
 
-/// Stiffness and mass over the housing's degrees of freedom, then the ring's. Rows and columns of what the tie drives
-/// are empty: their share is with the ring.
+/// Stiffness and mass over the housing's degrees of freedom, then the ring's; one of the two may be missing. Rows and
+/// columns of what the tie drives are empty: their share is with the ring.
 #[derive(Debug, Clone)]
 pub struct CoupledMatrices {
     /// Stiffness [n x n], N/m.
@@ -68,6 +68,35 @@ impl CoupledMatrices {
             motions: CoupledMotions {
                 recovery,
                 housing_dof,
+            },
+        }
+    }
+}
+
+impl CoupledMatrices {
+    /// A housing alone; its matrices are used up.
+    pub fn of_housing(matrices: SystemMatrices, model: &HousingModel) -> Self {
+        Self {
+            stiffness: matrices.stiffness,
+            mass: matrices.mass,
+            free_dofs: model.free_dofs(),
+            motions: CoupledMotions {
+                recovery: SparseMatrix::eye_csc(model.dof()),
+                housing_dof: model.dof(),
+            },
+        }
+    }
+
+    /// A ring alone.
+    pub fn of_ring(ring: &Ring) -> Self {
+        let order = ring.dof();
+        Self {
+            stiffness: placed(ring.stiffness(), 0, order),
+            mass: placed(ring.mass(), 0, order),
+            free_dofs: (0..order).collect(),
+            motions: CoupledMotions {
+                recovery: TripletBuilder::new(0, order).build(),
+                housing_dof: 0,
             },
         }
     }

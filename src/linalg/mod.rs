@@ -38,7 +38,8 @@ pub use dense::{
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, sparse_times_dense, submatrix, transpose_times_dense,
+    SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
+    transpose_times_dense,
 };
 
 /// Dense column-major matrix of `f64`.

@@ -71,6 +71,17 @@ pub fn submatrix(a: &SparseMatrix, rows: &[usize], columns: &[usize]) -> SparseM
     sprs::CsMat::new_csc((rows.len(), columns.len()), offsets, indices, values)
 }
 
+/// The rows of `part` [rows x k] at the given places of `order` rows, the others zero.
+pub fn scattered_rows(part: &DenseMatrix, rows: &[usize], order: usize) -> DenseMatrix {
+    let mut whole = DenseMatrix::zeros(order, part.ncols());
+    for column in 0..part.ncols() {
+        for (row, &at) in rows.iter().enumerate() {
+            whole[(at, column)] = part[(row, column)];
+        }
+    }
+    whole
+}
+
 /// `A X` for a sparse `A` [n x m] and a dense `X` [m x k].
 pub fn sparse_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
     let mut product = DenseMatrix::zeros(a.rows(), x.ncols());
@@ -139,6 +150,16 @@ mod tests {
         assert_eq!(part.get(0, 0), Some(&-1.0));
         assert_eq!(part.get(1, 0), Some(&2.0));
         assert_eq!(part.get(0, 1), None);
+    }
+
+    #[test]
+    fn scattered_rows_stand_at_their_places() {
+        let part = DenseMatrix::from_fn(2, 2, |row, column| (1 + row + 2 * column) as f64);
+        let whole = scattered_rows(&part, &[3, 1], 4);
+        let expected = [[0.0, 2.0, 0.0, 1.0], [0.0, 4.0, 0.0, 3.0]];
+        for (column, expected) in expected.iter().enumerate() {
+            assert_eq!(whole.col_as_slice(column), expected);
+        }
     }
 
     #[test]

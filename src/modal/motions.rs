@@ -2,7 +2,7 @@
 
 use super::ModalError;
 use super::error::check_count;
-use crate::linalg::{DenseMatrix, sparse_times_dense};
+use crate::linalg::{DenseMatrix, scattered_rows, sparse_times_dense};
 use crate::model::{HousingModel, Ring, RingFrame};
 
 /// Unit rigid motions R of some nodes [d nodes x 3 or 6]: translations along x, y (and z), m, then rotations about
@@ -58,12 +58,7 @@ pub fn over_all_dofs(
             found: outside + 1,
         });
     }
-    let mut all = DenseMatrix::zeros(model.dof(), shapes.ncols());
-    for (row, &dof) in free_dofs.iter().enumerate() {
-        for mode in 0..shapes.ncols() {
-            all[(dof, mode)] = shapes[(row, mode)];
-        }
-    }
+    let all = scattered_rows(shapes, free_dofs, model.dof());
     Ok(match model.tie_matrix() {
         Some(tie) => sparse_times_dense(&tie, &all),
         None => all,

@@ -4,7 +4,7 @@ use super::{ModalBasis, ModeRange, over_all_dofs, strain_products};
 use crate::assembly::{CoupledMatrices, SystemMatrices};
 use crate::element::continuum::PlaneAssumption;
 use crate::element::curved_beam::RingInterpolation;
-use crate::linalg::{DenseMatrix, EigenProblem};
+use crate::linalg::{DenseMatrix, EigenProblem, scattered_rows};
 use crate::material::{BeamSection, Bond, Material, RingLayer};
 use crate::mesh::{
     ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
@@ -286,15 +286,7 @@ pub(super) fn ringed(
     } = CoupledMatrices::new(&matrices, &tie, &ring);
     let problem = EigenProblem::restricted(&stiffness, &mass, &free_dofs).expect("an order");
     let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
-    let over_all = |shapes: &DenseMatrix| {
-        let mut all = DenseMatrix::zeros(mass.rows(), shapes.ncols());
-        for (row, &dof) in free_dofs.iter().enumerate() {
-            for mode in 0..shapes.ncols() {
-                all[(dof, mode)] = shapes[(row, mode)];
-            }
-        }
-        all
-    };
+    let over_all = |shapes: &DenseMatrix| scattered_rows(shapes, &free_dofs, mass.rows());
     let products = |shapes: &DenseMatrix| {
         let all = over_all(shapes);
         let strain = ring.strain_products(&motions.ring(&all));

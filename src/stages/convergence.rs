@@ -5,7 +5,7 @@ use super::mode_set::OwnModes;
 use super::{ModesResult, StageError, Watch};
 use crate::case::{Case, ModeExtent};
 use crate::modal::{
-    Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeRange, ModeSet, richardson,
+    Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
 };
 use serde::Serialize;
 use std::path::PathBuf;
@@ -112,14 +112,11 @@ pub(super) fn mesh_convergence(
         frequencies_hz: own.frequencies_hz.iter().copied().map(Some).collect(),
     }];
     watch.stage("meshes");
-    let range = range(case.modes.extent, own_modes);
+    let extent = extent(case.modes.extent, own_modes);
     for (index, level) in sequence.levels.iter().enumerate().skip(1) {
         watch.fraction((index - 1) as f64 / (sequence.levels.len() - 1) as f64);
         let on_level = || -> Result<OnLevel, StageError> {
-            let modes = ModesOnMesh::compute(case, level.mesh.clone(), range)?;
-            let Some(modes) = modes else {
-                return Ok(OnLevel::nothing(own_modes));
-            };
+            let modes = ModesOnMesh::compute(case, level.mesh.clone(), extent)?;
             let larger = level.element_size.max(sequence.levels[0].element_size);
             recognised(&own, &modes, NEAREST * larger)
         };
@@ -159,25 +156,15 @@ struct OnLevel {
     frequencies_hz: Vec<Option<f64>>,
 }
 
-impl OnLevel {
-    fn nothing(modes: usize) -> Self {
-        Self {
-            free_dof: 0,
-            matched_points: 0,
-            frequencies_hz: vec![None; modes],
-        }
-    }
-}
-
-fn range(extent: ModeExtent, own_modes: usize) -> ModeRange {
-    match extent {
+fn extent(asked: ModeExtent, own_modes: usize) -> ModeExtent {
+    match asked {
         ModeExtent::BandHz([low, high]) => {
-            ModeRange::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high])
+            ModeExtent::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high])
         }
         // a limit in Hz would cut off modes that a coarse mesh has above it
         ModeExtent::Count(_) | ModeExtent::UpToHz(_) => {
             let [least, part] = MORE;
-            ModeRange::Count(own_modes + least.max(own_modes / part))
+            ModeExtent::Count(own_modes + least.max(own_modes / part))
         }
     }
 }

@@ -2,10 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::modal_system::sparse;
-use super::structure::ring_and_tie;
-use super::{HousingStage, StageError, Watch};
-use crate::assembly::CoupledMatrices;
+use super::modal_system::Bodies;
+use super::{StageError, Watch};
 use crate::case::Case;
 use crate::exchange::{DofBody, DofDirection, DofLabel};
 use crate::linalg::{SparseMatrix, submatrix};
@@ -31,109 +29,80 @@ impl FreeSystem {
     /// # Errors
     /// [`StageError`] of mesh, model, elements, ring and tie.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
-        let Some(asked) = &case.ring else {
-            let housing = HousingStage::of(case, watch)?;
-            let free = housing.model.free_dofs();
-            let labels = Labels::of_housing(&housing.model, None);
-            let HousingStage { matrices, .. } = &housing;
-            return Ok(Self::of(
-                &matrices.stiffness,
-                &matrices.mass,
-                &free,
-                &labels,
-            ));
-        };
-        let housing = HousingStage::build(case, watch)?;
-        let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
-        watch.stage("couple");
-        let (Some(housing), Some(tie)) = (&housing, &tie) else {
-            let labels = Labels::of_ring(&ring, &RingFrame::default());
-            let free: Vec<usize> = (0..ring.dof()).collect();
-            let (stiffness, mass) = (sparse(ring.stiffness()), sparse(ring.mass()));
-            return Ok(Self::of(&stiffness, &mass, &free, &labels));
-        };
-        let coupled = CoupledMatrices::new(&housing.matrices, tie, &ring);
-        let mut labels = Labels::of_housing(&housing.model, Some(tie));
-        labels
-            .0
-            .extend(Labels::of_ring(&ring, housing.model.frame()).0);
-        Ok(Self::of(
-            &coupled.stiffness,
-            &coupled.mass,
-            &coupled.free_dofs,
-            &labels,
-        ))
-    }
-
-    fn of(stiffness: &SparseMatrix, mass: &SparseMatrix, free: &[usize], labels: &Labels) -> Self {
-        Self {
-            stiffness: submatrix(stiffness, free, free),
-            mass: submatrix(mass, free, free),
-            rows: free.iter().map(|&dof| labels.0[dof]).collect(),
+        let (bodies, matrices) = Bodies::assemble(case, watch)?;
+        let mut labels = Vec::with_capacity(matrices.mass.rows());
+        if let Some((_, model)) = &bodies.housing {
+            labels.extend(of_housing(model, bodies.tie.as_ref()));
         }
+        if let Some(ring) = &bodies.ring {
+            labels.extend(of_ring(ring, &bodies.frame()));
+        }
+        let free = &matrices.free_dofs;
+        Ok(Self {
+            stiffness: submatrix(&matrices.stiffness, free, free),
+            mass: submatrix(&matrices.mass, free, free),
+            rows: free.iter().map(|&dof| labels[dof]).collect(),
+        })
     }
 }
 
-/// Names of all degrees of freedom, in the order of the matrices before anything is left out.
-struct Labels(Vec<DofLabel>);
+// Names of all degrees of freedom, in the order of the matrices before anything is left out.
 
-impl Labels {
-    fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Self {
-        let d = model.dimension();
-        // a sliding tie turns all components of the bore's nodes
-        let sliding = tie.filter(|tie| tie.rotation().is_some());
-        let bore: BTreeSet<usize> = sliding
-            .iter()
-            .flat_map(|tie| &tie.partition().driven)
-            .map(|dof| dof / d)
-            .collect();
-        let nodes = model.coordinates().iter().zip(&model.node_tags).enumerate();
-        let labels = nodes.flat_map(|(index, (&position, &node))| {
-            let polar = bore.contains(&index);
-            let axes = match polar {
-                true => model.frame().polar_axes(position),
-                false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            };
-            (0..d).map(move |component| DofLabel {
-                body: DofBody::Housing,
-                node,
-                direction: match polar {
-                    true => DofDirection::Polar(component),
-                    false => DofDirection::Along(component),
-                },
-                position,
-                axis: axes[component],
-            })
-        });
-        Self(labels.collect())
-    }
-
-    /// In the order of a ring's displacements: those in its plane, then those out of it.
-    fn of_ring(ring: &Ring, frame: &RingFrame) -> Self {
-        use DofDirection::{About, Along};
-        let in_plane = [(Along(0), 0), (Along(1), 1), (About(2), 2)];
-        let out_of_plane = [(Along(2), 2), (About(0), 0), (About(1), 1)];
-        let blocks = if ring.is_in_space() {
-            vec![in_plane, out_of_plane]
-        } else {
-            vec![in_plane]
+fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<DofLabel> {
+    let d = model.dimension();
+    // a sliding tie turns all components of the bore's nodes
+    let sliding = tie.filter(|tie| tie.rotation().is_some());
+    let bore: BTreeSet<usize> = sliding
+        .iter()
+        .flat_map(|tie| &tie.partition().driven)
+        .map(|dof| dof / d)
+        .collect();
+    let nodes = model.coordinates().iter().zip(&model.node_tags).enumerate();
+    let labels = nodes.flat_map(|(index, (&position, &node))| {
+        let polar = bore.contains(&index);
+        let axes = match polar {
+            true => model.frame().polar_axes(position),
+            false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         };
-        let mut labels = Vec::with_capacity(ring.dof());
-        for block in blocks {
-            for node in 0..ring.nodes() {
-                for (direction, axis) in block {
-                    let mut unit = [0.0; 3];
-                    unit[axis] = 1.0;
-                    labels.push(DofLabel {
-                        body: DofBody::Ring,
-                        node: node as u64,
-                        direction,
-                        position: frame.point_to_mesh(ring.node_position(node)),
-                        axis: frame.vector_to_mesh(unit),
-                    });
-                }
+        (0..d).map(move |component| DofLabel {
+            body: DofBody::Housing,
+            node,
+            direction: match polar {
+                true => DofDirection::Polar(component),
+                false => DofDirection::Along(component),
+            },
+            position,
+            axis: axes[component],
+        })
+    });
+    labels.collect()
+}
+
+/// In the order of a ring's displacements: those in its plane, then those out of it.
+fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
+    use DofDirection::{About, Along};
+    let in_plane = [(Along(0), 0), (Along(1), 1), (About(2), 2)];
+    let out_of_plane = [(Along(2), 2), (About(0), 0), (About(1), 1)];
+    let blocks = if ring.is_in_space() {
+        vec![in_plane, out_of_plane]
+    } else {
+        vec![in_plane]
+    };
+    let mut labels = Vec::with_capacity(ring.dof());
+    for block in blocks {
+        for node in 0..ring.nodes() {
+            for (direction, axis) in block {
+                let mut unit = [0.0; 3];
+                unit[axis] = 1.0;
+                labels.push(DofLabel {
+                    body: DofBody::Ring,
+                    node: node as u64,
+                    direction,
+                    position: frame.point_to_mesh(ring.node_position(node)),
+                    axis: frame.vector_to_mesh(unit),
+                });
             }
         }
-        Self(labels)
     }
+    labels
 }

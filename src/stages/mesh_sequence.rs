@@ -1,14 +1,11 @@
 //! The other meshes of a case: what they are, and the modes on each.
 
 use super::inspect::{elements_of, size};
-use super::mode_set::OwnModes;
-use super::structure::ring_and_tie;
-use super::{HousingStage, RingShapes, StageError, Unwatched};
-use crate::assembly::CoupledMatrices;
-use crate::case::Case;
-use crate::linalg::{DenseMatrix, EigenProblem, SparseMatrix};
+use super::modal_system::{Bodies, FullModes};
+use super::{StageError, Unwatched};
+use crate::case::{Case, ModeExtent};
 use crate::mesh::{ElementKind, Mesh};
-use crate::modal::{MeshLevels, ModalBasis, ModeRange, ModeSet, over_all_dofs};
+use crate::modal::{MeshLevels, ModeSet};
 use std::path::PathBuf;
 
 /// Relative difference of area or volume up to which two meshes are of one body: a circle of twelve straight edges lacks
@@ -165,73 +162,22 @@ pub(super) struct ModesOnMesh {
 }
 
 impl ModesOnMesh {
-    /// The modes of the case on `path`; nothing else is computed there.
+    /// The modes of the case on `path`, as many of them as it has; nothing else is computed there.
     ///
     /// # Errors
     /// [`StageError`] of mesh, model and eigenvalues.
-    pub fn compute(
-        case: &Case,
-        path: PathBuf,
-        range: ModeRange,
-    ) -> Result<Option<Self>, StageError> {
-        let case = on_mesh(case, path);
-        let Some(housing) = HousingStage::build(&case, &Unwatched)? else {
-            return Ok(None);
-        };
-        let (mesh, model) = (&housing.mesh, &housing.model);
-        let asked = case.ring.as_ref().filter(|ring| ring.tie.is_some());
-        let Some(asked) = asked else {
-            let free = model.free_dofs();
-            let matrices = &housing.matrices;
-            let basis = solve(&matrices.stiffness, &matrices.mass, &free, range)?;
-            let shapes = over_all_dofs(model, &free, &basis.shapes)?;
-            let own = OwnModes {
-                frequencies_hz: &basis.frequencies_hz,
-                housing: Some((mesh, model, &shapes)),
-                ring: None,
-            };
-            return Ok(Some(Self {
-                set: own.set(),
-                free_dof: free.len(),
-            }));
-        };
-        let (ring, Some(tie)) = ring_and_tie(&case, asked, Some(&housing))? else {
-            return Ok(None);
-        };
-        let coupled = CoupledMatrices::new(&housing.matrices, &tie, &ring);
-        let free = &coupled.free_dofs;
-        let basis = solve(&coupled.stiffness, &coupled.mass, free, range)?;
-        let mut all = DenseMatrix::zeros(coupled.mass.rows(), basis.count());
-        for (row, &at) in free.iter().enumerate() {
-            for mode in 0..basis.count() {
-                all[(at, mode)] = basis.shapes[(row, mode)];
+    pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, StageError> {
+        let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
+        let extent = match extent {
+            // a coarse mesh may have fewer
+            ModeExtent::Count(count) => {
+                ModeExtent::Count(count.min(matrices.free_dofs.len()).max(1))
             }
-        }
-        let shapes = coupled.motions.housing(model, &all);
-        let of_ring = RingShapes::new(&ring, model.frame(), &coupled.motions.ring(&all));
-        let own = OwnModes {
-            frequencies_hz: &basis.frequencies_hz,
-            housing: Some((mesh, model, &shapes)),
-            ring: Some(&of_ring),
+            other => other,
         };
-        Ok(Some(Self {
-            set: own.set(),
-            free_dof: free.len(),
-        }))
+        let modes = FullModes::of(matrices, extent, &Unwatched)?;
+        let free_dof = modes.free_dof();
+        let set = bodies.mode_set(&modes);
+        Ok(Self { set, free_dof })
     }
-}
-
-fn solve(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    free: &[usize],
-    range: ModeRange,
-) -> Result<ModalBasis, StageError> {
-    let problem = EigenProblem::restricted(stiffness, mass, free)?;
-    let range = match range {
-        // a coarse mesh may have fewer
-        ModeRange::Count(count) => ModeRange::Count(count.min(free.len()).max(1)),
-        other => other,
-    };
-    Ok(ModalBasis::of(&problem, range)?)
 }

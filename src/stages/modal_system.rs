@@ -1,93 +1,155 @@
 //! Matrices of a case's housing, ring, or both in full, and their modes.
 
-use super::{HousingStage, StageError, StructureStage, Unwatched, Watch};
+use super::mode_set::OwnModes;
+use super::structure::ring_and_tie;
+use super::{HousingStage, RingShapes, StageError, StructureStage, Unwatched, Watch};
 use crate::assembly::{CoupledMatrices, CoupledMotions};
-use crate::case::ModeExtent;
-use crate::linalg::{DenseMatrix, EigenProblem, SparseMatrix, TripletBuilder, sparse_times_dense};
-use crate::modal::{ModalBasis, ModeRange, Participation};
-use crate::model::{Ring, RingTie};
+use crate::case::{Case, ModeExtent};
+use crate::linalg::{DenseMatrix, EigenProblem, scattered_rows, sparse_times_dense};
+use crate::mesh::Mesh;
+use crate::modal::{ModalBasis, ModeRange, ModeSet, Participation};
+use crate::model::{HousingModel, Ring, RingFrame, RingTie};
 
-/// Matrices with what the analysis of their modes needs.
-pub(super) struct System {
-    pub stiffness: SparseMatrix,
-    pub mass: SparseMatrix,
-    pub free: Vec<usize>,
-    pub dof: usize,
+/// Housing and ring of a case, of which one may be missing.
+pub(super) struct Bodies {
+    pub housing: Option<(Mesh, HousingModel)>,
+    pub ring: Option<Ring>,
+    pub tie: Option<RingTie>,
 }
 
-impl System {
-    /// Ring and housing, and what their coordinates mean.
-    pub fn coupled(housing: &HousingStage, tie: &RingTie, ring: &Ring) -> (Self, CoupledMotions) {
+impl Bodies {
+    /// The bodies and the matrices of all together; those of the housing alone are gone.
+    ///
+    /// # Errors
+    /// [`StageError`] of mesh, model, elements, ring and tie.
+    pub fn assemble(
+        case: &Case,
+        watch: &impl Watch,
+    ) -> Result<(Self, CoupledMatrices), StageError> {
+        let Some(asked) = &case.ring else {
+            let housing = HousingStage::of(case, watch)?;
+            let matrices = CoupledMatrices::of_housing(housing.matrices, &housing.model);
+            let bodies = Self {
+                housing: Some((housing.mesh, housing.model)),
+                ring: None,
+                tie: None,
+            };
+            return Ok((bodies, matrices));
+        };
+        let housing = HousingStage::build(case, watch)?;
+        let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
+        watch.stage("couple");
+        let matrices = match (&housing, &tie) {
+            (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, &ring),
+            _ => CoupledMatrices::of_ring(&ring),
+        };
+        let bodies = Self {
+            housing: housing.map(|housing| (housing.mesh, housing.model)),
+            ring: Some(ring),
+            tie,
+        };
+        Ok((bodies, matrices))
+    }
+
+    /// Modes at the nodes of the mesh and of the ring.
+    pub fn mode_set(&self, modes: &FullModes) -> ModeSet {
+        let all = modes.over_all_rows();
+        let housing = self.housing.as_ref();
+        let moved = housing.map(|(_, model)| modes.motions.housing(model, &all));
+        let of_ring = self
+            .ring
+            .as_ref()
+            .map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions.ring(&all)));
+        let with_shapes = housing.zip(moved.as_ref());
+        let own = OwnModes {
+            frequencies_hz: &modes.basis.frequencies_hz,
+            housing: with_shapes.map(|((mesh, model), moved)| (mesh, model, moved)),
+            ring: of_ring.as_ref(),
+        };
+        own.set()
+    }
+
+    /// Where the ring sits: in the mesh's axes, or in its own.
+    pub fn frame(&self) -> RingFrame {
+        let housing = self.housing.as_ref();
+        housing.map_or_else(RingFrame::default, |(_, model)| *model.frame())
+    }
+}
+
+/// Modes of a housing, a ring, or both.
+pub(super) struct FullModes {
+    /// The modes over the free degrees of freedom.
+    pub basis: ModalBasis,
+    /// What the coordinates mean.
+    pub motions: CoupledMotions,
+    free: Vec<usize>,
+    rows: usize,
+}
+
+impl FullModes {
+    /// Modes over the free rows. The matrices are gone before they are factorised.
+    ///
+    /// # Errors
+    /// [`StageError::Linalg`].
+    pub fn of(
+        matrices: CoupledMatrices,
+        extent: ModeExtent,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
         let CoupledMatrices {
             stiffness,
             mass,
             free_dofs: free,
             motions,
-        } = CoupledMatrices::new(&housing.matrices, tie, ring);
-        let system = Self {
-            dof: mass.rows(),
-            stiffness,
-            mass,
-            free,
-        };
-        (system, motions)
-    }
-
-    /// A ring alone.
-    pub fn of_ring(ring: &Ring) -> Self {
-        Self {
-            free: (0..ring.dof()).collect(),
-            dof: ring.dof(),
-            stiffness: sparse(ring.stiffness()),
-            mass: sparse(ring.mass()),
-        }
-    }
-
-    /// Modes over the free rows, and these rows. The matrices are gone before they are factorised.
-    fn eigen(
-        self,
-        extent: ModeExtent,
-        watch: &impl Watch,
-    ) -> Result<(ModalBasis, Vec<usize>), StageError> {
-        let Self {
-            stiffness,
-            mass,
-            free,
-            ..
-        } = self;
+        } = matrices;
+        let rows = mass.rows();
         watch.stage("order");
         let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
         drop((stiffness, mass));
         watch.stage("eigen");
         let basis = ModalBasis::of(&problem, range(extent, free.len()))?;
-        Ok((basis, free))
+        Ok(Self {
+            basis,
+            motions,
+            free,
+            rows,
+        })
     }
 
-    /// Modes, their shapes over all rows, and their participation. `products` gives `Phi^T K Phi` of shapes over all
-    /// rows, element by element.
-    pub fn solve(
-        self,
+    /// Modes with those near zero by the energies of elements, their shapes over all rows, and their participation in
+    /// the unit motions `rigid`. `products` gives `Phi^T K Phi` of shapes over all rows, element by element.
+    ///
+    /// # Errors
+    /// [`StageError::Linalg`], and what `products` reports.
+    pub fn analysed(
+        matrices: CoupledMatrices,
         extent: ModeExtent,
         rigid: &DenseMatrix,
-        products: impl Fn(&DenseMatrix) -> Result<DenseMatrix, StageError>,
+        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, StageError>,
         watch: &impl Watch,
-    ) -> Result<(ModalBasis, DenseMatrix, Participation, usize), StageError> {
-        let dof = self.dof;
-        let moved = sparse_times_dense(&self.mass, rigid);
-        let (mut basis, free) = self.eigen(extent, watch)?;
-        let over_all_rows = |shapes: &DenseMatrix| {
-            let mut all = DenseMatrix::zeros(dof, shapes.ncols());
-            for (row, &at) in free.iter().enumerate() {
-                for mode in 0..shapes.ncols() {
-                    all[(at, mode)] = shapes[(row, mode)];
-                }
-            }
-            all
-        };
-        basis.sharpen(|shapes| products(&over_all_rows(shapes)))?;
-        let all = over_all_rows(&basis.shapes);
+    ) -> Result<(Self, DenseMatrix, Participation), StageError> {
+        let moved = sparse_times_dense(&matrices.mass, rigid);
+        let mut modes = Self::of(matrices, extent, watch)?;
+        let Self {
+            basis,
+            motions,
+            free,
+            rows,
+        } = &mut modes;
+        basis.sharpen(|shapes| products(motions, &scattered_rows(shapes, free, *rows)))?;
+        let all = modes.over_all_rows();
         let participation = Participation::of_normalised(&moved, &all, rigid)?;
-        Ok((basis, all, participation, free.len()))
+        Ok((modes, all, participation))
+    }
+
+    /// Number of degrees of freedom that the modes were computed over.
+    pub fn free_dof(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Shapes over all rows of the matrices [rows x count].
+    pub fn over_all_rows(&self) -> DenseMatrix {
+        scattered_rows(&self.basis.shapes, &self.free, self.rows)
     }
 }
 
@@ -100,11 +162,11 @@ pub(super) fn unloaded_modes(
     extent: ModeExtent,
 ) -> Result<UnloadedModes, StageError> {
     let ring = stage.structure.ring();
-    let system = match (&stage.housing, &stage.tie) {
-        (Some(housing), Some(tie)) => System::coupled(housing, tie, ring).0,
-        _ => System::of_ring(ring),
+    let matrices = match (&stage.housing, &stage.tie) {
+        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
+        _ => CoupledMatrices::of_ring(ring),
     };
-    let (basis, ..) = system.eigen(extent, &Unwatched)?;
+    let basis = FullModes::of(matrices, extent, &Unwatched)?.basis;
     Ok(UnloadedModes {
         frequencies_hz: basis.frequencies_hz,
         rigid: basis.rigid_modes,
@@ -125,17 +187,4 @@ fn range(extent: ModeExtent, free_dof: usize) -> ModeRange {
         ModeExtent::UpToHz(hz) => ModeRange::UpToHz(hz),
         ModeExtent::BandHz(band) => ModeRange::BandHz(band),
     }
-}
-
-/// The entries of a dense matrix that are not zero.
-pub(super) fn sparse(dense: &DenseMatrix) -> SparseMatrix {
-    let mut entries = TripletBuilder::new(dense.nrows(), dense.ncols());
-    for column in 0..dense.ncols() {
-        for row in 0..dense.nrows() {
-            if dense[(row, column)] != 0.0 {
-                entries.add(row, column, dense[(row, column)]);
-            }
-        }
-    }
-    entries.build()
 }

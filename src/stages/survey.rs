@@ -1,14 +1,14 @@
 //! The modes of a case's housing, ring, or both, without contact and in full: nothing condensed.
 
-use super::modal_system::System;
+use super::modal_system::FullModes;
 use super::{HousingStage, StageError, StructureStage, Watch};
-use crate::assembly::SystemMatrices;
+use crate::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::case::ModeExtent;
 use crate::linalg::{DenseMatrix, sparse_times_dense};
 use crate::mesh::Mesh;
 use crate::modal::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, Participation, over_all_dofs,
-    rigid_motions, ring_motions, strain_products,
+    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, Participation, rigid_motions,
+    ring_motions, strain_products,
 };
 use crate::model::{HousingModel, Ring, RingFrame, RingTie};
 
@@ -59,31 +59,26 @@ impl ModalSurvey {
     ) -> Result<Self, StageError> {
         let mass = MassProperties::of_housing(&matrices, model)?;
         let rigid = rigid_motions(model.coordinates(), model.dimension(), centroid(&mass));
-        let system = System {
-            free: model.free_dofs(),
-            dof: model.dof(),
-            stiffness: matrices.stiffness,
-            mass: matrices.mass,
+        let matrices = CoupledMatrices::of_housing(matrices, model);
+        let products = |motions: &CoupledMotions, all: &DenseMatrix| {
+            Ok(strain_products(model, &motions.housing(model, all))?)
         };
-        let free = model.free_dofs();
-        let over_all = |all: &DenseMatrix| over_all_dofs(model, &free, &rows(all, &free));
-        let products = |all: &DenseMatrix| Ok(strain_products(model, &over_all(all)?)?);
-        let (basis, all, participation, free_dof) =
-            system.solve(extent, &rigid, products, watch)?;
+        let (modes, all, participation) =
+            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
         watch.stage("analyse");
-        let shapes = over_all(&all)?;
+        let shapes = modes.motions.housing(model, &all);
         let groups = mesh.groups.iter();
         let groups = groups.filter(|group| group.dimension == model.dimension());
         let several =
             model.part_names().len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
         let shares = several
-            .then(|| EnergyShares::new(mesh, model, &shapes, basis.rigid_modes))
+            .then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes))
             .transpose()?;
         let mechanisms = unless_crumbs(Mechanisms::find(mesh, model))?;
         Ok(Self {
             dof: model.dof(),
-            free_dof,
-            basis,
+            free_dof: modes.free_dof(),
+            basis: modes.basis,
             mass,
             participation,
             shares,
@@ -118,36 +113,37 @@ impl ModalSurvey {
     ) -> Result<Self, StageError> {
         let HousingStage { mesh, model, .. } = housing;
         let frame = model.frame();
-        let (system, motions) = System::coupled(housing, tie, ring);
+        let matrices = CoupledMatrices::new(&housing.matrices, tie, ring);
         let rigid_about = |about: [f64; 3]| {
             let of_housing = rigid_motions(model.coordinates(), model.dimension(), about);
-            motions.coordinates(&of_housing, &ring_motions(ring, frame, about))
+            let of_ring = ring_motions(ring, frame, about);
+            matrices.motions.coordinates(&of_housing, &of_ring)
         };
         let inertia = |about: [f64; 3]| {
             let rigid = rigid_about(about);
-            let inertia = rigid.transpose() * sparse_times_dense(&system.mass, &rigid);
+            let inertia = rigid.transpose() * sparse_times_dense(&matrices.mass, &rigid);
             MassProperties::from_rigid_inertia(&inertia, about)
         };
         // a second time about the centroid itself, where nothing is left to subtract
         let mass = inertia(centroid(&inertia(frame.centre())?))?;
         let rigid = rigid_about(centroid(&mass));
-        let products = |all: &DenseMatrix| {
+        let products = |motions: &CoupledMotions, all: &DenseMatrix| {
             let of_ring = ring.strain_products(&motions.ring(all));
             let of_housing = strain_products(model, &motions.housing(model, all))?;
             Ok(of_housing + of_ring.beams + of_ring.springs)
         };
-        let (basis, all, participation, free_dof) =
-            system.solve(extent, &rigid, products, watch)?;
+        let (modes, all, participation) =
+            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
         watch.stage("analyse");
-        let shapes = motions.housing(model, &all);
-        let of_ring = motions.ring(&all);
-        let shares =
-            EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, basis.rigid_modes)?;
+        let shapes = modes.motions.housing(model, &all);
+        let of_ring = modes.motions.ring(&all);
+        let rigid_modes = modes.basis.rigid_modes;
+        let shares = EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, rigid_modes)?;
         let mechanisms = unless_crumbs(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
         Ok(Self {
             dof: model.dof() + ring.dof(),
-            free_dof,
-            basis,
+            free_dof: modes.free_dof(),
+            basis: modes.basis,
             mass,
             participation,
             shares: Some(shares),
@@ -160,23 +156,23 @@ impl ModalSurvey {
     fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, StageError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
-        let system = System::of_ring(ring);
-        let inertia = rigid.transpose() * sparse_times_dense(&system.mass, &rigid);
+        let matrices = CoupledMatrices::of_ring(ring);
+        let inertia = rigid.transpose() * sparse_times_dense(&matrices.mass, &rigid);
         let mass = MassProperties::from_rigid_inertia(&inertia, [0.0; 3])?;
-        let products = |all: &DenseMatrix| {
+        let products = |_: &CoupledMotions, all: &DenseMatrix| {
             let strain = ring.strain_products(all);
             Ok(strain.beams + strain.springs)
         };
-        let (basis, all, participation, free_dof) =
-            system.solve(extent, &rigid, products, watch)?;
+        let (modes, all, participation) =
+            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
         let shares = ring
             .has_springs()
-            .then(|| EnergyShares::of_ring(ring, &all, basis.rigid_modes))
+            .then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes))
             .transpose()?;
         Ok(Self {
             dof: ring.dof(),
-            free_dof,
-            basis,
+            free_dof: modes.free_dof(),
+            basis: modes.basis,
             mass,
             participation,
             shares,
@@ -216,11 +212,4 @@ impl RingShapes {
 
 fn centroid(mass: &MassProperties) -> [f64; 3] {
     mass.centroid().map(|component| component.unwrap_or(0.0))
-}
-
-/// Some rows of a matrix.
-fn rows(a: &DenseMatrix, chosen: &[usize]) -> DenseMatrix {
-    DenseMatrix::from_fn(chosen.len(), a.ncols(), |row, column| {
-        a[(chosen[row], column)]
-    })
 }
