@@ -8,13 +8,15 @@ use super::check::{BrokenRule, groups_of};
 use super::document::{Document, Source};
 use super::error::{CaseError, Place};
 use super::nearest::Choices;
-use super::{Case, Linearise, material, unsupported};
+use super::{Case, Interface, Linearise, material, unsupported};
 
 /// What a case is to be used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// Eigenfrequencies.
     Modes,
+    /// A condensed housing.
+    Condense,
     /// The simulation in time.
     Run,
 }
@@ -145,7 +147,18 @@ impl Case {
             .is_some_and(|ring| !ring.supports.is_empty())
             || (self.housing.as_ref()).is_some_and(|housing| !housing.supports.is_empty());
         let equilibrium = ("a support in [housing] or [ring]", held);
+        let tied = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
         let (needed_by, needed) = match purpose {
+            Purpose::Condense => (
+                "`condense`",
+                vec![
+                    ("[housing]", self.housing.is_some()),
+                    (
+                        "ring.tie, or condense.interface = { group = \"NAME\" }",
+                        tied || self.condense.interface != Interface::Ring,
+                    ),
+                ],
+            ),
             Purpose::Modes => match self.modes.linearise {
                 Linearise::None => return Ok(()),
                 Linearise::Static => (

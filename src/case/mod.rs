@@ -19,6 +19,7 @@
 
 mod bearing;
 mod check;
+mod condense;
 mod decode;
 mod defect;
 mod document;
@@ -51,6 +52,7 @@ pub use bearing::{
     BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial,
 };
 pub use check::{BrokenRule, Rule};
+pub use condense::{Condense, FixedInterfaceModes, Interface};
 pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};
@@ -60,9 +62,7 @@ pub use link::{Joint, Link};
 pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
 pub use mode_checks::{ComparedModes, ConvergenceMeshes};
-pub use modes::{
-    Condense, Expected, FixedInterfaceModes, Interface, Linearise, ModeExtent, Modes, Variant,
-};
+pub use modes::{Expected, Linearise, ModeExtent, Modes, Variant};
 pub use motion::{Damping, Load, RatioAt, Shaft, Speed, SpeedPoint};
 pub use nearest::Choices;
 pub use ring::{

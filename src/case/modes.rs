@@ -1,9 +1,9 @@
-//! `[modes]` and `[condense]`: which eigenfrequencies, and how many modes a reduction keeps.
+//! `[modes]`: which eigenfrequencies.
 
 use serde::{Deserialize, Serialize};
 
 use super::mode_checks::{ComparedModes, ConvergenceMeshes};
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Mismatch, written_as};
 
 /// What the `modes` command computes and checks.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,87 +158,6 @@ impl From<Modes> for ModesForm {
             variants: modes.variants,
             compare: modes.compare,
             convergence: modes.convergence,
-        }
-    }
-}
-
-/// How the housing is condensed onto the ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Condense {
-    /// What the condensed housing is attached by.
-    #[serde(default)]
-    pub interface: Interface,
-    /// How many vectors of the interior are kept, residual vectors among them.
-    #[serde(default)]
-    pub fixed_interface_modes: FixedInterfaceModes,
-    /// Whether residual vectors stand beside the fixed-interface modes; false: plain Craig-Bampton.
-    #[serde(default = "super::yes")]
-    pub enhanced: bool,
-}
-
-impl Default for Condense {
-    fn default() -> Self {
-        Self {
-            interface: Interface::default(),
-            fixed_interface_modes: FixedInterfaceModes::default(),
-            enhanced: true,
-        }
-    }
-}
-
-/// What a condensed housing is attached by.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Interface {
-    /// The ring's degrees of freedom.
-    #[default]
-    Ring,
-}
-
-/// How many fixed-interface modes are kept.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub enum FixedInterfaceModes {
-    /// As many as the accuracy asked for needs.
-    #[default]
-    Auto,
-    /// So many, from 0.
-    Count(usize),
-    /// All below this frequency in Hz, > 0.
-    UpToHz(f64),
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UpToForm {
-    up_to_hz: f64,
-}
-
-written_as!(FixedInterfaceModes, Loose<UpToForm>);
-
-impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
-        match form {
-            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto"],
-            }),
-            Loose::Whole(count) => Ok(Self::Count(count)),
-            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch("\"auto\", a whole number or { up_to_hz = NUMBER }")),
-        }
-    }
-}
-
-impl From<FixedInterfaceModes> for Loose<UpToForm> {
-    fn from(modes: FixedInterfaceModes) -> Self {
-        match modes {
-            FixedInterfaceModes::Auto => Self::Word("auto".to_owned()),
-            FixedInterfaceModes::Count(count) => Self::Whole(count),
-            FixedInterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
         }
     }
 }

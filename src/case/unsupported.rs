@@ -41,7 +41,7 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 16] = [
+const UNSUPPORTED: [Unsupported; 15] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
@@ -81,11 +81,6 @@ const UNSUPPORTED: [Unsupported; 16] = [
         &["sensors", "*", "node"],
         Extent::Key,
         "give the node's place: point = [x, y, z] in m",
-    ),
-    refused(
-        &["condense", "interface"],
-        Extent::Compound,
-        "use interface = \"ring\"",
     ),
     refused(&["frf"], Extent::Key, "leave the table out"),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
@@ -205,7 +200,6 @@ mod tests {
             "shaft.loads[0].force",
         ),
         ("sensors[1].node=17", "sensors[1].node"),
-        ("condense.interface={group='bore'}", "condense.interface"),
         ("frf={from=[],to=[]}", "frf"),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),

@@ -1,6 +1,7 @@
 //! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
 //! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
+mod checks;
 mod coupled_modes;
 mod craig_bampton;
 mod error;
@@ -13,6 +14,7 @@ mod smallest_basis;
 mod substructure;
 mod superelement;
 
+pub use checks::{Bound, Check, RigidMotions, check_craig_bampton, check_matrices};
 pub use coupled_modes::Attached;
 pub use craig_bampton::{CraigBampton, craig_bampton};
 pub use error::ReductionError;

@@ -171,6 +171,24 @@ pub enum StageError {
     /// Directions of the tie that make no frame.
     #[error("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")]
     TieFrame,
+    /// An interface that the ring is not attached by.
+    #[error(
+        "condense.interface: a ring is attached by itself; `group` and `nodes` are for `condense` and `frf` of the housing alone"
+    )]
+    InterfaceOfRing,
+    /// A node of the interface that is not there.
+    #[error(
+        "condense.interface.nodes[{index}]: {} {tag}",
+        if *in_mesh { "no element of the housing has node" } else { "the mesh has no node" }
+    )]
+    InterfaceNode {
+        /// Which one, from 0.
+        index: usize,
+        /// gmsh's tag.
+        tag: u64,
+        /// Whether the mesh has it.
+        in_mesh: bool,
+    },
     /// Craig-Bampton.
     #[error(transparent)]
     Reduction(#[from] ReductionError),

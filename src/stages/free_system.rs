@@ -48,7 +48,7 @@ impl FreeSystem {
 
 // Names of all degrees of freedom, in the order of the matrices before anything is left out.
 
-fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<DofLabel> {
+pub(super) fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<DofLabel> {
     let d = model.dimension();
     // a sliding tie turns all components of the bore's nodes
     let sliding = tie.filter(|tie| tie.rotation().is_some());
@@ -79,7 +79,7 @@ fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<DofLabel> {
 }
 
 /// In the order of a ring's displacements: those in its plane, then those out of it.
-fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
+pub(super) fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
     use DofDirection::{About, Along};
     let in_plane = [(Along(0), 0), (Along(1), 1), (About(2), 2)];
     let out_of_plane = [(Along(2), 2), (About(0), 0), (About(1), 1)];

@@ -7,6 +7,7 @@
 mod analysis;
 mod bearing;
 mod comparison;
+mod condensed;
 mod convergence;
 mod drawing;
 mod energy_tables;
@@ -35,6 +36,7 @@ mod tables;
 pub use analysis::{WindowAnalysis, analyse};
 pub use bearing::{bearing_setup, contact_table};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
+pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use free_system::FreeSystem;

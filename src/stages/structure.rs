@@ -1,16 +1,14 @@
 //! Ring and condensed housing of a case in one structure, with its sensors and modes.
 
+use super::condensed::{Boundary, CondensedStage};
 use super::housing::material;
 use super::{HousingStage, StageError, Watch};
-use crate::case::{self, Case, FixedInterfaceModes, SensorSpot};
+use crate::case::{self, Case, Interface, SensorSpot};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
-use crate::reduction::{Attached, BasisChoice, BasisSize, CraigBampton, craig_bampton};
+use crate::reduction::CraigBampton;
 use crate::system::{Sensor, Structure, StructureModes};
-
-/// Top of the band of a case that names none, Hz: that of the source's figures.
-const DEFAULT_BAND_HZ: f64 = 40e3;
 
 /// Farthest that a node may be from a sensor's point, relative to the housing's size.
 const SENSOR_TOLERANCE: f64 = 0.02;
@@ -22,7 +20,7 @@ pub struct StructureStage {
     pub housing: Option<HousingStage>,
     /// How the ring sits in the housing, if there is one.
     pub tie: Option<RingTie>,
-    /// Number of fixed-interface modes of the condensed housing.
+    /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,
@@ -43,57 +41,52 @@ impl StructureStage {
             .shaft
             .as_ref()
             .map_or([0.0, -9.81], |shaft| shaft.gravity);
-        let housing = HousingStage::build(case, watch)?;
-        let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
-        let (structure, fixed_interface_modes, tie) = match (&housing, tie) {
-            (Some(housing), Some(tie)) => {
-                watch.stage("condense");
-                let matrices = housing.matrices.clone().for_tie(&tie);
-                let attached = Attached {
-                    stiffness: ring.stiffness(),
-                    mass: ring.mass(),
-                };
-                let choice = basis_choice(case);
-                let condensed = craig_bampton(&matrices, tie.partition(), choice, Some(attached))?;
-                let mut structure =
-                    Structure::with_housing(ring, &condensed.superelement, gravity)?;
-                for sensor in &case.sensors {
-                    let sensor = housing_sensor(&structure, housing, &tie, &condensed, sensor)?;
-                    structure.add_sensor(sensor)?;
-                }
-                (structure, condensed.basis.count(), Some(tie))
+        if case.condense.interface != Interface::Ring {
+            return Err(StageError::InterfaceOfRing);
+        }
+        let Some(stage) = CondensedStage::build(case, watch)? else {
+            let ring = ring(case, asked, false)?;
+            let mut structure = Structure::ring_alone(ring, gravity);
+            for sensor in &case.sensors {
+                let sensor = ring_sensor(&structure, sensor, &RingFrame::default())?;
+                structure.add_sensor(sensor)?;
             }
-            _ => {
-                let mut structure = Structure::ring_alone(ring, gravity);
-                for sensor in &case.sensors {
-                    let sensor = ring_sensor(&structure, sensor, &RingFrame::default())?;
-                    structure.add_sensor(sensor)?;
-                }
-                (structure, 0, None)
-            }
+            return Self::solved(structure, None, watch).map(Some);
         };
+        let Boundary::Ring(bodies) = stage.boundary else {
+            return Err(StageError::InterfaceOfRing);
+        };
+        let (ring, tie) = *bodies;
+        let CondensedStage {
+            housing, condensed, ..
+        } = stage;
+        let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
+        for sensor in &case.sensors {
+            let sensor = housing_sensor(&structure, &housing, &tie, &condensed, sensor)?;
+            structure.add_sensor(sensor)?;
+        }
+        let housing = (housing, tie, condensed.basis.count());
+        Self::solved(structure, Some(housing), watch).map(Some)
+    }
+
+    fn solved(
+        structure: Structure,
+        housing: Option<(HousingStage, RingTie, usize)>,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
         watch.stage("eigen");
         let modes = structure.modes()?;
-        Ok(Some(Self {
+        let (housing, tie, fixed_interface_modes) = match housing {
+            Some((housing, tie, count)) => (Some(housing), Some(tie), count),
+            None => (None, None, 0),
+        };
+        Ok(Self {
             housing,
             tie,
             fixed_interface_modes,
             structure,
             modes,
-        }))
-    }
-}
-
-/// The basis that a case asks for.
-pub(super) fn basis_choice(case: &Case) -> BasisChoice {
-    BasisChoice {
-        size: match case.condense.fixed_interface_modes {
-            FixedInterfaceModes::Count(count) => BasisSize::Count(count),
-            FixedInterfaceModes::UpToHz(hz) => BasisSize::UpTo(hz),
-            FixedInterfaceModes::Auto => BasisSize::Auto(case.target()),
-        },
-        enhanced: case.condense.enhanced,
-        band_hz: case.band_hz().map_or(DEFAULT_BAND_HZ, |band| band[1]),
+        })
     }
 }
 

@@ -10,7 +10,7 @@ mod time;
 
 pub use rule::{BrokenRule, Rule};
 
-use super::{Case, SensorSpot};
+use super::{Case, Interface, SensorSpot};
 
 impl Case {
     /// Checks every range and every relation between values that can be checked without the mesh.
@@ -63,6 +63,9 @@ pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
     }
     if let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         groups.push(("ring.tie.group".to_owned(), tie.group.as_str()));
+    }
+    if let Interface::Group(group) = &case.condense.interface {
+        groups.push(("condense.interface.group".to_owned(), group.as_str()));
     }
     for (index, sensor) in case.sensors.iter().enumerate() {
         if let SensorSpot::Group(group) = &sensor.spot {

@@ -1,7 +1,7 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, ModeExtent, ModesKept, SensorSpot, StepLength,
+    Case, Damping, FixedInterfaceModes, Interface, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, direction, each_once, fraction, not_empty, ratio, share, zero_or_more,
@@ -150,6 +150,13 @@ fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
 }
 
 pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
+    if let Interface::Nodes(nodes) = &case.condense.interface {
+        not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
+        let names: Vec<String> = nodes.iter().map(u64::to_string).collect();
+        each_once(names.iter().map(String::as_str), |index| {
+            format!("condense.interface.nodes[{index}]")
+        })?;
+    }
     match case.condense.fixed_interface_modes {
         FixedInterfaceModes::Auto | FixedInterfaceModes::Count(_) => Ok(()),
         FixedInterfaceModes::UpToHz(limit) => {

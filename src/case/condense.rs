@@ -1,0 +1,144 @@
+//! `[condense]`: what a condensed housing is attached by, and how many vectors a reduction keeps.
+
+use serde::{Deserialize, Serialize};
+
+use super::union::{Loose, Mismatch, written_as};
+
+/// How the housing is condensed onto the ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condense {
+    /// What the condensed housing is attached by.
+    #[serde(default)]
+    pub interface: Interface,
+    /// How many vectors of the interior are kept, residual vectors among them.
+    #[serde(default)]
+    pub fixed_interface_modes: FixedInterfaceModes,
+    /// Whether residual vectors stand beside the fixed-interface modes; false: plain Craig-Bampton.
+    #[serde(default = "super::yes")]
+    pub enhanced: bool,
+}
+
+impl Default for Condense {
+    fn default() -> Self {
+        Self {
+            interface: Interface::default(),
+            fixed_interface_modes: FixedInterfaceModes::default(),
+            enhanced: true,
+        }
+    }
+}
+
+/// What a condensed housing is attached by.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum Interface {
+    /// The ring's degrees of freedom.
+    #[default]
+    Ring,
+    /// The nodes of a physical group of the mesh, each with its displacements.
+    Group(String),
+    /// Nodes of the mesh by gmsh's tags, each with its displacements.
+    Nodes(Vec<u64>),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InterfaceForm {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    group: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    nodes: Option<Vec<u64>>,
+}
+
+written_as!(Interface, Loose<InterfaceForm>);
+
+impl TryFrom<Loose<InterfaceForm>> for Interface {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<InterfaceForm>) -> Result<Self, Mismatch> {
+        const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
+        match form {
+            Loose::Word(word) if word == "ring" => Ok(Self::Ring),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["ring"],
+            }),
+            Loose::Table(InterfaceForm {
+                group: Some(group),
+                nodes: None,
+            }) => Ok(Self::Group(group)),
+            Loose::Table(InterfaceForm {
+                group: None,
+                nodes: Some(nodes),
+            }) => Ok(Self::Nodes(nodes)),
+            Loose::Table(InterfaceForm { group: None, .. }) => {
+                Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
+            }
+            Loose::Table(_) => Err(Mismatch::form("several", "one of `group`, `nodes`")),
+            other => Err(other.mismatch(FORMS)),
+        }
+    }
+}
+
+impl From<Interface> for Loose<InterfaceForm> {
+    fn from(interface: Interface) -> Self {
+        match interface {
+            Interface::Ring => Self::Word("ring".to_owned()),
+            Interface::Group(group) => Self::Table(InterfaceForm {
+                group: Some(group),
+                nodes: None,
+            }),
+            Interface::Nodes(nodes) => Self::Table(InterfaceForm {
+                group: None,
+                nodes: Some(nodes),
+            }),
+        }
+    }
+}
+
+/// How many fixed-interface modes are kept.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum FixedInterfaceModes {
+    /// As many as the accuracy asked for needs.
+    #[default]
+    Auto,
+    /// So many, from 0.
+    Count(usize),
+    /// All below this frequency in Hz, > 0.
+    UpToHz(f64),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UpToForm {
+    up_to_hz: f64,
+}
+
+written_as!(FixedInterfaceModes, Loose<UpToForm>);
+
+impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["auto"],
+            }),
+            Loose::Whole(count) => Ok(Self::Count(count)),
+            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
+            other => Err(other.mismatch("\"auto\", a whole number or { up_to_hz = NUMBER }")),
+        }
+    }
+}
+
+impl From<FixedInterfaceModes> for Loose<UpToForm> {
+    fn from(modes: FixedInterfaceModes) -> Self {
+        match modes {
+            FixedInterfaceModes::Auto => Self::Word("auto".to_owned()),
+            FixedInterfaceModes::Count(count) => Self::Whole(count),
+            FixedInterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Every check fires on the superelement that is broken in its way.
