@@ -4,12 +4,12 @@
 //! |---|---|
 //! | `row` | the matrix's row from 0, as NumPy and SciPy count |
 //! | `mtx_row` | the same from 1, as Matrix Market files count |
-//! | `body` | `housing` or `ring` |
-//! | `node` | gmsh's tag of a housing's node; a ring's node from 0 |
-//! | `direction` | `x`, `y`, `z`, `radial`, `tangential`, `axial`; rotations `about_x`, `about_y`, `about_z` |
-//! | `unit` | of the degree of freedom: `m` or `rad` |
-//! | `x_m`, `y_m`, `z_m` | the node's position in the mesh's axes |
-//! | `axis_x`, `axis_y`, `axis_z` | unit vector along or about which it moves, in the mesh's axes |
+//! | `body` | `housing`, `ring`, `interface` or `modal` |
+//! | `node` | gmsh's tag of a housing's node; a ring's node, an interface coordinate or a mode from 0 |
+//! | `direction` | `x`, `y`, `z`, `radial`, `tangential`, `axial`; rotations `about_x`, `about_y`, `about_z`; `generalised` |
+//! | `unit` | of the degree of freedom: `m`, `rad`, or `generalised` |
+//! | `x_m`, `y_m`, `z_m` | the node's position in the mesh's axes; empty where it has none |
+//! | `axis_x`, `axis_y`, `axis_z` | unit vector along or about which it moves, in the mesh's axes; empty where it has none |
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -34,17 +34,21 @@ const COLUMNS: [&str; 12] = [
 ];
 
 /// Where a node belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DofBody {
     /// To the mesh of the housing.
     Housing,
     /// To the bearing's outer ring.
     Ring,
+    /// To none that is known: an interface coordinate of a superelement, numbered from 0.
+    Interface,
+    /// To none: the amplitude of a superelement's mode, numbered from 0.
+    Modal,
 }
 
 /// What a degree of freedom is. Those of a housing are along the mesh's axes, or along those of the bore where a sliding
 /// ring sits; those of a ring are along and about the bearing's axes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DofDirection {
     /// Displacement along x, y or z (0, 1, 2).
     Along(usize),
@@ -52,6 +56,8 @@ pub enum DofDirection {
     Polar(usize),
     /// Rotation about x, y or z (0, 1, 2), right-handed.
     About(usize),
+    /// A coordinate whose unit is that of its shape, such as the amplitude of a mode.
+    Generalised,
 }
 
 /// One degree of freedom.
@@ -59,13 +65,13 @@ pub enum DofDirection {
 pub struct DofLabel {
     /// Where its node belongs.
     pub body: DofBody,
-    /// The node: gmsh's tag, or a ring's node from 0.
+    /// The node: gmsh's tag; or a ring's node, an interface coordinate or a mode from 0.
     pub node: u64,
     /// What it is.
     pub direction: DofDirection,
-    /// The node's position in the mesh's axes, m.
+    /// The node's position in the mesh's axes, m; NaN where it has none or it is not known.
     pub position: [f64; 3],
-    /// Unit vector along or about which it moves, in the mesh's axes.
+    /// Unit vector along or about which it moves, in the mesh's axes; NaN where it has none or it is not known.
     pub axis: [f64; 3],
 }
 
@@ -85,7 +91,15 @@ impl DofBody {
         match self {
             Self::Housing => "housing",
             Self::Ring => "ring",
+            Self::Interface => "interface",
+            Self::Modal => "modal",
         }
+    }
+
+    /// The body of this name, if there is one.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let all = [Self::Housing, Self::Ring, Self::Interface, Self::Modal];
+        all.into_iter().find(|body| body.name() == name)
     }
 }
 
@@ -96,6 +110,7 @@ impl DofDirection {
             Self::Along(axis) => (["x", "y", "z"], axis),
             Self::Polar(axis) => (["radial", "tangential", "axial"], axis),
             Self::About(axis) => (["about_x", "about_y", "about_z"], axis),
+            Self::Generalised => (["generalised"; 3], 0),
         };
         names.get(axis).copied().unwrap_or("none")
     }
@@ -105,6 +120,52 @@ impl DofDirection {
         match self {
             Self::Along(_) | Self::Polar(_) => "m",
             Self::About(_) => "rad",
+            Self::Generalised => "generalised",
+        }
+    }
+
+    /// Its number in the files: x, y, z are 1, 2, 3 and the rotations about them 4, 5, 6, as Nastran has them; radial,
+    /// tangential and axial are 7, 8, 9; what is neither is 0.
+    pub fn component(self) -> i64 {
+        let (first, axis) = match self {
+            Self::Along(axis) => (1, axis),
+            Self::About(axis) => (4, axis),
+            Self::Polar(axis) => (7, axis),
+            Self::Generalised => return 0,
+        };
+        if axis < 3 { first + axis as i64 } else { 0 }
+    }
+
+    /// The direction of this number, if there is one.
+    pub fn of_component(component: i64) -> Option<Self> {
+        let component = usize::try_from(component).ok()?;
+        Some(match component {
+            0 => Self::Generalised,
+            1..=3 => Self::Along(component - 1),
+            4..=6 => Self::About(component - 4),
+            7..=9 => Self::Polar(component - 7),
+            _ => return None,
+        })
+    }
+}
+
+impl DofLabel {
+    /// The amplitude of a superelement's mode, counted from 0.
+    pub fn modal(mode: u64) -> Self {
+        Self {
+            body: DofBody::Modal,
+            node: mode,
+            direction: DofDirection::Generalised,
+            position: [f64::NAN; 3],
+            axis: [f64::NAN; 3],
+        }
+    }
+
+    /// An interface coordinate of which only the number, from 0, is known.
+    pub fn interface(number: u64) -> Self {
+        Self {
+            body: DofBody::Interface,
+            ..Self::modal(number)
         }
     }
 }
@@ -121,7 +182,11 @@ pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), DofTableErro
             let (node, unit) = (label.node, label.direction.unit());
             write!(to, "{row},{},{body},{node},{direction},{unit}", row + 1)?;
             for value in label.position.iter().chain(&label.axis) {
-                write!(to, ",{value:?}")?;
+                if value.is_nan() {
+                    write!(to, ",")?;
+                } else {
+                    write!(to, ",{value:?}")?;
+                }
             }
             write!(to, "\r\n")?;
         }
@@ -134,7 +199,7 @@ pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), DofTableErro
 }
 
 /// Writes the rows as a NumPy archive, whole or not at all: `body`, `node`, `direction` \[rows\], `position_m` and `axis`
-/// \[rows x 3\].
+/// \[rows x 3\], NaN where a row has none.
 ///
 /// # Errors
 /// [`NpzError`] when the file cannot be written; labels of more than i64 holds.
@@ -201,6 +266,37 @@ mod tests {
         assert_eq!(std::fs::read_to_string(&path).unwrap(), expected);
         let error = write_dofs_csv(&folder.path().join("no/dofs.csv"), &rows()).unwrap_err();
         assert!(error.path.ends_with("no/dofs.csv"));
+    }
+
+    #[test]
+    fn a_row_without_a_place_has_empty_cells() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("dofs.csv");
+        write_dofs_csv(&path, &[DofLabel::modal(4), DofLabel::interface(7)]).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let lines: Vec<&str> = text.split("\r\n").skip(1).collect();
+        let expected = [
+            "0,1,modal,4,generalised,generalised,,,,,,",
+            "1,2,interface,7,generalised,generalised,,,,,,",
+            "",
+        ];
+        assert_eq!(lines, expected);
+    }
+
+    #[test]
+    fn directions_and_bodies_have_numbers_and_names() {
+        for component in 0..10 {
+            let direction = DofDirection::of_component(component).unwrap();
+            assert_eq!(direction.component(), component);
+        }
+        assert_eq!(DofDirection::of_component(5), Some(DofDirection::About(1)));
+        assert_eq!(DofDirection::of_component(9), Some(DofDirection::Polar(2)));
+        assert_eq!(DofDirection::of_component(10), None);
+        assert_eq!(DofDirection::of_component(-1), None);
+        for name in ["housing", "ring", "interface", "modal"] {
+            assert_eq!(DofBody::of_name(name).unwrap().name(), name);
+        }
+        assert_eq!(DofBody::of_name("shaft"), None);
     }
 
     #[test]

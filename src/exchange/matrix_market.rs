@@ -1,7 +1,8 @@
-//! Symmetric sparse matrices as Matrix Market files (`.mtx`).
+//! Symmetric matrices as Matrix Market files (`.mtx`).
 //!
-//! Format: coordinate, real, symmetric; the lower triangle column by column, rows and columns counted from 1, values with
-//! 17 digits, which give back every bit. Source: R. F. Boisvert, R. Pozo, K. Remington, "The Matrix Market exchange
+//! Format of sparse ones: coordinate, real, symmetric; the lower triangle column by column, rows and columns counted from 1,
+//! values with 17 digits, which give back every bit. Of dense ones: array, real, symmetric; the same without rows and
+//! columns. Source: R. F. Boisvert, R. Pozo, K. Remington, "The Matrix Market exchange
 //! formats: initial design", NISTIR 5935, 1996.
 
 use std::io::{self, Write};
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::write_atomic;
-use crate::linalg::SparseMatrix;
+use crate::linalg::{DenseMatrix, SparseMatrix};
 
 /// Why a matrix cannot be written.
 #[derive(Debug, Error)]
@@ -61,6 +62,47 @@ pub fn write_matrix_market(
     })
 }
 
+/// As [`write_matrix_market`], of a dense matrix.
+///
+/// # Errors
+/// As [`write_matrix_market`].
+pub fn write_dense_matrix_market(
+    path: &Path,
+    matrix: &DenseMatrix,
+    comment: &str,
+) -> Result<(), MatrixMarketError> {
+    let (rows, columns) = (matrix.nrows(), matrix.ncols());
+    if rows != columns {
+        return Err(MatrixMarketError::Shape {
+            path: path.to_owned(),
+            rows,
+            columns,
+        });
+    }
+    let write = |to: &mut super::AtomicFile| {
+        write_head(to, "array", comment)?;
+        writeln!(to, "{rows} {columns}")?;
+        for (column, values) in matrix.col_iter().enumerate() {
+            for value in values.iter().skip(column) {
+                writeln!(to, "{value:.16e}")?;
+            }
+        }
+        Ok(())
+    };
+    write_atomic(path, write).map_err(|source| MatrixMarketError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+fn write_head(to: &mut impl Write, format: &str, comment: &str) -> io::Result<()> {
+    writeln!(to, "%%MatrixMarket matrix {format} real symmetric")?;
+    for line in comment.lines() {
+        writeln!(to, "% {line}")?;
+    }
+    Ok(())
+}
+
 /// Entries on and below the diagonal, column by column. A matrix in compressed rows is read as its transpose, which is
 /// the same matrix.
 fn lower(matrix: &SparseMatrix) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
@@ -74,10 +116,7 @@ fn lower(matrix: &SparseMatrix) -> impl Iterator<Item = (usize, usize, f64)> + '
 }
 
 fn write_lower(to: &mut impl Write, matrix: &SparseMatrix, comment: &str) -> io::Result<()> {
-    writeln!(to, "%%MatrixMarket matrix coordinate real symmetric")?;
-    for line in comment.lines() {
-        writeln!(to, "% {line}")?;
-    }
+    write_head(to, "coordinate", comment)?;
     let count = lower(matrix).count();
     writeln!(to, "{} {} {count}", matrix.rows(), matrix.cols())?;
     for (row, column, value) in lower(matrix) {
@@ -131,6 +170,27 @@ mod tests {
         let head = "%%MatrixMarket matrix coordinate real symmetric\n% stiffness\n% N/m\n4 4 5\n\
                     1 1 1.3333333333333333e0\n2 1 -1.0000000000000000e-300\n";
         assert!(text.starts_with(head), "{text}");
+    }
+
+    #[test]
+    fn a_dense_matrix_is_its_lower_triangle_column_by_column() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("k.mtx");
+        let matrix = DenseMatrix::from_fn(3, 3, |i, j| (10 * i.max(j) + i.min(j)) as f64 / 3.0);
+        write_dense_matrix_market(&path, &matrix, "stiffness\nN/m").unwrap();
+        let expected = "%%MatrixMarket matrix array real symmetric\n% stiffness\n% N/m\n3 3\n\
+                        0.0000000000000000e0\n3.3333333333333335e0\n6.6666666666666670e0\n\
+                        3.6666666666666665e0\n7.0000000000000000e0\n7.3333333333333330e0\n";
+        assert_eq!(fs::read_to_string(&path).unwrap(), expected);
+        let error = write_dense_matrix_market(&path, &DenseMatrix::zeros(2, 3), "").unwrap_err();
+        assert!(matches!(
+            error,
+            MatrixMarketError::Shape {
+                rows: 2,
+                columns: 3,
+                ..
+            }
+        ));
     }
 
     #[test]

@@ -19,6 +19,7 @@ pub mod matrix_market;
 mod mode_shapes;
 pub mod npz;
 mod read_modes;
+pub mod superelement;
 pub mod uff;
 pub mod vtu;
 
@@ -27,12 +28,16 @@ pub use csv::{CsvError, read_modes_csv, write_modes_csv};
 pub use dof_table::{
     DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,
 };
-pub use matrix_market::{MatrixMarketError, write_matrix_market};
+pub use matrix_market::{MatrixMarketError, write_dense_matrix_market, write_matrix_market};
 pub use mode_shapes::{ModeShapes, ModeShapesError};
 pub use npz::{
     NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, read_modes_npz, write_modes_npz,
     write_sparse_npz,
 };
 pub use read_modes::{ReadModesError, read_mode_shapes};
+pub use superelement::{
+    FieldRecovery, SensorRow, SuperelementError, SuperelementRecord, read_superelement_npz,
+    write_superelement_npz,
+};
 pub use uff::{UffError, read_modes_uff, write_modes_uff, write_uff};
 pub use vtu::{Field, FieldValues, VtuError, write_vtu};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::super::ModeShapesError;
+use super::super::{ModeShapesError, SuperelementError};
 
 /// Why an archive cannot be written.
 #[derive(Debug, Error)]
@@ -61,6 +61,12 @@ pub enum NpzError {
     Modes {
         /// What is wrong.
         fault: ModeShapesError,
+    },
+    /// A superelement that contradicts itself.
+    #[error("{fault}")]
+    Superelement {
+        /// What is wrong.
+        fault: SuperelementError,
     },
     /// A label that the archive's whole numbers do not reach.
     #[error("expected labels up to {}, found {label}", i64::MAX)]

@@ -1,11 +1,12 @@
 //! NumPy `.npz` archives of named arrays: written without compression, read with and without.
 //!
 //! Written are arrays of f64, i32, i64, text and a string of bytes, and sparse matrices as SciPy has them; read are arrays
-//! of f64 and i64. Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
+//! of real and whole numbers and text. Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
 //! version, header length, Python dictionary with descr, fortran_order, shape) followed by the values, little-endian.
 //! Read back with `numpy.load(path)["NAME"]`.
 
 mod array;
+mod decoder;
 mod element;
 mod error;
 mod header;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::super::ModeShapesError;
+use super::super::{ModeShapesError, SuperelementError};
 
 /// Why an archive or one of its arrays cannot be read.
 #[derive(Debug, Error)]
@@ -65,6 +65,14 @@ pub enum NpzReadError {
         path: PathBuf,
         /// What is wrong.
         fault: ModeShapesError,
+    },
+    /// A superelement that contradicts itself.
+    #[error("{}: {fault}", path.display())]
+    Superelement {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        fault: Box<SuperelementError>,
     },
 }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use zip::ZipArchive;
 
 use super::NpzReadError;
+use super::decoder::{Decoder, real, text, whole};
 use super::header::{Header, parse};
 
 /// An array that was read.
@@ -18,10 +19,12 @@ pub struct NpzValues<T> {
     pub values: Vec<T>,
 }
 
-/// Reads arrays of f64 and i64 of up to three dimensions from an archive, stored or deflated, in C or Fortran order.
+/// Reads arrays of up to three dimensions from an archive, stored or deflated, in C or Fortran order.
 ///
 /// An array's values are read as they arrive, whatever the file says of their number: memory stays below 8 times the file's
-/// size where arrays are stored, and 4200 times where they are deflated (which packs 1032 to 1 at best), and 1 MiB.
+/// size where arrays are stored, and 4200 times where they are deflated (which packs 1032 to 1 at best), and 1 MiB. For
+/// [`real`](Self::real) and [`whole`](Self::whole), which make 8 bytes of 4, the factors are twice as large; for
+/// [`texts`](Self::texts), whose entries have an address and a length each, 20 times.
 #[derive(Debug)]
 pub struct NpzReader {
     path: PathBuf,
@@ -30,6 +33,8 @@ pub struct NpzReader {
 
 /// Longest header that is believed, bytes.
 const LONGEST_HEADER: usize = 1 << 16;
+/// Bytes that are read at once.
+const BUFFER: usize = 1 << 16;
 
 impl NpzReader {
     /// Opens an archive.
@@ -71,7 +76,8 @@ impl NpzReader {
     /// # Errors
     /// [`NpzReadError`] if there is none of this name, it is damaged, of another type, or has more than three dimensions.
     pub fn f64(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
-        self.values(name, "<f8", "numbers of type '<f8'", f64::from_le_bytes)
+        let own = |type_name: &str| (type_name == "<f8").then(|| real(type_name)).flatten();
+        self.values(name, "numbers of type '<f8'", own)
     }
 
     /// Reads an array of i64 (`<i8`).
@@ -79,15 +85,40 @@ impl NpzReader {
     /// # Errors
     /// As [`f64`](Self::f64).
     pub fn i64(&mut self, name: &str) -> Result<NpzValues<i64>, NpzReadError> {
-        self.values(name, "<i8", "numbers of type '<i8'", i64::from_le_bytes)
+        let own = |type_name: &str| (type_name == "<i8").then(|| whole(type_name)).flatten();
+        self.values(name, "numbers of type '<i8'", own)
     }
 
-    fn values<T: Copy>(
+    /// Reads an array of real numbers as other programs may have it: f8, f4, i8, i4, in either byte order.
+    ///
+    /// # Errors
+    /// As [`f64`](Self::f64).
+    pub fn real(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
+        self.values(name, "real numbers (f8, f4, i8 or i4)", real)
+    }
+
+    /// Reads an array of whole numbers as other programs may have it: i8, i4, u4, in either byte order.
+    ///
+    /// # Errors
+    /// As [`f64`](Self::f64).
+    pub fn whole(&mut self, name: &str) -> Result<NpzValues<i64>, NpzReadError> {
+        self.values(name, "whole numbers (i8, i4 or u4)", whole)
+    }
+
+    /// Reads an array of text (`U`, in either byte order, or `S`) of up to 16384 characters each; what is no character is
+    /// read as U+FFFD.
+    ///
+    /// # Errors
+    /// As [`f64`](Self::f64).
+    pub fn texts(&mut self, name: &str) -> Result<NpzValues<String>, NpzReadError> {
+        self.values(name, "text (U or S) of 1 to 16384 characters", text)
+    }
+
+    fn values<T: Clone>(
         &mut self,
         name: &str,
-        type_name: &str,
         expected_type: &'static str,
-        decode: impl Fn([u8; 8]) -> T,
+        decoder: impl Fn(&str) -> Option<Decoder<T>>,
     ) -> Result<NpzValues<T>, NpzReadError> {
         if !self.has(name) {
             return Err(NpzReadError::Missing {
@@ -113,9 +144,9 @@ impl NpzReader {
         let Some(header) = text.as_deref().and_then(parse) else {
             return Err(wrong("a NumPy array", "a damaged header".to_owned()));
         };
-        if header.type_name != type_name {
+        let Some(decoder) = decoder(&header.type_name) else {
             return Err(wrong(expected_type, format!("'{}'", header.type_name)));
-        }
+        };
         let shape = &header.shape;
         if shape.len() > 3 {
             return Err(wrong("up to three dimensions", shape.len().to_string()));
@@ -124,7 +155,7 @@ impl NpzReader {
         let Some(count) = product else {
             return Err(wrong("a shape that memory can hold", format!("{shape:?}")));
         };
-        let (values, more) = numbers(&mut entry, count, decode).map_err(damaged)?;
+        let (values, more) = numbers(&mut entry, count, &decoder).map_err(damaged)?;
         if values.len() != count || more {
             let found = if more { "more" } else { "fewer" };
             let found = format!("{found} values than shape {shape:?} has");
@@ -159,19 +190,22 @@ fn header_text(from: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     Ok(Some(text))
 }
 
-/// Up to `count` numbers of 8 bytes, and whether anything follows them.
+/// Up to `count` values, and whether anything follows them.
 fn numbers<T>(
     from: &mut impl Read,
     count: usize,
-    decode: impl Fn([u8; 8]) -> T,
+    decoder: &Decoder<T>,
 ) -> io::Result<(Vec<T>, bool)> {
     let mut values = Vec::new();
-    let mut bytes = vec![0_u8; 1 << 16];
+    let size = decoder.bytes;
+    let mut bytes = vec![0_u8; (BUFFER / size).max(1) * size];
     while values.len() < count {
-        let wanted = (count - values.len()).saturating_mul(8).min(bytes.len());
+        let wanted = (count - values.len())
+            .saturating_mul(size)
+            .min(bytes.len());
         let found = fill(from, &mut bytes[..wanted])?;
-        let (whole, _) = bytes[..found].as_chunks::<8>();
-        values.extend(whole.iter().map(|&bytes| decode(bytes)));
+        let whole = bytes[..found].chunks_exact(size);
+        values.extend(whole.map(&decoder.decode));
         if found < wanted {
             return Ok((values, false));
         }
@@ -197,7 +231,7 @@ fn fill(from: &mut impl Read, buffer: &mut [u8]) -> io::Result<usize> {
 
 impl Header {
     /// Puts values in the order of the file into C order.
-    fn in_c_order<T: Copy>(self, values: Vec<T>) -> NpzValues<T> {
+    fn in_c_order<T: Clone>(self, values: Vec<T>) -> NpzValues<T> {
         let shape = self.shape;
         // without values a size may be anything
         if !self.fortran_order || shape.len() < 2 || values.is_empty() {
@@ -208,7 +242,7 @@ impl Header {
         let [a, b, c] = sizes;
         let places = (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k))));
         let values = places
-            .map(|(i, j, k)| values[i + a * (j + b * k)])
+            .map(|(i, j, k)| values[i + a * (j + b * k)].clone())
             .collect();
         NpzValues { shape, values }
     }

@@ -1,0 +1,133 @@
+//! Bytes of an array to numbers and text.
+
+/// How one value is read.
+pub(super) struct Decoder<T> {
+    /// Bytes a value, at least 1.
+    pub(super) bytes: usize,
+    /// Reads one from that many bytes.
+    pub(super) decode: Box<dyn Fn(&[u8]) -> T>,
+}
+
+/// Most characters a text that are believed.
+const LONGEST_TEXT: usize = 1 << 14;
+
+/// The bytes of one value, lowest first.
+fn lowest_first<const N: usize>(bytes: &[u8], big: bool) -> [u8; N] {
+    let mut own = [0; N];
+    for (to, from) in own.iter_mut().zip(bytes) {
+        *to = *from;
+    }
+    if big {
+        own.reverse();
+    }
+    own
+}
+
+/// NumPy's name of a type without its byte order, and whether the highest byte comes first.
+fn order(type_name: &str) -> Option<(bool, &str)> {
+    let big = type_name.starts_with('>');
+    Some((big, type_name.strip_prefix(['<', '>'])?))
+}
+
+fn decoder<T, const N: usize>(
+    big: bool,
+    number: impl Fn([u8; N]) -> T + 'static,
+) -> Option<Decoder<T>> {
+    Some(Decoder {
+        bytes: N,
+        decode: Box::new(move |bytes| number(lowest_first(bytes, big))),
+    })
+}
+
+/// Real numbers: f8, f4, i8, i4.
+pub(super) fn real(type_name: &str) -> Option<Decoder<f64>> {
+    let (big, name) = order(type_name)?;
+    match name {
+        "f8" => decoder(big, f64::from_le_bytes),
+        "f4" => decoder(big, |bytes| f64::from(f32::from_le_bytes(bytes))),
+        "i8" => decoder(big, |bytes| i64::from_le_bytes(bytes) as f64),
+        "i4" => decoder(big, |bytes| f64::from(i32::from_le_bytes(bytes))),
+        _ => None,
+    }
+}
+
+/// Whole numbers: i8, i4, u4.
+pub(super) fn whole(type_name: &str) -> Option<Decoder<i64>> {
+    let (big, name) = order(type_name)?;
+    match name {
+        "i8" => decoder(big, i64::from_le_bytes),
+        "i4" => decoder(big, |bytes| i64::from(i32::from_le_bytes(bytes))),
+        "u4" => decoder(big, |bytes| i64::from(u32::from_le_bytes(bytes))),
+        _ => None,
+    }
+}
+
+/// Text: U (four bytes a character) and S (one), padded with zeros.
+pub(super) fn text(type_name: &str) -> Option<Decoder<String>> {
+    let length = |digits: &str| {
+        let length = digits.parse::<usize>().ok();
+        length.filter(|length| (1..=LONGEST_TEXT).contains(length))
+    };
+    if let Some(digits) = type_name.strip_prefix("|S") {
+        return Some(Decoder {
+            bytes: length(digits)?,
+            decode: Box::new(|bytes| {
+                let end = bytes.iter().rposition(|&byte| byte != 0);
+                let own = bytes.get(..end.map_or(0, |end| end + 1));
+                String::from_utf8_lossy(own.unwrap_or_default()).into_owned()
+            }),
+        });
+    }
+    let (big, name) = order(type_name)?;
+    let bytes = 4 * length(name.strip_prefix('U')?)?;
+    Some(Decoder {
+        bytes,
+        decode: Box::new(move |bytes| {
+            let codes = bytes.chunks_exact(4);
+            let codes = codes.map(|code| u32::from_le_bytes(lowest_first(code, big)));
+            let character = |code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER);
+            let padded: String = codes.map(character).collect();
+            padded.trim_end_matches('\0').to_owned()
+        }),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[allow(clippy::float_cmp)] // numbers that both types hold
+    fn numbers_of_every_width_and_order() {
+        let read = |name: &str, bytes: &[u8]| real(name).map(|own| (own.decode)(bytes));
+        assert_eq!(read("<f8", &1.25_f64.to_le_bytes()), Some(1.25));
+        assert_eq!(read(">f8", &1.25_f64.to_be_bytes()), Some(1.25));
+        assert_eq!(read("<f4", &(-2.5_f32).to_le_bytes()), Some(-2.5));
+        assert_eq!(read(">i4", &(-7_i32).to_be_bytes()), Some(-7.0));
+        assert_eq!(read("<i8", &9_i64.to_le_bytes()), Some(9.0));
+        for other in ["<c16", "f8", "|O", "|b1", "<f2", "<u8", ""] {
+            assert_eq!(read(other, &[0; 16]), None, "{other}");
+        }
+        let read = |name: &str, bytes: &[u8]| whole(name).map(|own| (own.decode)(bytes));
+        assert_eq!(read(">i8", &(-3_i64).to_be_bytes()), Some(-3));
+        assert_eq!(read("<i4", &(-3_i32).to_le_bytes()), Some(-3));
+        assert_eq!(read("<u4", &u32::MAX.to_le_bytes()), Some(4_294_967_295));
+        assert_eq!(read("<f8", &[0; 8]), None);
+    }
+
+    #[test]
+    fn text_loses_its_padding() {
+        let read = |name: &str, bytes: &[u8]| text(name).map(|own| (own.decode)(bytes));
+        let codes = ['b', 'ä', '\0'].map(u32::from);
+        let little: Vec<u8> = codes.iter().flat_map(|code| code.to_le_bytes()).collect();
+        let big: Vec<u8> = codes.iter().flat_map(|code| code.to_be_bytes()).collect();
+        assert_eq!(read("<U3", &little).as_deref(), Some("bä"));
+        assert_eq!(read(">U3", &big).as_deref(), Some("bä"));
+        assert_eq!(read("|S3", b"ab\0").as_deref(), Some("ab"));
+        assert_eq!(read("|S2", &[0, 0]).as_deref(), Some(""));
+        assert_eq!(read("<U1", &[0xff; 4]).as_deref(), Some("\u{fffd}"));
+        for other in ["<U0", "|S0", "<U16385", "<f8", "U3"] {
+            assert_eq!(read(other, &[]), None, "{other}");
+        }
+    }
+}
