@@ -6,7 +6,9 @@
 //! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes | mode shapes |
 //! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
-//! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices | |
+//! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
+//! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
+//! | superelement ([`superelement`]) | `.npz`, `.op4`, `.fem` | everything of a condensed housing | `.npz` |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
 //! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.
@@ -15,9 +17,11 @@
 mod atomic;
 pub mod csv;
 pub mod dof_table;
+mod fortran;
 pub mod matrix_market;
 mod mode_shapes;
 pub mod npz;
+pub mod op4;
 mod read_modes;
 pub mod superelement;
 pub mod uff;
@@ -34,10 +38,11 @@ pub use npz::{
     NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, read_modes_npz, write_modes_npz,
     write_sparse_npz,
 };
+pub use op4::{Op4Error, Op4Format, Op4Matrix, Op4Place, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::{ReadModesError, read_mode_shapes};
 pub use superelement::{
     FieldRecovery, SensorRow, SuperelementError, SuperelementRecord, read_superelement_npz,
-    write_superelement_npz,
+    write_superelement_npz, write_superelement_op4,
 };
 pub use uff::{UffError, read_modes_uff, write_modes_uff, write_uff};
 pub use vtu::{Field, FieldValues, VtuError, write_vtu};

@@ -200,9 +200,7 @@ fn numbers<T>(
     let size = decoder.bytes;
     let mut bytes = vec![0_u8; (BUFFER / size).max(1) * size];
     while values.len() < count {
-        let wanted = (count - values.len())
-            .saturating_mul(size)
-            .min(bytes.len());
+        let wanted = (count - values.len()).saturating_mul(size).min(bytes.len());
         let found = fill(from, &mut bytes[..wanted])?;
         let whole = bytes[..found].chunks_exact(size);
         values.extend(whole.map(&decoder.decode));

@@ -22,7 +22,11 @@ impl SuperelementRecord {
     pub fn check(&self) -> Result<(), SuperelementError> {
         self.check_matrices()?;
         let order = self.order();
-        count("modal_hz", order - self.interface.len(), self.modal_hz.len())?;
+        count(
+            "modal_hz",
+            order - self.interface.len(),
+            self.modal_hz.len(),
+        )?;
         finite("modal_hz", &column(&self.modal_hz))?;
         self.check_frequencies()?;
         if let Some(weight) = &self.weight {

@@ -113,7 +113,9 @@ pub enum SuperelementError {
         axis: usize,
     },
     /// A place or an axis of which a part is missing.
-    #[error("array \"{array}\": expected three finite numbers or NaN for all in row {row}, found {found:?}")]
+    #[error(
+        "array \"{array}\": expected three finite numbers or NaN for all in row {row}, found {found:?}"
+    )]
     Place {
         /// Name of the array.
         array: &'static str,

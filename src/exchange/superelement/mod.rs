@@ -18,8 +18,9 @@ mod npz_read;
 #[cfg(test)]
 mod npz_tests;
 mod npz_write;
+mod op4;
 #[cfg(test)]
-mod samples;
+pub(in crate::exchange) mod samples;
 
 use std::f64::consts::TAU;
 
@@ -27,6 +28,7 @@ pub use check::SYMMETRY_LIMIT;
 pub use error::SuperelementError;
 pub use npz_read::read_superelement_npz;
 pub use npz_write::write_superelement_npz;
+pub use op4::write_superelement_op4;
 
 use super::DofLabel;
 use crate::linalg::DenseMatrix;

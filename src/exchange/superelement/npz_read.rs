@@ -35,8 +35,7 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
     let order = stiffness.nrows();
     let mass = file.matrix("m", Some(order))?;
     let interface = file.interface(order)?;
-    let mut record =
-        SuperelementRecord::of_matrices(stiffness, mass, interface).map_err(fault)?;
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, interface).map_err(fault)?;
     record.damping = file.optional("c", order)?;
     record.structural = file.optional("structural", order)?;
     record.weight = file.optional("weight", 3)?;

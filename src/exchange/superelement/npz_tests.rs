@@ -148,7 +148,10 @@ fn what_does_not_fit_is_told_with_file_and_array() {
             "array \"m\": expected 2 x 2, found 3 x 2",
         ),
         (
-            &[("k", &[2, 2], &[3.0, f64::NAN, 0.0, 1.0]), ("m", &[2, 2], &M)],
+            &[
+                ("k", &[2, 2], &[3.0, f64::NAN, 0.0, 1.0]),
+                ("m", &[2, 2], &M),
+            ],
             "array \"k\": expected finite numbers, found NaN at [0, 1]",
         ),
         (
@@ -157,11 +160,19 @@ fn what_does_not_fit_is_told_with_file_and_array() {
              0.000016",
         ),
         (
-            &[("k", &[2, 2], &K), ("m", &[2, 2], &K[..]), ("modal_hz", &[2], &[1.0, 2.0])],
+            &[
+                ("k", &[2, 2], &K),
+                ("m", &[2, 2], &K[..]),
+                ("modal_hz", &[2], &[1.0, 2.0]),
+            ],
             "array \"modal_hz\": expected 1 entries, found 2",
         ),
         (
-            &[("k", &[2, 2], &K), ("m", &[2, 2], &M), ("modal_hz", &[1], &[2.0])],
+            &[
+                ("k", &[2, 2], &K),
+                ("m", &[2, 2], &M),
+                ("modal_hz", &[1], &[2.0]),
+            ],
             "array \"modal_hz\": expected sqrt(k/m)/2pi = 0.3183098861837907 Hz at [0], found 2 (interface coordinates \
              come first, modes after them)",
         ),
@@ -170,7 +181,11 @@ fn what_does_not_fit_is_told_with_file_and_array() {
             "array \"m\": expected a mass > 0 of modal coordinate 1, found 0",
         ),
         (
-            &[("k", &[2, 2], &K), ("m", &[2, 2], &M), ("weight", &[2, 2], &K)],
+            &[
+                ("k", &[2, 2], &K),
+                ("m", &[2, 2], &M),
+                ("weight", &[2, 2], &K),
+            ],
             "array \"weight\": expected 2 x 3, found 2 x 2",
         ),
         (

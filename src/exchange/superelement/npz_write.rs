@@ -67,7 +67,12 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         let tags: Result<Vec<i64>, NpzError> = field.node_tags.iter().copied().map(label).collect();
         npz.array("field_node_tags", &tags?)?;
         let positions = &field.positions;
-        npz.matrix("field_positions", positions.len(), 3, positions.as_flattened())?;
+        npz.matrix(
+            "field_positions",
+            positions.len(),
+            3,
+            positions.as_flattened(),
+        )?;
         matrix(&mut npz, "field_recovery", &field.recovery)?;
     }
     npz.finish()

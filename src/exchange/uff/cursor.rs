@@ -1,6 +1,6 @@
 //! Lines of a universal file, with their numbers.
 
-use super::number::{columns, real};
+use super::super::fortran::{columns, real};
 
 /// What is wrong in which line.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,6 @@ mod cursor;
 mod element;
 mod error;
 mod mode;
-mod number;
 mod read;
 #[cfg(test)]
 mod tests;

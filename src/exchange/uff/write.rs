@@ -4,10 +4,10 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::super::fortran::exponential;
 use super::super::{ModeShapes, write_atomic};
 use super::UffError;
 use super::element::{Descriptor, descriptor};
-use super::number::exponential;
 use crate::mesh::{ElementId, Mesh};
 
 /// Largest label of ten digits.

@@ -1,4 +1,4 @@
-//! Numbers as Fortran writes and reads them.
+//! Numbers as Fortran writes and reads them: universal files, OUTPUT4.
 
 /// `E` format: `width` columns, `digits` after the point, exponent of two digits or three (`1.50000E+03`). Magnitudes below
 /// 1e-99 become 0, as the exponent would take the column of the sign.
