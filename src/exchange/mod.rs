@@ -3,7 +3,7 @@
 //! | format | ending | written | read |
 //! |---|---|---|---|
 //! | VTK XML unstructured grid ([`vtu`]) | `.vtu` | mesh, fields | |
-//! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes | mode shapes |
+//! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes, frequency responses | mode shapes, frequency responses |
 //! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
@@ -44,5 +44,8 @@ pub use superelement::{
     FieldRecovery, SensorRow, SuperelementError, SuperelementRecord, read_superelement_npz,
     write_superelement_npz, write_superelement_op4,
 };
-pub use uff::{UffError, read_modes_uff, write_modes_uff, write_uff};
+pub use uff::{
+    FrequencyResponse, ResponseFault, ResponseKind, ResponsePoint, UffError, read_modes_uff,
+    read_responses_uff, write_modes_uff, write_responses_uff, write_uff,
+};
 pub use vtu::{Field, FieldValues, VtuError, write_vtu};

@@ -129,6 +129,13 @@ impl<'a> Cursor<'a> {
         Ok(numbers)
     }
 
+    /// Whether a line that begins or ends a dataset follows so many bytes.
+    pub(super) fn delimiter_after(&self, bytes: usize) -> bool {
+        let rest = self.rest.get(bytes..).unwrap_or_default();
+        let mut lines = rest.trim_ascii_start().split(|&byte| byte == b'\n');
+        lines.next().is_some_and(|line| line.trim_ascii() == b"-1")
+    }
+
     /// Goes past bytes that are no text.
     pub(super) fn skip(&mut self, bytes: usize) {
         self.rest = self.rest.get(bytes..).unwrap_or_default();

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::super::ModeShapesError;
+use super::response::ResponseFault;
 use crate::mesh::{ElementId, ElementKind};
 
 /// Why a universal file cannot be written or read.
@@ -79,5 +80,33 @@ pub enum UffError {
         path: PathBuf,
         /// What is wrong.
         fault: ModeShapesError,
+    },
+    /// A frequency response that contradicts itself.
+    #[error("frequency response {index}: {fault}")]
+    Response {
+        /// Which one, counted from 0.
+        index: usize,
+        /// What is wrong.
+        fault: ResponseFault,
+    },
+    /// Uneven frequencies that the format cannot tell apart.
+    #[error(
+        "frequency response {index}: expected uneven frequencies that differ in six digits, found two like {found} Hz"
+    )]
+    CloseFrequencies {
+        /// Which one, counted from 0.
+        index: usize,
+        /// The lower one of them, Hz.
+        found: f64,
+    },
+    /// A file without frequency responses.
+    #[error(
+        "{}: expected frequency responses (dataset 58, function type 4, of displacement, velocity or acceleration by force), \
+         found none",
+        path.display()
+    )]
+    NoResponses {
+        /// The file.
+        path: PathBuf,
     },
 }

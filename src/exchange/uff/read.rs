@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::super::ModeShapes;
 use super::UffError;
+use super::binary::skip_binary;
 use super::cursor::{Cursor, Fault, Line};
 use super::mode::{Mode, read_mode};
 
@@ -118,18 +119,7 @@ impl Content {
                 self.modes.extend(read_mode(cursor)?);
                 Ok(())
             }
-            ["58b", rest @ ..] => {
-                // fields after 58b: byte order, number format, lines of text, bytes of numbers
-                let number = |place: usize| rest.get(place).and_then(|word| word.parse().ok());
-                let (Some(lines), Some(bytes)) = (number(2), number(3)) else {
-                    return Err(head.fault("lines and bytes of a dataset 58b"));
-                };
-                for _ in 0..usize::min(lines, 20) {
-                    cursor.expect("text of a dataset 58b")?;
-                }
-                cursor.skip(bytes);
-                skip(cursor)
-            }
+            ["58b", ..] => skip_binary(cursor, &head).map(|_| ()),
             [number, ..] if number.parse::<u32>().is_ok() => skip(cursor),
             _ => Err(head.fault(NUMBER)),
         }

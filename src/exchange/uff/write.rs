@@ -11,7 +11,7 @@ use super::element::{Descriptor, descriptor};
 use crate::mesh::{ElementId, Mesh};
 
 /// Largest label of ten digits.
-const LAST_LABEL: u64 = 9_999_999_999;
+pub(super) const LAST_LABEL: u64 = 9_999_999_999;
 
 /// A node with its label.
 type Node = (u64, [f64; 3]);
@@ -120,7 +120,7 @@ fn check(
     }
 }
 
-fn write_file(
+pub(super) fn write_file(
     path: &Path,
     write: impl FnOnce(&mut super::super::AtomicFile) -> io::Result<()>,
 ) -> Result<(), UffError> {
@@ -130,16 +130,16 @@ fn write_file(
     })
 }
 
-fn begin(to: &mut impl Write, dataset: u32) -> io::Result<()> {
+pub(super) fn begin(to: &mut impl Write, dataset: u32) -> io::Result<()> {
     writeln!(to, "{:>6}\n{dataset:>6}", -1)
 }
 
-fn end(to: &mut impl Write) -> io::Result<()> {
+pub(super) fn end(to: &mut impl Write) -> io::Result<()> {
     writeln!(to, "{:>6}", -1)
 }
 
 /// An identification line: at most 80 characters, "NONE" if there is nothing to say, which the format asks for.
-fn identification(text: &str) -> String {
+pub(super) fn identification(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default().trim();
     let plain = line
         .chars()
@@ -151,7 +151,7 @@ fn identification(text: &str) -> String {
 }
 
 /// Datasets 151 and 164. Dates are fixed, so that the same results give the same bytes.
-fn write_head(to: &mut impl Write, description: &str) -> io::Result<()> {
+pub(super) fn write_head(to: &mut impl Write, description: &str) -> io::Result<()> {
     let program = concat!("plummer ", env!("CARGO_PKG_VERSION"));
     let date = format!("{:<10}{:<10}", "01-Jan-00", "00:00:00");
     begin(to, 151)?;

@@ -1,0 +1,177 @@
+//! Frequency response functions.
+
+use thiserror::Error;
+
+/// What responds to a force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResponseKind {
+    /// Displacement by force, m/N.
+    Receptance,
+    /// Velocity by force, m/(N s).
+    Mobility,
+    /// Acceleration by force, m/(N s^2).
+    Accelerance,
+}
+
+/// Where something is measured or a force acts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponsePoint {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The node's label, where it is one.
+    pub node: Option<u64>,
+    /// Unit vector in the mesh's axes; `None` where it is not known.
+    pub direction: Option<[f64; 3]>,
+}
+
+/// A frequency response function `x(f) = H(f) F(f)`, with the time dependence `exp(i 2 pi f t)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrequencyResponse {
+    /// What it is.
+    pub name: String,
+    /// Frequencies, Hz: >= 0, ascending.
+    pub frequency_hz: Vec<f64>,
+    /// Real and imaginary part at each frequency, in the unit of `kind`.
+    pub value: Vec<[f64; 2]>,
+    /// What responds.
+    pub kind: ResponseKind,
+    /// Where the force acts.
+    pub from: ResponsePoint,
+    /// What responds to it.
+    pub to: ResponsePoint,
+}
+
+/// How a frequency response contradicts itself.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ResponseFault {
+    /// Not a value for each frequency.
+    #[error(
+        "expected at least one frequency and a value for each, found {frequencies} frequencies and {values} values"
+    )]
+    Count {
+        /// Frequencies found.
+        frequencies: usize,
+        /// Values found.
+        values: usize,
+    },
+    /// A frequency that is none, or not in order.
+    #[error("expected ascending frequencies >= 0 Hz, found {found} at [{place}]")]
+    Frequency {
+        /// Place, counted from 0.
+        place: usize,
+        /// What stands there, Hz.
+        found: f64,
+    },
+    /// A value that is none.
+    #[error("expected finite values, found {found:?} at [{place}]")]
+    Value {
+        /// Place, counted from 0.
+        place: usize,
+        /// What stands there.
+        found: [f64; 2],
+    },
+    /// A direction that is no unit vector.
+    #[error("expected a unit vector as direction of \"{point}\", found {found:?}")]
+    Direction {
+        /// Name of the point.
+        point: String,
+        /// The direction.
+        found: [f64; 3],
+    },
+}
+
+/// A direction's length may differ from 1 by this much: what six digits in each component leave.
+const UNIT_LIMIT: f64 = 1e-5;
+/// A direction is along an axis where the other components are below this, which turns forces by less than 1e-9.
+const AXIS_LIMIT: f64 = 1e-9;
+
+impl ResponseKind {
+    /// Its name, as identification lines have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Receptance => "Receptance",
+            Self::Mobility => "Mobility",
+            Self::Accelerance => "Accelerance",
+        }
+    }
+
+    /// Unit of what responds, and the format's number for it.
+    pub(super) fn numerator(self) -> (&'static str, u32, &'static str) {
+        match self {
+            Self::Receptance => ("Displacement", 8, "m"),
+            Self::Mobility => ("Velocity", 11, "m/s"),
+            Self::Accelerance => ("Acceleration", 12, "m/s2"),
+        }
+    }
+
+    pub(super) fn of_numerator(number: i64) -> Option<Self> {
+        let all = [Self::Receptance, Self::Mobility, Self::Accelerance];
+        all.into_iter()
+            .find(|kind| i64::from(kind.numerator().1) == number)
+    }
+}
+
+impl ResponsePoint {
+    /// 1, 2, 3 along x, y, z, below zero against them, 0 for every other direction.
+    pub(super) fn signed_axis(&self) -> i64 {
+        let Some(direction) = self.direction else {
+            return 0;
+        };
+        let along =
+            |axis: usize| (0..3).all(|own| own == axis || direction[own].abs() < AXIS_LIMIT);
+        match (0..3).find(|&axis| along(axis)) {
+            Some(axis) if direction[axis] > 0.0 => axis as i64 + 1,
+            Some(axis) => -(axis as i64 + 1),
+            None => 0,
+        }
+    }
+
+    pub(super) fn direction_of(signed_axis: i64) -> Option<[f64; 3]> {
+        let axis = usize::try_from(signed_axis.unsigned_abs()).ok()?;
+        let mut direction = [0.0; 3];
+        *direction.get_mut(axis.checked_sub(1)?)? = if signed_axis > 0 { 1.0 } else { -1.0 };
+        Some(direction)
+    }
+}
+
+impl FrequencyResponse {
+    /// Whether frequencies ascend, values are numbers, directions are unit vectors.
+    ///
+    /// # Errors
+    /// [`ResponseFault`]: the first thing that does not fit.
+    pub fn check(&self) -> Result<(), ResponseFault> {
+        let (frequencies, values) = (self.frequency_hz.len(), self.value.len());
+        if frequencies != values || frequencies == 0 {
+            return Err(ResponseFault::Count {
+                frequencies,
+                values,
+            });
+        }
+        let mut last = None;
+        for (place, &found) in self.frequency_hz.iter().enumerate() {
+            let ascends = last.is_none_or(|last| found > last);
+            if !ascends || found < 0.0 || !found.is_finite() {
+                return Err(ResponseFault::Frequency { place, found });
+            }
+            last = Some(found);
+        }
+        let wrong = |value: &[f64; 2]| !value.iter().all(|part| part.is_finite());
+        if let Some(place) = self.value.iter().position(wrong) {
+            let found = self.value[place];
+            return Err(ResponseFault::Value { place, found });
+        }
+        for point in [&self.from, &self.to] {
+            if let Some(found) = point.direction {
+                let length = found.iter().map(|part| part * part).sum::<f64>().sqrt();
+                // NaN is no length either
+                if !((length - 1.0).abs() <= UNIT_LIMIT) {
+                    return Err(ResponseFault::Direction {
+                        point: point.name.clone(),
+                        found,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}

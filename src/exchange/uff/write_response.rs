@@ -1,0 +1,152 @@
+//! Writes dataset 58, functions at nodal degrees of freedom.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::super::fortran::exponential;
+use super::UffError;
+use super::response::{FrequencyResponse, ResponsePoint};
+use super::write::{LAST_LABEL, begin, end, identification, write_file, write_head};
+
+/// Digits after the point of frequencies, which the format has in single precision.
+const DIGITS: usize = 5;
+/// What five digits after the point round off at most, as a part.
+const ROUNDING: f64 = 5e-6;
+
+/// Writes frequency responses, whole or not at all: header, SI units, one dataset 58 each (complex, double precision: 13
+/// digits).
+///
+/// The format has frequencies in six digits. They are written as first frequency and step where that gives each as closely
+/// as six digits of its own would, else one by one. Directions that are not along an axis are written as unknown.
+/// Identification lines: the name; the kind with its unit; no date, so that the same results give the same bytes; the names
+/// of both points.
+///
+/// # Errors
+/// [`UffError::Response`] for one that contradicts itself or whose frequencies are the same in six digits,
+/// [`UffError::Label`] for nodes of more than ten digits, [`UffError::Write`].
+pub fn write_responses_uff(
+    path: &Path,
+    description: &str,
+    responses: &[FrequencyResponse],
+) -> Result<(), UffError> {
+    let mut spacings = Vec::with_capacity(responses.len());
+    for (index, response) in responses.iter().enumerate() {
+        response
+            .check()
+            .map_err(|fault| UffError::Response { index, fault })?;
+        for point in [&response.from, &response.to] {
+            if let Some(label) = point.node.filter(|&label| label > LAST_LABEL) {
+                return Err(UffError::Label { label });
+            }
+        }
+        let frequencies = &response.frequency_hz;
+        let spacing = match spacing(frequencies) {
+            Some(even) => Some(even),
+            None => {
+                let mut pairs = frequencies.windows(2);
+                let same = pairs.position(|pair| rounded(pair[0]) >= rounded(pair[1]));
+                if let Some(place) = same {
+                    return Err(UffError::CloseFrequencies {
+                        index,
+                        found: frequencies[place],
+                    });
+                }
+                None
+            }
+        };
+        spacings.push(spacing);
+    }
+    write_file(path, |to| {
+        write_head(to, description)?;
+        for (number, (response, spacing)) in responses.iter().zip(spacings).enumerate() {
+            write_response(to, number + 1, response, spacing)?;
+        }
+        Ok(())
+    })
+}
+
+/// As it comes back from the file.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.DIGITS$e}").parse().unwrap_or(value)
+}
+
+/// First frequency and step as the file has them, if they give every frequency.
+fn spacing(frequencies: &[f64]) -> Option<(f64, f64)> {
+    let (&first, &last) = (frequencies.first()?, frequencies.last()?);
+    let steps = frequencies.len() - 1;
+    if steps == 0 {
+        return None;
+    }
+    let (begin, step) = (rounded(first), rounded((last - first) / steps as f64));
+    let close = |(place, &own): (usize, &f64)| {
+        let found = begin + step * place as f64;
+        (found - own).abs() <= ROUNDING * own
+    };
+    let even = frequencies.iter().enumerate().all(close);
+    even.then_some((begin, step))
+}
+
+fn write_response(
+    to: &mut impl Write,
+    number: usize,
+    response: &FrequencyResponse,
+    spacing: Option<(f64, f64)>,
+) -> io::Result<()> {
+    let single = |value| exponential(value, 13, DIGITS, 'E');
+    let double = |value| exponential(value, 20, 12, 'E');
+    let (quantity, numerator, unit) = response.kind.numerator();
+    begin(to, 58)?;
+    writeln!(to, "{}", identification(&response.name))?;
+    writeln!(to, "{}, {unit}/N", response.kind.name())?;
+    writeln!(to, "NONE")?;
+    writeln!(to, "{REFERENCE}{}", identification(&response.from.name))?;
+    writeln!(to, "{RESPONSE}{}", identification(&response.to.name))?;
+    // frequency response, number, version, single excitation
+    write!(to, "{:>5}{number:>10}{:>5}{:>10}", 4, 0, 0)?;
+    for point in [&response.to, &response.from] {
+        write_point(to, point)?;
+    }
+    let (even, (first, step)) = match spacing {
+        Some(spacing) => (1, spacing),
+        None => (0, (0.0, 0.0)),
+    };
+    let count = response.frequency_hz.len();
+    // complex, double precision
+    write!(to, "\n{:>10}{count:>10}{even:>10}", 6)?;
+    writeln!(to, "{}{}{}", single(first), single(step), single(0.0))?;
+    let mut axis = |kind: u32, label: &str, unit: &str| {
+        writeln!(
+            to,
+            "{kind:>10}{:>5}{:>5}{:>5} {label:<20} {unit:<20}",
+            0, 0, 0
+        )
+    };
+    axis(18, "Frequency", "Hz")?;
+    axis(numerator, quantity, unit)?;
+    axis(13, "Force", "N")?;
+    axis(0, "NONE", "NONE")?;
+    if spacing.is_some() {
+        for pair in response.value.chunks(2) {
+            for &part in pair.as_flattened() {
+                write!(to, "{}", double(part))?;
+            }
+            writeln!(to)?;
+        }
+    } else {
+        for (&frequency, &[re, im]) in response.frequency_hz.iter().zip(&response.value) {
+            writeln!(to, "{}{}{}", single(frequency), double(re), double(im))?;
+        }
+    }
+    end(to)
+}
+
+/// What the identification lines of the points begin with.
+pub(super) const REFERENCE: &str = "Force at ";
+pub(super) const RESPONSE: &str = "Response at ";
+
+/// Name in ten characters, node, direction.
+fn write_point(to: &mut impl Write, point: &ResponsePoint) -> io::Result<()> {
+    let name: String = identification(&point.name).chars().take(10).collect();
+    let (node, direction) = (point.node.unwrap_or(0), point.signed_axis());
+    write!(to, " {name:<10}{node:>10}{direction:>4}")
+}
