@@ -14,6 +14,7 @@
 
 mod check;
 mod error;
+mod mbdyn;
 mod npz_read;
 #[cfg(test)]
 mod npz_tests;
@@ -26,6 +27,7 @@ use std::f64::consts::TAU;
 
 pub use check::SYMMETRY_LIMIT;
 pub use error::SuperelementError;
+pub use mbdyn::{MbdynError, MbdynSummary, write_mbdyn_fem};
 pub use npz_read::read_superelement_npz;
 pub use npz_write::write_superelement_npz;
 pub use op4::write_superelement_op4;
