@@ -324,12 +324,28 @@ fn damaged_files_never_panic() {
 }
 
 proptest! {
+    /// Sound records of words that may or may not fit.
     #[test]
-    fn random_bytes_never_panic(
-        bytes in prop::collection::vec(any::<u8>(), 0..400),
-        first in prop::sample::select(vec![24_u8, 48, b' ']),
+    fn random_records_never_panic(
+        (columns, rows, kind) in (1..4_i32, -4..5_i32, 1..5_i32),
+        records in prop::collection::vec(
+            (0..5_i32, -1..5_i32, 0..9_i32, prop::collection::vec(prop_oneof![0..6_i32, 65_536..330_000_i32, any::<i32>()], 0..9)),
+            0..5,
+        ),
     ) {
-        let bytes = [vec![first, 0, 0, 0], bytes].concat();
-        let _ = op4_from_bytes(&bytes, Path::new("r.op4"));
+        let bytes_of = |words: &[i32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let mut bytes = bytes_of(&[24, columns, rows, 1, kind, 75, 0, 24]);
+        for (column, row, length, words) in records {
+            let content = [vec![column, row, length], words].concat();
+            let size = 4 * content.len() as i32;
+            bytes.extend(bytes_of(&[vec![size], content, vec![size]].concat()));
+        }
+        for matrix in op4_from_bytes(&bytes, Path::new("r.op4")).unwrap_or_default() {
+            let _ = matrix.dense();
+        }
+        let end = bytes_of(&[20, 99, 1, 2, 0, 0, 20]);
+        for matrix in op4_from_bytes(&[bytes, end].concat(), Path::new("r.op4")).unwrap_or_default() {
+            let _ = matrix.dense();
+        }
     }
 }
