@@ -22,6 +22,8 @@ pub enum SensorSpot {
     Group(String),
     /// On the ring, at an angle in degrees.
     RingDeg(f64),
+    /// A node of the mesh, by gmsh's tag.
+    Node(u64),
     /// The mesh's node nearest to this point, in m.
     Point([f64; 3]),
 }
@@ -35,6 +37,8 @@ struct SensorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ring_deg: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    node: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
     direction: [f64; 3],
 }
@@ -45,12 +49,17 @@ impl TryFrom<SensorForm> for Sensor {
     type Error = Mismatch;
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
-        const ONE: &str = "exactly one of `group`, `ring_deg`, `point`";
-        let spot = match (form.group, form.ring_deg, form.point) {
-            (Some(group), None, None) => SensorSpot::Group(group),
-            (None, Some(angle), None) => SensorSpot::RingDeg(angle),
-            (None, None, Some(point)) => SensorSpot::Point(point),
-            (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+        ];
+        let mut given = spots.into_iter().flatten();
+        let spot = match (given.next(), given.next()) {
+            (Some(spot), None) => spot,
+            (None, _) => return Err(Mismatch::form("none of them", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
         Ok(Self {
@@ -63,17 +72,20 @@ impl TryFrom<SensorForm> for Sensor {
 
 impl From<Sensor> for SensorForm {
     fn from(sensor: Sensor) -> Self {
-        let (group, ring_deg, point) = match sensor.spot {
-            SensorSpot::Group(group) => (Some(group), None, None),
-            SensorSpot::RingDeg(angle) => (None, Some(angle), None),
-            SensorSpot::Point(point) => (None, None, Some(point)),
-        };
-        Self {
+        let mut form = Self {
             name: sensor.name,
-            group,
-            ring_deg,
-            point,
+            group: None,
+            ring_deg: None,
+            node: None,
+            point: None,
             direction: sensor.direction,
+        };
+        match sensor.spot {
+            SensorSpot::Group(group) => form.group = Some(group),
+            SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
+            SensorSpot::Node(tag) => form.node = Some(tag),
+            SensorSpot::Point(point) => form.point = Some(point),
         }
+        form
     }
 }

@@ -41,7 +41,7 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 15] = [
+const UNSUPPORTED: [Unsupported; 14] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
@@ -76,11 +76,6 @@ const UNSUPPORTED: [Unsupported; 15] = [
         &["shaft", "loads", "*", "force"],
         Extent::Table,
         "give one constant force, [x, y] in N",
-    ),
-    refused(
-        &["sensors", "*", "node"],
-        Extent::Key,
-        "give the node's place: point = [x, y, z] in m",
     ),
     refused(&["frf"], Extent::Key, "leave the table out"),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
@@ -199,7 +194,6 @@ mod tests {
             "shaft.loads=[{force=[{time=0,x=1}]}]",
             "shaft.loads[0].force",
         ),
-        ("sensors[1].node=17", "sensors[1].node"),
         ("frf={from=[],to=[]}", "frf"),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),

@@ -33,6 +33,14 @@ const MODES_EXAMPLE: &str = "\
 Example: the published frequencies with the consistent equations instead of the printed ones
   plummer modes examples/tadina2011/beam.toml --set bearing.formulation=consistent --out out/consistent";
 
+const CONDENSE_EXAMPLE: &str = "\
+Example: a housing on the nodes of its bore, its frequencies against those of the full model
+  plummer condense examples/scenes/pedestal.toml --compare-full
+
+Files:
+  superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mtx, mbdyn
+  condense.json     checks with limits and verdicts, estimated errors";
+
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again
   plummer export examples/scenes/pedestal.toml --to mtx
@@ -82,6 +90,15 @@ pub enum Command {
     Modes {
         /// Case file (TOML)
         case: PathBuf,
+    },
+    /// Craig-Bampton superelement of a housing, its error estimate and its checks
+    #[command(after_help = CONDENSE_EXAMPLE)]
+    Condense {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Compute the full model too, and compare
+        #[arg(long)]
+        compare_full: bool,
     },
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
@@ -136,6 +153,7 @@ impl Command {
         match self {
             Self::Run { .. } => "run",
             Self::Modes { .. } => "modes",
+            Self::Condense { .. } => "condense",
             Self::Inspect { .. } => "inspect",
             Self::Export { .. } => "export",
         }
@@ -251,6 +269,7 @@ mod tests {
             "plummer --help",
             "plummer run --help",
             "plummer modes --help",
+            "plummer condense --help",
             "plummer inspect --help",
             "plummer export --help",
         ] {

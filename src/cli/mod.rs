@@ -4,6 +4,7 @@
 //! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
 
 mod arguments;
+mod condense;
 mod export;
 mod failure;
 mod inspect;
@@ -66,6 +67,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
     let outcome = match &arguments.command {
         Command::Run { case } => compute(case, Purpose::Run, arguments),
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
+        Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Inspect {
             mesh,
@@ -90,6 +92,7 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
     let outcome = match purpose {
         Purpose::Run => run::run(&case, options, &progress),
         Purpose::Modes => modes::modes(&case, options, &progress),
+        Purpose::Condense => condense::condense(&case, arguments, &progress),
     };
     progress.finish();
     outcome

@@ -5,7 +5,10 @@ use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
 use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
-use crate::stages::{MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError};
+use crate::reduction::Bound;
+use crate::stages::{
+    CondenseResult, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError,
+};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -158,6 +161,54 @@ pub(super) fn modes_json(
     });
     extend(&mut map, fields);
     Value::Object(map)
+}
+
+/// What `condense.json` says beside what every result carries.
+pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
+    let (element, basis) = (
+        &result.stage.condensed.superelement,
+        &result.stage.condensed.basis,
+    );
+    let modes = &result.estimate.modes;
+    let hz = |value: f64| value.max(0.0).sqrt() / std::f64::consts::TAU;
+    let complete = basis.complete_below();
+    let mut map = Map::new();
+    extend(
+        &mut map,
+        json!({
+            "interface_dof": element.interface_dof,
+            "interior_dof": result.stage.condensed.substructure.interior_dof(),
+            "fixed_interface_modes": basis.count() - basis.residual_vectors(),
+            "residual_vectors": basis.residual_vectors(),
+            "interior_frequencies_hz": basis.values().iter().map(|&v| hz(v)).collect::<Vec<_>>(),
+            "complete_below_hz": complete.is_finite().then(|| hz(complete)),
+            "band_hz": result.estimate.band_hz,
+            "frequencies_hz": modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>(),
+            "estimated_relative_error":
+                modes.iter().map(|mode| mode.relative_error).collect::<Vec<_>>(),
+            "estimate": {
+                "largest": result.estimate.largest(),
+                "converged": result.estimate.converged,
+                "rounds": result.estimate.rounds,
+                "out_of_band": result.estimate.out_of_band,
+            },
+            "checks": result.checks.iter().map(|check| json!({
+                "name": check.name,
+                "what": check.what,
+                "value": check.value,
+                "limit": check.limit,
+                "bound": match check.bound {
+                    Bound::AtMost => "at most",
+                    Bound::AtLeast => "at least",
+                },
+                "ok": check.ok(),
+            })).collect::<Vec<_>>(),
+            "full_frequencies_hz": result.full.as_ref().map(|full| &full.frequencies_hz),
+            "relative_error": result.full.as_ref().map(|full| &full.relative_errors),
+            "effectivity": result.full.as_ref().and_then(|full| full.effectivity),
+        }),
+    );
+    map
 }
 
 /// Rows of a matrix.

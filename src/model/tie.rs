@@ -126,22 +126,19 @@ impl RingTie {
         node: usize,
         direction: [f64; 3],
     ) -> Vec<(usize, f64)> {
+        let row = housing.displacement_row(node, direction);
+        let Some(rotation) = &self.rotation else {
+            return row;
+        };
         let d = housing.dimension;
-        let mut row = Vec::new();
-        for (component, dof, factor) in housing.tied_entries(node) {
-            let factor = factor * direction[component % d];
-            match &self.rotation {
-                None => row.push((dof, factor)),
-                Some(rotation) => {
-                    let first = dof - dof % d;
-                    row.extend((first..first + d).map(|column| {
-                        let turned = rotation.get(dof, column).copied().unwrap_or(0.0);
-                        (column, factor * turned)
-                    }));
-                }
-            }
-        }
-        row
+        let turned = row.into_iter().flat_map(|(dof, factor)| {
+            let first = dof - dof % d;
+            (first..first + d).map(move |column| {
+                let turned = rotation.get(dof, column).copied().unwrap_or(0.0);
+                (column, factor * turned)
+            })
+        });
+        turned.collect()
     }
 }
 

@@ -11,7 +11,7 @@ use super::coupled_modes::reduced_matrices;
 use super::selection::{BasisChoice, choose_basis};
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{DenseMatrix, transpose_times_dense};
+use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
 use crate::model::HousingPartition;
 
 /// A condensed housing with the way back to its nodes.
@@ -38,24 +38,50 @@ pub fn craig_bampton(
 ) -> Result<CraigBampton, ReductionError> {
     let substructure = Substructure::new(matrices, partition)?;
     let basis = choose_basis(&substructure, choice, attached)?;
-    Ok(CraigBampton::new(substructure, basis))
+    Ok(CraigBampton::new(substructure, basis, &matrices.weight))
 }
 
 impl CraigBampton {
-    /// The superelement of a basis.
-    pub fn new(substructure: Substructure, basis: InteriorBasis) -> Self {
+    /// The superelement of a basis; `weight` is that of the housing along the bearing's x and y [dof x 2], kg.
+    pub fn new(substructure: Substructure, basis: InteriorBasis, weight: &DenseMatrix) -> Self {
         let [stiffness, mass] = reduced_matrices(&substructure, &basis, None);
         let superelement = Superelement {
             stiffness,
             mass,
-            weight: reduced_weight(&substructure, &basis),
+            weight: DenseMatrix::zeros(0, 0),
             interface_dof: substructure.interface_dof(),
         };
-        Self {
+        let mut condensed = Self {
             substructure,
             basis,
             superelement,
-        }
+        };
+        condensed.superelement.weight = condensed.project(weight);
+        condensed
+    }
+
+    /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
+    /// the mesh stays the weight of the mesh, whatever the basis keeps.
+    pub fn project(&self, load: &DenseMatrix) -> DenseMatrix {
+        let partition = self.substructure.partition();
+        let pick = |dofs: &[usize]| {
+            DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| {
+                load[(dofs[row], column)]
+            })
+        };
+        let (interior, driven) = (pick(&partition.interior), pick(&partition.driven));
+        let interface = transpose_times_dense(&partition.tie, &driven)
+            + self.substructure.constraint_modes().transpose() * &interior;
+        let modal = self.basis.vectors().transpose() * &interior;
+        let first = interface.nrows();
+        DenseMatrix::from_fn(
+            self.superelement.order(),
+            load.ncols(),
+            |row, column| match row.checked_sub(first) {
+                None => interface[(row, column)],
+                Some(mode) => modal[(mode, column)],
+            },
+        )
     }
 
     /// Estimated errors of the frequencies in a band, with what will be attached.
@@ -99,7 +125,7 @@ impl CraigBampton {
         let amplitudes = coordinates.subrows(interface, self.basis.count());
         let interior =
             self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
-        let driven = crate::linalg::sparse_times_dense(&partition.tie, &boundary.to_owned());
+        let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
         let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
         for column in 0..coordinates.ncols() {
             let to = all.col_as_slice_mut(column);
@@ -112,21 +138,6 @@ impl CraigBampton {
         }
         all
     }
-}
-
-/// The mesh's own inertia load on the coordinates, so that the weight is that of the mesh whatever the reduction keeps.
-fn reduced_weight(substructure: &Substructure, basis: &InteriorBasis) -> DenseMatrix {
-    let [interior, driven] = substructure.weight();
-    let interface = transpose_times_dense(&substructure.partition().tie, driven)
-        + substructure.constraint_modes().transpose() * interior;
-    let modal = basis.vectors().transpose() * interior;
-    let first = interface.nrows();
-    DenseMatrix::from_fn(first + modal.nrows(), 2, |row, column| {
-        match row.checked_sub(first) {
-            None => interface[(row, column)],
-            Some(mode) => modal[(mode, column)],
-        }
-    })
 }
 
 #[cfg(test)]

@@ -34,8 +34,6 @@ pub struct Substructure {
     constraint_modes: DenseMatrix,
     stiffness: DenseMatrix,
     mass: DenseMatrix,
-    /// Mass times unit accelerations, over the interior and over the driven degrees of freedom.
-    weight: [DenseMatrix; 2],
 }
 
 impl Substructure {
@@ -69,17 +67,10 @@ impl Substructure {
         let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
         let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
         let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
-        let pick = |dofs: &[usize]| {
-            let columns = matrices.weight.ncols();
-            DenseMatrix::from_fn(dofs.len(), columns, |row, column| {
-                matrices.weight[(dofs[row], column)]
-            })
-        };
         let mut substructure = Self {
             stiffness: driven(k),
             mass: driven(m),
             constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
-            weight: [pick(i), pick(b)],
             partition: partition.clone(),
             factor,
             interior,
@@ -145,12 +136,6 @@ impl Substructure {
     /// m_bb [interface x interface], kg.
     pub fn mass(&self) -> &DenseMatrix {
         &self.mass
-    }
-
-    /// Mass times unit accelerations, over the interior [interior x k] and over the driven degrees of freedom
-    /// [driven x k], kg.
-    pub(super) fn weight(&self) -> [&DenseMatrix; 2] {
-        [&self.weight[0], &self.weight[1]]
     }
 
     /// `K_ii^-1 R` for `R` [interior x k].

@@ -68,7 +68,9 @@ pub fn compute_condense(
     let stage = CondensedStage::build(case, watch)?.ok_or(StageError::NothingToCondense)?;
     watch.stage("estimate");
     let band_hz = stage.choice.band_hz;
-    let estimate = stage.condensed.estimate(stage.boundary.attached(), band_hz)?;
+    let estimate = stage
+        .condensed
+        .estimate(stage.boundary.attached(), band_hz)?;
     watch.stage("check");
     let matrices = stage.matrices();
     let mut checks =
@@ -138,7 +140,9 @@ fn compare(
 /// Fixed-interface frequencies of a factorisation of its own.
 fn fixed_interface(stage: &CondensedStage) -> Result<Check, StageError> {
     let basis = &stage.condensed.basis;
-    let kept = basis.values().partition_point(|&value| value < basis.complete_below());
+    let kept = basis
+        .values()
+        .partition_point(|&value| value < basis.complete_below());
     let matrices = stage.matrices();
     let interior = &stage.boundary.partition().interior;
     let difference = match kept {

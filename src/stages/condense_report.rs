@@ -4,9 +4,7 @@ use super::condense::{CondenseResult, FullComparison};
 use super::{Boundary, StageError};
 use crate::case::Case;
 use crate::reduction::{BasisSize, Bound, Check};
-use crate::report::{
-    Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant,
-};
+use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant};
 use std::f64::consts::TAU;
 
 /// Composes the report; `command` is the line that made it.
@@ -28,7 +26,11 @@ pub fn condense_report(
         .document(document)
         .headline(
             "Checks passed",
-            format!("{} of {}", result.checks.len() - failed, result.checks.len()),
+            format!(
+                "{} of {}",
+                result.checks.len() - failed,
+                result.checks.len()
+            ),
             Verdict::of(failed == 0),
         )
         .headline(
@@ -60,7 +62,10 @@ fn what(result: &CondenseResult) -> Section {
     let stage = &result.stage;
     let element = &stage.condensed.superelement;
     let interface = match &stage.boundary {
-        Boundary::Ring(bodies) => format!("the {} nodes of the ring, through its tie", bodies.0.nodes()),
+        Boundary::Ring(bodies) => format!(
+            "the {} nodes of the ring, through its tie",
+            bodies.0.nodes()
+        ),
         Boundary::Nodes(nodes) => {
             let count = nodes.coordinates.iter().map(|at| at.0);
             let count = count.collect::<std::collections::BTreeSet<_>>().len();
@@ -89,9 +94,8 @@ fn what(result: &CondenseResult) -> Section {
             (basis.count() - basis.residual_vectors()).to_string(),
         )
         .note(size),
-        Fact::new("Residual vectors", basis.residual_vectors().to_string()).note(
-            "static response of the interior to what a mode of the coupled structure lacks",
-        ),
+        Fact::new("Residual vectors", basis.residual_vectors().to_string())
+            .note("static response of the interior to what a mode of the coupled structure lacks"),
     ];
     if let Boundary::Nodes(nodes) = &stage.boundary
         && !nodes.held.is_empty()
@@ -125,7 +129,7 @@ fn check_table(checks: &[Check]) -> Table {
             Cell::text(&check.what),
             Cell::number(check.value, 3),
             Cell::text(format!("{sign} {}", significant(check.limit, 3))),
-            Cell::verdict(Verdict::of(check.ok())),
+            Cell::badge(Verdict::of(check.ok())),
         ]);
     }
     table

@@ -180,6 +180,15 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 let [x, y, _] = housing.model.frame().point(*point);
                 Point { x, y }
             }),
+            SensorSpot::Node(tag) => stage.housing.as_ref().and_then(|housing| {
+                let node = housing
+                    .model
+                    .node_tags
+                    .iter()
+                    .position(|found| found == tag)?;
+                let [x, y] = [0, 1].map(|k| housing.model.ring_coordinates(node)[k]);
+                Some(Point { x, y })
+            }),
             SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
                 let nodes = &housing.mesh.group(group).ok()?.nodes;
                 let mean = |k: usize| {

@@ -168,9 +168,35 @@ pub enum StageError {
         /// What it stands on.
         place: String,
     },
+    /// A sensor on a ring that is not there.
+    #[error(
+        "sensor \"{name}\" stands on the ring, but no ring is attached here: give group, node or point"
+    )]
+    SensorNeedsRing {
+        /// Name of the sensor.
+        name: String,
+    },
+    /// A sensor on a node that is not there.
+    #[error(
+        "sensor \"{name}\": {} {tag}",
+        if *in_mesh { "no element of the housing has node" } else { "the mesh has no node" }
+    )]
+    SensorNode {
+        /// Name of the sensor.
+        name: String,
+        /// gmsh's tag.
+        tag: u64,
+        /// Whether the mesh has it.
+        in_mesh: bool,
+    },
     /// Directions of the tie that make no frame.
     #[error("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")]
     TieFrame,
+    /// A case without an interface.
+    #[error(
+        "nothing to condense the housing on: expected ring.tie, or condense.interface = {{ group = \"NAME\" }}"
+    )]
+    NothingToCondense,
     /// An interface that the ring is not attached by.
     #[error(
         "condense.interface: a ring is attached by itself; `group` and `nodes` are for `condense` and `frf` of the housing alone"

@@ -7,8 +7,11 @@
 mod analysis;
 mod bearing;
 mod comparison;
+mod condense;
+mod condense_report;
 mod condensed;
 mod convergence;
+mod damping;
 mod drawing;
 mod energy_tables;
 mod error;
@@ -26,16 +29,20 @@ mod mode_set;
 mod mode_shapes;
 mod modes;
 mod modes_report;
+mod places;
 mod run;
 mod run_report;
 mod shape_view;
 mod structure;
+mod superelement_record;
 mod survey;
 mod tables;
 
 pub use analysis::{WindowAnalysis, analyse};
 pub use bearing::{bearing_setup, contact_table};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
+pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense};
+pub use condense_report::condense_report;
 pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
@@ -51,6 +58,7 @@ pub use modes_report::modes_report;
 pub use run::{RunEnd, RunResult, compute_run};
 pub use run_report::run_report;
 pub use structure::StructureStage;
+pub use superelement_record::superelement_record;
 pub use survey::{ModalSurvey, RingShapes};
 
 /// Where a computation tells how far it is.

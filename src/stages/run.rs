@@ -1,12 +1,13 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
+use super::damping::damping;
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use crate::case::{self, Case, ModesKept, StepLength};
 use crate::closed_form::race::DefectOrders;
 use crate::series::TimeSeries;
 use crate::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeDamping, ModeSelection,
-    Recorder, RunRecord,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeSelection, Recorder,
+    RunRecord,
 };
 use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
 use std::time::Instant;
@@ -240,27 +241,6 @@ fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection
             ModeSelection::All
         }
         ModesKept::Auto => ModeSelection::UpTo(AUTO_MODES * top),
-    }
-}
-
-fn damping(case: &Case) -> Result<ModeDamping, StageError> {
-    let damping = match &case.damping {
-        None => ModeDamping::Modal(0.0),
-        Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
-        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh {
-            alpha: *alpha,
-            beta: *beta,
-        },
-        Some(case::Damping::Ratios([first, second])) => ModeDamping::rayleigh_through(
-            (first.frequency_hz, first.ratio),
-            (second.frequency_hz, second.ratio),
-        ),
-    };
-    match damping {
-        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
-            Err(StageError::NegativeDamping { alpha, beta })
-        }
-        admissible => Ok(admissible),
     }
 }
 

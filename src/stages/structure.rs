@@ -2,16 +2,13 @@
 
 use super::condensed::{Boundary, CondensedStage};
 use super::housing::material;
+use super::places::{Place, PlaceBodies};
 use super::{HousingStage, StageError, Watch};
-use crate::case::{self, Case, Interface, SensorSpot};
+use crate::case::{self, Case, Interface};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
-use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
-use crate::reduction::CraigBampton;
+use crate::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
 use crate::system::{Sensor, Structure, StructureModes};
-
-/// Farthest that a node may be from a sensor's point, relative to the housing's size.
-const SENSOR_TOLERANCE: f64 = 0.02;
 
 /// The linear model of a case.
 #[derive(Debug, Clone)]
@@ -47,24 +44,35 @@ impl StructureStage {
         let Some(stage) = CondensedStage::build(case, watch)? else {
             let ring = ring(case, asked, false)?;
             let mut structure = Structure::ring_alone(ring, gravity);
+            let bodies = PlaceBodies {
+                housing: None,
+                ring: Some(structure.ring()),
+                tie: None,
+            };
+            let mut rows = Vec::with_capacity(case.sensors.len());
             for sensor in &case.sensors {
-                let sensor = ring_sensor(&structure, sensor, &RingFrame::default())?;
-                structure.add_sensor(sensor)?;
+                let place = Place::new(bodies, &sensor.name, &sensor.spot, sensor.direction)?;
+                rows.push(place.on_ring(structure.dof()));
             }
+            add_sensors(&mut structure, &case.sensors, rows)?;
             return Self::solved(structure, None, watch).map(Some);
         };
-        let Boundary::Ring(bodies) = stage.boundary else {
+        let mut rows = Vec::with_capacity(case.sensors.len());
+        for sensor in &case.sensors {
+            rows.push(Place::of_sensor(&stage, sensor)?.reduced(&stage.condensed));
+        }
+        let CondensedStage {
+            housing,
+            boundary,
+            condensed,
+            ..
+        } = stage;
+        let Boundary::Ring(bodies) = boundary else {
             return Err(StageError::InterfaceOfRing);
         };
         let (ring, tie) = *bodies;
-        let CondensedStage {
-            housing, condensed, ..
-        } = stage;
         let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
-        for sensor in &case.sensors {
-            let sensor = housing_sensor(&structure, &housing, &tie, &condensed, sensor)?;
-            structure.add_sensor(sensor)?;
-        }
+        add_sensors(&mut structure, &case.sensors, rows)?;
         let housing = (housing, tie, condensed.basis.count());
         Self::solved(structure, Some(housing), watch).map(Some)
     }
@@ -88,6 +96,20 @@ impl StructureStage {
             modes,
         })
     }
+}
+
+fn add_sensors(
+    structure: &mut Structure,
+    sensors: &[case::Sensor],
+    rows: Vec<Vec<f64>>,
+) -> Result<(), StageError> {
+    for (sensor, row) in sensors.iter().zip(rows) {
+        structure.add_sensor(Sensor {
+            name: sensor.name.clone(),
+            row,
+        })?;
+    }
+    Ok(())
 }
 
 /// The ring of a case, and how it sits in its housing if it does.
@@ -167,117 +189,4 @@ pub(super) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ri
         })?;
     }
     Ok(ring)
-}
-
-/// Unit vector of a sensor's direction, of which `frame` keeps a part in its plane.
-fn in_plane(sensor: &case::Sensor, frame: &RingFrame) -> Result<[f64; 2], StageError> {
-    let [x, y, z] = frame.vector(sensor.direction);
-    let length = (x * x + y * y + z * z).sqrt();
-    if x.hypot(y) > 1e-9 * length {
-        Ok([x / length, y / length])
-    } else {
-        Err(StageError::SensorDirection {
-            name: sensor.name.clone(),
-        })
-    }
-}
-
-fn ring_sensor(
-    structure: &Structure,
-    sensor: &case::Sensor,
-    frame: &RingFrame,
-) -> Result<Sensor, StageError> {
-    let direction = in_plane(sensor, frame)?;
-    match &sensor.spot {
-        SensorSpot::RingDeg(degrees) => {
-            Ok(structure.ring_sensor(&sensor.name, degrees.to_radians(), direction))
-        }
-        SensorSpot::Group(group) => Err(StageError::SensorNeedsHousing {
-            name: sensor.name.clone(),
-            place: format!("group \"{group}\""),
-        }),
-        SensorSpot::Point(_) => Err(StageError::SensorNeedsHousing {
-            name: sensor.name.clone(),
-            place: "a point of the mesh".to_owned(),
-        }),
-    }
-}
-
-/// A sensor on housing nodes: the mean of a group, or the node nearest to a point.
-fn housing_sensor(
-    structure: &Structure,
-    housing: &HousingStage,
-    tie: &RingTie,
-    condensed: &CraigBampton,
-    sensor: &case::Sensor,
-) -> Result<Sensor, StageError> {
-    let nodes = match &sensor.spot {
-        SensorSpot::RingDeg(_) => return ring_sensor(structure, sensor, housing.model.frame()),
-        SensorSpot::Group(group) => housing
-            .model
-            .group_on_housing(&housing.mesh, group, "the sensor")?
-            .nodes
-            .iter()
-            .copied()
-            .filter(|&node| housing.model.is_used(node))
-            .collect(),
-        SensorSpot::Point(point) => vec![nearest_node(housing, &sensor.name, point)?],
-    };
-    let [x, y, z] = sensor.direction;
-    let direction = match housing.model.dimension() {
-        2 => {
-            in_plane(sensor, &RingFrame::default())?;
-            let length = (x * x + y * y + z * z).sqrt();
-            [x / length, y / length, 0.0]
-        }
-        _ => {
-            let length = (x * x + y * y + z * z).sqrt();
-            sensor.direction.map(|part| part / length)
-        }
-    };
-    let mut row = vec![0.0; structure.dof()];
-    for &node in &nodes {
-        for (dof, factor) in tie.displacement_row(&housing.model, node, direction) {
-            // a fixed degree of freedom does not move: no row
-            for (place, part) in condensed
-                .recovery_row(dof)
-                .into_iter()
-                .flatten()
-                .enumerate()
-            {
-                row[place] += factor * part / nodes.len() as f64;
-            }
-        }
-    }
-    Ok(Sensor {
-        name: sensor.name.clone(),
-        row,
-    })
-}
-
-fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<usize, StageError> {
-    let across = housing.model.dimension() == 3;
-    let distance = |node: &[f64; 3]| {
-        let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
-        if across {
-            plane.hypot(node[2] - point[2])
-        } else {
-            plane
-        }
-    };
-    let bounds = housing.mesh.inventory().bounding_box.extent();
-    let nodes = housing.mesh.nodes.iter().enumerate();
-    let on_housing = nodes.filter(|(index, _)| housing.model.is_used(*index));
-    let found = on_housing.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-    let missed = |distance| StageError::SensorPlace {
-        name: name.to_owned(),
-        point: *point,
-        distance,
-    };
-    let (index, node) = found.ok_or_else(|| missed(f64::INFINITY))?;
-    if distance(node) <= SENSOR_TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
-        Ok(index)
-    } else {
-        Err(missed(distance(node)))
-    }
 }

@@ -108,13 +108,9 @@ impl Structure {
 
     /// A sensor on the ring at an angle (rad) in a direction of the plane, at the node radius.
     pub fn ring_sensor(&self, name: &str, angle: f64, direction: [f64; 2]) -> Sensor {
-        let rows = self.ring.rows_at(angle);
-        let (sin, cos) = angle.sin_cos();
-        let radial = direction[0] * cos + direction[1] * sin;
-        let tangential = direction[1] * cos - direction[0] * sin;
         let mut row = vec![0.0; self.dof()];
-        for k in 0..6 {
-            row[rows.dofs[k]] += radial * rows.radial[k] + tangential * rows.tangential[k];
+        for (dof, factor) in self.ring.displacement_row(angle, direction) {
+            row[dof] += factor;
         }
         Sensor {
             name: name.to_owned(),

@@ -76,6 +76,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
         direction(at("direction"), sensor.direction)?;
         let (key, other, present) = match sensor.spot {
             SensorSpot::Group(_) => ("group", "[housing]", case.housing.is_some()),
+            SensorSpot::Node(_) => ("node", "[housing]", case.housing.is_some()),
             SensorSpot::Point(_) => ("point", "[housing]", case.housing.is_some()),
             SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
         };

@@ -23,6 +23,21 @@ impl Ring {
         self.rows_in_element(index, phi)
     }
 
+    /// The row of a displacement of the centroid line at an angle (rad) in a direction of the plane: pairs (degree of
+    /// freedom, factor).
+    pub fn displacement_row(&self, angle: f64, direction: [f64; 2]) -> Vec<(usize, f64)> {
+        let rows = self.rows_at(angle);
+        let (sin, cos) = angle.sin_cos();
+        let radial = direction[0] * cos + direction[1] * sin;
+        let tangential = direction[1] * cos - direction[0] * sin;
+        (0..6)
+            .map(|k| {
+                let factor = radial * rows.radial[k] + tangential * rows.tangential[k];
+                (rows.dofs[k], factor)
+            })
+            .collect()
+    }
+
     /// Interpolation in element `index` at the angle `phi` from its middle, rad.
     pub fn rows_in_element(&self, index: usize, phi: f64) -> RingRows {
         let (dofs, turn) = self.frame(index);

@@ -35,7 +35,8 @@ pub struct Check {
 }
 
 impl Check {
-    fn at_most(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+    /// A value that is good up to its limit.
+    pub fn at_most(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
         Self {
             name,
             what: what.into(),
@@ -45,7 +46,8 @@ impl Check {
         }
     }
 
-    fn at_least(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+    /// A value that is good from its limit on.
+    pub fn at_least(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
         Self {
             bound: Bound::AtLeast,
             ..Self::at_most(name, what, value, limit)

@@ -1,0 +1,116 @@
+//! `plummer condense`: a superelement and its certificate.
+
+use super::report_files::ReportFiles;
+use super::results::{common, condense_fields};
+use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict};
+use crate::case::Case;
+use crate::exchange::write_superelement_npz;
+use crate::reduction::Check;
+use crate::stages::{
+    Comparison, CondenseResult, StageError, compute_condense, condense_report, superelement_record,
+};
+use serde_json::Value;
+
+/// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn condense(
+    case: &Case,
+    arguments: &Arguments,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let options = &arguments.options;
+    let comparison = match &arguments.command {
+        Command::Condense {
+            compare_full: true, ..
+        } => Comparison::Full,
+        _ => Comparison::None,
+    };
+    let result = compute_condense(case, comparison, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let command = options.command_line("condense", case);
+    let report = condense_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "condense", case, report)?;
+    let element = folder.path().join("superelement.npz");
+    let record = superelement_record(case, &result.stage)?;
+    write_superelement_npz(&element, &record).map_err(StageError::from)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("condense", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), serde_json::json!(files.tables));
+    map.extend(condense_fields(&result));
+    let json = Value::Object(map);
+    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: [vec![path, element], files.paths].concat(),
+        verdict: verdict(&result),
+    })
+}
+
+fn verdict(result: &CondenseResult) -> Verdict {
+    let failed: Vec<String> = result
+        .checks
+        .iter()
+        .filter(|check| !check.ok())
+        .map(|check| {
+            format!(
+                "{}: found {:.3e}, limit {:.3e}",
+                check.name, check.value, check.limit
+            )
+        })
+        .collect();
+    if failed.is_empty() {
+        Verdict::Good
+    } else {
+        Verdict::Bad {
+            what: failed.join("; "),
+            help: Some("the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz".to_owned()),
+        }
+    }
+}
+
+fn summary(result: &CondenseResult) -> String {
+    let (element, basis) = (
+        &result.stage.condensed.superelement,
+        &result.stage.condensed.basis,
+    );
+    let passed = result.checks.iter().filter(|check| check.ok()).count();
+    let mut lines = vec![
+        format!(
+            "{} interface coordinates, {} fixed-interface modes, {} residual vectors, for {} interior degrees of freedom",
+            element.interface_dof,
+            basis.count() - basis.residual_vectors(),
+            basis.residual_vectors(),
+            result.stage.condensed.substructure.interior_dof()
+        ),
+        format!(
+            "estimated error of the {} frequencies up to {:.0} Hz: {:.1e}",
+            result.estimate.modes.len(),
+            result.estimate.band_hz,
+            result.estimate.largest()
+        ),
+    ];
+    if let Some(full) = &result.full {
+        let errors = full.relative_errors.iter().flatten();
+        let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));
+        lines.push(format!("error against the full model: {largest:.1e}"));
+    }
+    lines.push(format!(
+        "checks passed: {passed} of {}",
+        result.checks.len()
+    ));
+    let failed = result.checks.iter().filter(|check| !check.ok());
+    lines.extend(failed.map(line));
+    lines.join("\n")
+}
+
+fn line(check: &Check) -> String {
+    format!(
+        "  {} FAILS: {}: {:.3e}",
+        check.name, check.what, check.value
+    )
+}

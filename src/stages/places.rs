@@ -1,0 +1,203 @@
+//! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
+
+use super::condensed::CondensedStage;
+use super::{HousingStage, StageError};
+use crate::case::{self, SensorSpot};
+use crate::model::{Ring, RingFrame, RingTie};
+use crate::reduction::CraigBampton;
+
+/// Farthest that a node may be from a point, relative to the housing's size.
+const TOLERANCE: f64 = 0.02;
+
+/// A displacement component at a place: pairs (degree of freedom, factor).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Place {
+    /// Over the housing, in the displacements that the partition uses.
+    Housing(Vec<(usize, f64)>),
+    /// Over the ring.
+    Ring(Vec<(usize, f64)>),
+}
+
+/// The bodies of a case that a place may be on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlaceBodies<'a> {
+    pub housing: Option<&'a HousingStage>,
+    pub ring: Option<&'a Ring>,
+    pub tie: Option<&'a RingTie>,
+}
+
+impl Place {
+    /// Where a sensor of a condensed housing is.
+    ///
+    /// # Errors
+    /// As [`Place::new`].
+    pub fn of_sensor(stage: &CondensedStage, sensor: &case::Sensor) -> Result<Self, StageError> {
+        let ring = stage.boundary.ring();
+        let bodies = PlaceBodies {
+            housing: Some(&stage.housing),
+            ring: ring.map(|(ring, _)| ring),
+            tie: ring.map(|(_, tie)| tie),
+        };
+        Self::new(bodies, &sensor.name, &sensor.spot, sensor.direction)
+    }
+
+    /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
+    ///
+    /// # Errors
+    /// [`StageError`] for a place that is not there and a direction out of the plane; each names `name`.
+    pub fn new(
+        bodies: PlaceBodies<'_>,
+        name: &str,
+        spot: &SensorSpot,
+        direction: [f64; 3],
+    ) -> Result<Self, StageError> {
+        let frame = match bodies.housing {
+            Some(housing) => *housing.model.frame(),
+            None => RingFrame::default(),
+        };
+        let needs_housing = |place: String| StageError::SensorNeedsHousing {
+            name: name.to_owned(),
+            place,
+        };
+        let (nodes, housing) = match (spot, bodies.housing) {
+            (SensorSpot::RingDeg(degrees), _) => {
+                let ring = bodies.ring.ok_or_else(|| StageError::SensorNeedsRing {
+                    name: name.to_owned(),
+                })?;
+                let direction = in_plane(name, frame.vector(direction))?;
+                return Ok(Self::Ring(
+                    ring.displacement_row(degrees.to_radians(), direction),
+                ));
+            }
+            (SensorSpot::Group(group), Some(housing)) => (of_group(housing, group)?, housing),
+            (SensorSpot::Point(point), Some(housing)) => {
+                (vec![nearest_node(housing, name, point)?], housing)
+            }
+            (SensorSpot::Node(tag), Some(housing)) => {
+                (vec![tagged_node(housing, name, *tag)?], housing)
+            }
+            (SensorSpot::Group(group), None) => {
+                return Err(needs_housing(format!("group \"{group}\"")));
+            }
+            (SensorSpot::Point(_), None) => {
+                return Err(needs_housing("a point of the mesh".to_owned()));
+            }
+            (SensorSpot::Node(tag), None) => {
+                return Err(needs_housing(format!("node {tag} of the mesh")));
+            }
+        };
+        let direction = match housing.model.dimension() {
+            2 => {
+                let [x, y] = in_plane(name, direction)?;
+                [x, y, 0.0]
+            }
+            _ => unit(direction),
+        };
+        let share = 1.0 / nodes.len() as f64;
+        let entries = nodes
+            .iter()
+            .flat_map(|&node| match bodies.tie {
+                Some(tie) => tie.displacement_row(&housing.model, node, direction),
+                None => housing.model.displacement_row(node, direction),
+            })
+            .map(|(dof, factor)| (dof, share * factor));
+        Ok(Self::Housing(entries.collect()))
+    }
+
+    /// The row over the coordinates of a condensed housing \[order\], of which the interface is the ring if there is
+    /// one.
+    pub fn reduced(&self, condensed: &CraigBampton) -> Vec<f64> {
+        match self {
+            Self::Ring(_) => self.on_ring(condensed.superelement.order()),
+            Self::Housing(entries) => {
+                let mut row = vec![0.0; condensed.superelement.order()];
+                for &(dof, factor) in entries {
+                    // a fixed degree of freedom does not move: no row
+                    let parts = condensed.recovery_row(dof).into_iter().flatten();
+                    for (place, part) in parts.enumerate() {
+                        row[place] += factor * part;
+                    }
+                }
+                row
+            }
+        }
+    }
+
+    /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
+    pub fn on_ring(&self, order: usize) -> Vec<f64> {
+        let mut row = vec![0.0; order];
+        if let Self::Ring(entries) = self {
+            for &(dof, factor) in entries {
+                row[dof] += factor;
+            }
+        }
+        row
+    }
+}
+
+fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let length = (x * x + y * y + z * z).sqrt();
+    [x / length, y / length, z / length]
+}
+
+/// Part in the plane of the unit vector along a direction.
+fn in_plane(name: &str, direction: [f64; 3]) -> Result<[f64; 2], StageError> {
+    let [x, y, _] = unit(direction);
+    if x.hypot(y) > 1e-9 {
+        Ok([x, y])
+    } else {
+        Err(StageError::SensorDirection {
+            name: name.to_owned(),
+        })
+    }
+}
+
+fn of_group(housing: &HousingStage, group: &str) -> Result<Vec<usize>, StageError> {
+    let group = housing
+        .model
+        .group_on_housing(&housing.mesh, group, "the sensor")?;
+    let used = |node: &usize| housing.model.is_used(*node);
+    Ok(group.nodes.iter().copied().filter(used).collect())
+}
+
+fn tagged_node(housing: &HousingStage, name: &str, tag: u64) -> Result<usize, StageError> {
+    let place = housing
+        .model
+        .node_tags
+        .iter()
+        .position(|&found| found == tag);
+    place
+        .filter(|&node| housing.model.is_used(node))
+        .ok_or_else(|| StageError::SensorNode {
+            name: name.to_owned(),
+            tag,
+            in_mesh: place.is_some(),
+        })
+}
+
+fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<usize, StageError> {
+    let across = housing.model.dimension() == 3;
+    let distance = |node: &[f64; 3]| {
+        let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
+        if across {
+            plane.hypot(node[2] - point[2])
+        } else {
+            plane
+        }
+    };
+    let bounds = housing.mesh.inventory().bounding_box.extent();
+    let nodes = housing.mesh.nodes.iter().enumerate();
+    let on_housing = nodes.filter(|(index, _)| housing.model.is_used(*index));
+    let found = on_housing.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    let missed = |distance| StageError::SensorPlace {
+        name: name.to_owned(),
+        point: *point,
+        distance,
+    };
+    let (index, node) = found.ok_or_else(|| missed(f64::INFINITY))?;
+    if distance(node) <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
+        Ok(index)
+    } else {
+        Err(missed(distance(node)))
+    }
+}
