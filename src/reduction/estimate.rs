@@ -154,3 +154,7 @@ fn lowest_value(basis: &InteriorBasis) -> f64 {
             first.min(basis.complete_below())
         })
 }
+
+#[cfg(test)]
+#[path = "estimate_tests.rs"]
+mod tests;

@@ -22,8 +22,8 @@ const CONTAINED: f64 = 1e-9;
 /// Vectors of the interior with their Ritz values.
 #[derive(Debug, Clone)]
 pub struct InteriorBasis {
-    vectors: DenseMatrix,
-    values: Vec<f64>,
+    pub(super) vectors: DenseMatrix,
+    pub(super) values: Vec<f64>,
     participation: DenseMatrix,
     residual_vectors: usize,
     complete_below: f64,

@@ -36,3 +36,24 @@ pub(super) fn partition(nodes: usize) -> HousingPartition {
         tie: tie.build(),
     }
 }
+
+/// The rod held by both ends.
+pub(super) fn both_ends(nodes: usize) -> HousingPartition {
+    let mut tie = TripletBuilder::new(2, 2);
+    tie.add(0, 0, 1.0);
+    tie.add(1, 1, 1.0);
+    HousingPartition {
+        driven: vec![0, nodes - 1],
+        interior: (1..nodes - 1).collect(),
+        tie: tie.build(),
+    }
+}
+
+/// The rod with a spring to the ground at its middle.
+pub(super) fn grounded_rod(nodes: usize, spring: f64) -> SystemMatrices {
+    let mut rod = rod(nodes);
+    let mut ground = TripletBuilder::new(nodes, nodes);
+    ground.add(nodes / 2, nodes / 2, spring);
+    rod.stiffness = &rod.stiffness + &ground.build();
+    rod
+}

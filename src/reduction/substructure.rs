@@ -31,7 +31,7 @@ pub struct Substructure {
     interior: EigenProblem,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
-    constraint_modes: DenseMatrix,
+    pub(super) constraint_modes: DenseMatrix,
     stiffness: DenseMatrix,
     mass: DenseMatrix,
 }

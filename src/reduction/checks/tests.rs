@@ -1,1 +1,163 @@
-//! Every check fires on the superelement that is broken in its way.
+//! A healthy superelement passes; every check fires on one that is broken in its way.
+
+use super::{Check, RigidMotions, check_craig_bampton};
+use crate::assembly::SystemMatrices;
+use crate::linalg::DenseMatrix;
+use crate::reduction::samples::{both_ends, grounded_rod, rod};
+use crate::reduction::{BasisChoice, BasisSize, CraigBampton, craig_bampton};
+
+const NODES: usize = 30;
+
+/// A third of the rod's highest frequency sqrt(4) / 2 pi.
+const BAND_HZ: f64 = 0.1;
+
+fn condensed(matrices: &SystemMatrices, enhanced: bool) -> CraigBampton {
+    let choice = BasisChoice {
+        size: BasisSize::Count(14),
+        enhanced,
+        band_hz: BAND_HZ,
+    };
+    craig_bampton(matrices, &both_ends(NODES), choice, None).expect("connected")
+}
+
+fn translation() -> RigidMotions {
+    RigidMotions {
+        housing: DenseMatrix::from_fn(NODES, 1, |_, _| 1.0),
+        interface: DenseMatrix::from_fn(2, 1, |_, _| 1.0),
+    }
+}
+
+fn failing(condensed: &CraigBampton, matrices: &SystemMatrices, band_hz: f64) -> Vec<&'static str> {
+    let checks = check_craig_bampton(condensed, matrices, &translation(), band_hz);
+    let checks = checks.expect("finite");
+    let bad = checks.iter().filter(|check| !check.ok());
+    bad.map(|check| check.name).collect()
+}
+
+#[test]
+fn a_healthy_superelement_passes() {
+    for matrices in [rod(NODES), grounded_rod(NODES, 1e-3)] {
+        for enhanced in [false, true] {
+            let condensed = condensed(&matrices, enhanced);
+            let none: [&str; 0] = [];
+            assert_eq!(failing(&condensed, &matrices, BAND_HZ), none, "{enhanced}");
+        }
+    }
+}
+
+#[test]
+fn verdicts_do_not_depend_on_units() {
+    let mut matrices = rod(NODES);
+    // millimetres and tonnes: stiffness N/mm, mass t
+    matrices.stiffness.map_inplace(|k| 1e-3 * k);
+    matrices.mass.map_inplace(|m| 1e-3 * m);
+    let condensed = condensed(&matrices, true);
+    let none: [&str; 0] = [];
+    assert_eq!(failing(&condensed, &matrices, BAND_HZ), none);
+}
+
+/// What breaks, and the check that must name it; others may fire beside it.
+const BREAKS: [(&str, fn(&mut CraigBampton)); 16] = [
+    ("stiffness symmetry", |c| {
+        c.superelement.stiffness[(0, 1)] *= 1.0 + 1e-9
+    }),
+    ("mass symmetry", |c| {
+        c.superelement.mass[(0, 3)] *= 1.0 + 1e-9
+    }),
+    ("stiffness semidefinite", |c| {
+        c.superelement.stiffness[(2, 2)] *= -1.0
+    }),
+    ("mass definite", |c| c.superelement.mass[(1, 1)] = 1e-20),
+    ("k_bq = 0", |c| {
+        c.superelement.stiffness[(0, 4)] += 1e-7;
+        c.superelement.stiffness[(4, 0)] += 1e-7;
+    }),
+    ("k_qq diagonal", |c| {
+        c.superelement.stiffness[(3, 4)] += 1e-7;
+        c.superelement.stiffness[(4, 3)] += 1e-7;
+    }),
+    ("m_qq = 1", |c| c.superelement.mass[(5, 5)] += 1e-7),
+    ("vectors orthonormal", |c| {
+        scale(&mut c.basis.vectors, 2, 1.0 + 1e-7)
+    }),
+    ("vectors diagonalise", |c| c.basis.values[1] *= 1.0 + 1e-7),
+    ("constraint modes orthogonal", |c| {
+        c.substructure.constraint_modes[(3, 0)] += 1e-6
+    }),
+    ("static interior", |c| {
+        c.substructure.constraint_modes[(3, 0)] += 1e-6
+    }),
+    ("static interface", |c| {
+        c.superelement.stiffness[(0, 0)] += 1e-6
+    }),
+    ("rigid modes", |c| c.superelement.stiffness[(1, 1)] += 1e-6),
+    ("effective mass", |c| {
+        (0..14).for_each(|q| scale(&mut c.basis.vectors, q, 1.2))
+    }),
+    ("rigid motions carried", |c| {
+        c.substructure.constraint_modes[(9, 1)] += 1e-6
+    }),
+    ("mass properties", |c| {
+        c.superelement.mass[(0, 0)] *= 1.0 + 1e-6
+    }),
+];
+
+fn scale(matrix: &mut DenseMatrix, column: usize, factor: f64) {
+    let entries = matrix.col_as_slice_mut(column).iter_mut();
+    entries.for_each(|entry| *entry *= factor);
+}
+
+#[test]
+fn every_check_fires() {
+    let matrices = rod(NODES);
+    let whole = condensed(&matrices, false);
+    for (name, break_it) in BREAKS {
+        let mut broken = whole.clone();
+        break_it(&mut broken);
+        let fired = failing(&broken, &matrices, BAND_HZ);
+        assert!(fired.contains(&name), "{name}: {fired:?}");
+    }
+    let mut broken = whole.clone();
+    // stiffness to the ground that the mesh has not
+    broken.superelement.stiffness[(0, 0)] += 1e-3;
+    assert!(failing(&broken, &matrices, BAND_HZ).contains(&"rigid energy"));
+    assert_eq!(failing(&whole, &matrices, 0.32), ["band covered"]);
+}
+
+#[test]
+fn a_held_housing_that_can_move_is_named() {
+    let matrices = grounded_rod(NODES, 1e-3);
+    let mut broken = condensed(&matrices, false);
+    let free = condensed(&rod(NODES), false);
+    broken.superelement.stiffness = free.superelement.stiffness;
+    assert!(failing(&broken, &matrices, BAND_HZ).contains(&"held"));
+}
+
+#[test]
+fn every_check_is_broken_here() {
+    let checks = |matrices: &SystemMatrices| {
+        let condensed = condensed(matrices, false);
+        let checks = check_craig_bampton(&condensed, matrices, &translation(), BAND_HZ);
+        checks
+            .expect("finite")
+            .iter()
+            .map(|check| check.name)
+            .collect::<Vec<_>>()
+    };
+    let others = ["rigid energy", "band covered", "held"];
+    for name in [checks(&rod(NODES)), checks(&grounded_rod(NODES, 1e-3))].concat() {
+        let broken = BREAKS.iter().any(|(of, _)| *of == name) || others.contains(&name);
+        assert!(broken, "{name} is never seen failing");
+    }
+}
+
+#[test]
+fn a_value_that_is_no_number_fails() {
+    for check in [
+        Check::at_most("a", "", f64::NAN, 1.0),
+        Check::at_least("a", "", f64::NAN, 1.0),
+    ] {
+        assert!(!check.ok());
+    }
+    assert!(Check::at_most("a", "", 1.0, 1.0).ok() && Check::at_least("a", "", 1.0, 1.0).ok());
+}
