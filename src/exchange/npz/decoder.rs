@@ -1,11 +1,14 @@
 //! Bytes of an array to numbers and text.
 
+/// Reads a value from its bytes.
+type Decode<T> = dyn Fn(&[u8]) -> T;
+
 /// How one value is read.
 pub(super) struct Decoder<T> {
     /// Bytes a value, at least 1.
     pub(super) bytes: usize,
     /// Reads one from that many bytes.
-    pub(super) decode: Box<dyn Fn(&[u8]) -> T>,
+    pub(super) decode: Box<Decode<T>>,
 }
 
 /// Most characters a text that are believed.

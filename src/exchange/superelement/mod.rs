@@ -27,7 +27,7 @@ use std::f64::consts::TAU;
 
 pub use check::SYMMETRY_LIMIT;
 pub use error::SuperelementError;
-pub use mbdyn::{MbdynError, MbdynSummary, write_mbdyn_fem};
+pub use mbdyn::{MbdynError, MbdynReference, MbdynSummary, write_mbdyn_fem};
 pub use npz_read::read_superelement_npz;
 pub use npz_write::write_superelement_npz;
 pub use op4::write_superelement_op4;

@@ -6,8 +6,13 @@ use super::samples::{dense, record};
 use super::*;
 use crate::exchange::{DofBody, DofDirection, NpzError, NpzReadError, NpzReader, NpzWriter};
 
+/// Name, shape and values of an array.
+type Array<'a> = (&'a str, &'a [usize], &'a [f64]);
+/// Something done to a sound record.
+type Change<'a> = &'a dyn Fn(&mut SuperelementRecord);
+
 /// An archive of matrices, rows after one another.
-fn archive(path: &Path, arrays: &[(&str, &[usize], &[f64])]) {
+fn archive(path: &Path, arrays: &[Array]) {
     let mut npz = NpzWriter::create(path).unwrap();
     for (name, shape, values) in arrays {
         let mut array = npz.begin(name, shape).unwrap();
@@ -92,6 +97,7 @@ fn labels_come_back() {
 
 /// The least that another program may write, a little asymmetric.
 #[test]
+#[allow(clippy::float_cmp)] // the same roundings
 fn the_least_is_enough() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.npz");
@@ -130,7 +136,7 @@ fn what_does_not_fit_is_told_with_file_and_array() {
     let path = folder.path().join("s.npz");
     let whole: [f64; 6] = [1.0; 6];
     let near = [3.0, 1e-3, 0.0, 16.0];
-    let cases: [(&[(&str, &[usize], &[f64])], &str); 11] = [
+    let cases: [(&[Array], &str); 11] = [
         (
             &[("k", &[2, 3], &whole), ("m", &[2, 2], &M)],
             "array \"k\": expected a square matrix of at least one row, found 2 x 3",
@@ -256,7 +262,7 @@ fn what_does_not_fit_is_told_with_file_and_array() {
 fn a_record_that_contradicts_itself_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.npz");
-    let message = |change: &dyn Fn(&mut SuperelementRecord)| {
+    let message = |change: Change| {
         let mut record = record();
         change(&mut record);
         let error = write_superelement_npz(&path, &record).unwrap_err();
@@ -264,7 +270,7 @@ fn a_record_that_contradicts_itself_is_not_written() {
         assert!(!path.exists());
         error.to_string()
     };
-    let cases: [(&dyn Fn(&mut SuperelementRecord), &str); 9] = [
+    let cases: [(Change, &str); 9] = [
         (
             &|record| record.interface = vec![record.interface[0]; 5],
             "expected at most 4 interface coordinates (rows of \"k\"), found 5",

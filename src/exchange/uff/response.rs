@@ -164,7 +164,7 @@ impl FrequencyResponse {
             if let Some(found) = point.direction {
                 let length = found.iter().map(|part| part * part).sum::<f64>().sqrt();
                 // NaN is no length either
-                if !((length - 1.0).abs() <= UNIT_LIMIT) {
+                if !length.is_finite() || (length - 1.0).abs() > UNIT_LIMIT {
                     return Err(ResponseFault::Direction {
                         point: point.name.clone(),
                         found,

@@ -7,6 +7,9 @@ use proptest::prelude::*;
 
 use super::*;
 
+/// Something done to a sound response.
+type Change<'a> = &'a dyn Fn(&mut FrequencyResponse);
+
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/data/uff")
@@ -97,6 +100,7 @@ fn responses_come_back() {
 }
 
 #[test]
+#[allow(clippy::float_cmp)] // parsed decimals are exact
 fn the_columns_are_those_of_the_format() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frf.uff");
@@ -272,14 +276,14 @@ fn errors_fire_with_their_exact_messages() {
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.uff");
-    let message = |change: &dyn Fn(&mut FrequencyResponse)| {
+    let message = |change: Change| {
         let mut response = oscillator(vec![1.0, 2.0, 4.0]);
         change(&mut response);
         let error = write_responses_uff(&path, "", &[response]).unwrap_err();
         assert!(!path.exists());
         error.to_string()
     };
-    let cases: [(&dyn Fn(&mut FrequencyResponse), &str); 6] = [
+    let cases: [(Change, &str); 6] = [
         (
             &|own| own.value.truncate(2),
             "frequency response 0: expected at least one frequency and a value for each, found 3 frequencies and 2 values",

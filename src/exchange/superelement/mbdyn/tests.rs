@@ -75,14 +75,22 @@ fn free_body() -> SuperelementRecord {
 }
 
 fn written(record: &SuperelementRecord) -> (MbdynSummary, String) {
+    written_from(record, MbdynReference::Floating)
+}
+
+fn written_from(record: &SuperelementRecord, reference: MbdynReference) -> (MbdynSummary, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("housing.fem");
-    let summary = write_mbdyn_fem(&path, record).unwrap();
+    let summary = write_mbdyn_fem(&path, record, reference).unwrap();
     (summary, fs::read_to_string(&path).unwrap())
 }
 
 fn refused(record: &SuperelementRecord) -> String {
-    let error = write_mbdyn_fem(Path::new("no/such.fem"), record).unwrap_err();
+    refused_from(record, MbdynReference::Floating)
+}
+
+fn refused_from(record: &SuperelementRecord, reference: MbdynReference) -> String {
+    let error = write_mbdyn_fem(Path::new("no/such.fem"), record, reference).unwrap_err();
     error.to_string()
 }
 
@@ -120,6 +128,7 @@ fn a_free_body_has_its_inertia_and_no_rigid_modes() {
 }
 
 #[test]
+#[allow(clippy::float_cmp)] // written as 1 and 0
 fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
     let record = free_body();
     let (summary, text) = written(&record);
@@ -177,6 +186,41 @@ fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
         assert!((modal_stiffness / eigenvalue - 1.0).abs() < 1e-12);
     }
     assert_eq!(oscillators, 1);
+}
+
+/// With the first body held the second one's frequencies are those of its springs to the first.
+#[test]
+fn a_node_that_is_held_does_not_move_in_the_shapes() {
+    let record = free_body();
+    let node = |node: u64| MbdynReference::Node {
+        body: DofBody::Housing,
+        node,
+    };
+    let (summary, text) = written_from(&record, node(11));
+    let mut squares = [
+        1e6 / 3.0,
+        2e6 / 3.0,
+        3e6 / 3.0,
+        4e5 / 0.05,
+        5e5 / 0.06,
+        6e5 / 0.07,
+        1e8,
+    ];
+    squares.sort_by(f64::total_cmp);
+    assert_eq!(summary.frequency_hz.len(), 7);
+    for (found, square) in summary.frequency_hz.iter().zip(squares) {
+        let expected = f64::sqrt(square) / std::f64::consts::TAU;
+        // a diagonal problem: a few roundings
+        assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+    }
+    for shape in numbers(&text, 8).chunks_exact(12) {
+        assert_eq!(shape[..6], [0.0; 6]);
+    }
+    assert!((summary.mass.unwrap() - 5.0).abs() < 1e-14);
+    assert_eq!(
+        refused_from(&record, node(13)),
+        "expected six coordinates of the interface at housing node 13, which is to be held, found 0"
+    );
 }
 
 /// A node of the field moves by its rows, without rotations; one that the interface has too is there once.
@@ -272,7 +316,12 @@ fn what_mbdyn_cannot_have_is_told() {
         refused(&wrong),
         "array \"modal_hz\": expected 2 entries, found 0"
     );
-    let error = write_mbdyn_fem(Path::new("no/such.fem"), &free_body()).unwrap_err();
+    let error = write_mbdyn_fem(
+        Path::new("no/such.fem"),
+        &free_body(),
+        MbdynReference::Floating,
+    );
+    let error = error.unwrap_err();
     assert!(matches!(error, MbdynError::Write { .. }));
     let negative = SuperelementRecord::of_matrices(
         dense(&[[1.0, 0.0], [0.0, 1.0]]),
