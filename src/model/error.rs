@@ -156,6 +156,16 @@ pub enum ModelError {
         /// The surface that they are tied to.
         to: String,
     },
+    /// A ring of elements that has no section where a ring of beams has a node.
+    #[error(
+        "springs at {nodes} ring nodes need as many sections of the solid ring or a multiple, found {sections}"
+    )]
+    RingSections {
+        /// Nodes of the ring of beams.
+        nodes: usize,
+        /// Sections between the elements of the other.
+        sections: usize,
+    },
     /// A ring of the plane with a solid housing, or the other way round.
     #[error("{path}: a solid housing needs a ring in space, a plane one a ring in the plane")]
     RingDimension {

@@ -12,6 +12,8 @@ mod joint;
 mod link;
 mod partition;
 mod ring;
+mod section_springs;
+mod solid_ring;
 mod spread;
 mod support;
 mod surface;
@@ -26,6 +28,7 @@ pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use interface::NodeInterface;
 pub use partition::HousingPartition;
 pub use ring::{Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
+pub use solid_ring::{MeshedRing, SolidRing};
 pub(crate) use spread::surface_kind;
 pub use support::{
     Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare,

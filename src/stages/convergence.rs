@@ -1,7 +1,7 @@
 //! How far the frequencies of the case's own mesh are from those of an infinitely fine one.
 
 use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
-use super::mode_set::OwnModes;
+use super::mode_set::{OwnModes, partners};
 use super::{ModesResult, StageError, Watch};
 use crate::case::{Case, ModeExtent};
 use crate::modal::{
@@ -176,29 +176,13 @@ fn recognised(own: &ModeSet, other: &ModesOnMesh, distance: f64) -> Result<OnLev
         ..ComparisonOptions::default()
     };
     let found = ModalComparison::new(own, &other.set, options)?;
-    let mut frequencies_hz = vec![None; own.frequencies_hz.len()];
-    for pair in &found.pairs {
-        // a group that the end of the case's list cuts off has its lowest modes here
-        let cut =
-            pair.here.len() < pair.there.len() && pair.here.contains(&(frequencies_hz.len() - 1));
-        if pair.here.len() != pair.there.len() && !cut {
-            continue;
-        }
-        let ascending = |modes: &[usize], hz: &[f64]| {
-            let mut modes = modes.to_vec();
-            modes.sort_by(|&a, &b| hz[a].total_cmp(&hz[b]));
-            modes
-        };
-        let here = ascending(&pair.here, &own.frequencies_hz);
-        let there = ascending(&pair.there, &other.set.frequencies_hz);
-        for (here, there) in here.into_iter().zip(there) {
-            frequencies_hz[here] = Some(other.set.frequencies_hz[there]);
-        }
-    }
+    let partners = partners(own, &other.set, &found).into_iter();
     Ok(OnLevel {
         free_dof: other.free_dof,
         matched_points: found.points.pairs.len(),
-        frequencies_hz,
+        frequencies_hz: partners
+            .map(|partner| partner.map(|partner| partner.hz))
+            .collect(),
     })
 }
 

@@ -62,7 +62,14 @@ impl HousingStage {
     }
 }
 
-fn description(case: &Case, housing: &case::Housing) -> Result<HousingDescription, StageError> {
+/// Everything that the case says of its housing.
+///
+/// # Errors
+/// [`StageError`] of materials and of the tie's frame.
+pub(super) fn description(
+    case: &Case,
+    housing: &case::Housing,
+) -> Result<HousingDescription, StageError> {
     let parts = housing.parts.iter().map(|part| {
         Ok(HousingPart {
             group: part.group.clone(),

@@ -168,14 +168,11 @@ impl ModesOnMesh {
     /// [`StageError`] of mesh, model and eigenvalues.
     pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, StageError> {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
-        let extent = match extent {
+        let modes = match extent {
             // a coarse mesh may have fewer
-            ModeExtent::Count(count) => {
-                ModeExtent::Count(count.min(matrices.free_dofs.len()).max(1))
-            }
-            other => other,
-        };
-        let modes = FullModes::of(matrices, extent, &Unwatched)?;
+            ModeExtent::Count(count) => FullModes::lowest(matrices, count, &Unwatched),
+            other => FullModes::of(matrices, other, &Unwatched),
+        }?;
         let free_dof = modes.free_dof();
         let set = bodies.mode_set(&modes);
         Ok(Self { set, free_dof })

@@ -37,6 +37,7 @@ mod structure;
 mod superelement_record;
 mod survey;
 mod tables;
+mod tie_price;
 
 pub use analysis::{WindowAnalysis, analyse};
 pub use bearing::{bearing_setup, contact_table};
@@ -60,6 +61,9 @@ pub use run_report::run_report;
 pub use structure::StructureStage;
 pub use superelement_record::superelement_record;
 pub use survey::{ModalSurvey, RingShapes};
+pub use tie_price::{
+    BeamAndSolid, NoTiePrice, TIE_PRICE_MODES, TieComparison, TiePrice, tie_price,
+};
 
 /// Where a computation tells how far it is.
 pub trait Watch {

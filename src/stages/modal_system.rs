@@ -130,16 +130,40 @@ impl FullModes {
     ) -> Result<(Self, DenseMatrix, Participation), StageError> {
         let moved = sparse_times_dense(&matrices.mass, rigid);
         let mut modes = Self::of(matrices, extent, watch)?;
+        modes.sharpen(products)?;
+        let all = modes.over_all_rows();
+        let participation = Participation::of_normalised(&moved, &all, rigid)?;
+        Ok((modes, all, participation))
+    }
+
+    /// The lowest `count` modes, or all if there are fewer.
+    ///
+    /// # Errors
+    /// [`StageError::Linalg`].
+    pub fn lowest(
+        matrices: CoupledMatrices,
+        count: usize,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
+        let count = count.min(matrices.free_dofs.len()).max(1);
+        Self::of(matrices, ModeExtent::Count(count), watch)
+    }
+
+    /// Computes the modes near zero again by the energies of elements: `products` as above.
+    ///
+    /// # Errors
+    /// What `products` reports, and [`StageError::Linalg`].
+    pub fn sharpen(
+        &mut self,
+        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, StageError>,
+    ) -> Result<(), StageError> {
         let Self {
             basis,
             motions,
             free,
             rows,
-        } = &mut modes;
-        basis.sharpen(|shapes| products(motions, &scattered_rows(shapes, free, *rows)))?;
-        let all = modes.over_all_rows();
-        let participation = Participation::of_normalised(&moved, &all, rigid)?;
-        Ok((modes, all, participation))
+        } = self;
+        basis.sharpen(|shapes| products(motions, &scattered_rows(shapes, free, *rows)))
     }
 
     /// Number of degrees of freedom that the modes were computed over.

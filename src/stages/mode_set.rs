@@ -4,7 +4,7 @@ use super::{RingShapes, StageError};
 use crate::exchange::ModeShapes;
 use crate::linalg::DenseMatrix;
 use crate::mesh::Mesh;
-use crate::modal::ModeSet;
+use crate::modal::{ModalComparison, ModeSet};
 use crate::model::HousingModel;
 use std::collections::HashMap;
 use std::path::Path;
@@ -56,6 +56,45 @@ impl OwnModes<'_> {
             shapes,
         }
     }
+}
+
+/// A mode that belongs to another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Partner {
+    /// Its frequency, Hz.
+    pub hz: f64,
+    /// Squared cosine of the largest angle between the two, or between the groups of repeated modes that they are in.
+    pub mac: f64,
+}
+
+/// What of `other` belongs to each mode of `own`: by shape, and repeated ones in their order within their group.
+pub(super) fn partners(
+    own: &ModeSet,
+    other: &ModeSet,
+    found: &ModalComparison,
+) -> Vec<Option<Partner>> {
+    let mut partners = vec![None; own.frequencies_hz.len()];
+    for pair in &found.pairs {
+        // a group that the end of the list cuts off has its lowest modes here
+        let cut = pair.here.len() < pair.there.len() && pair.here.contains(&(partners.len() - 1));
+        if pair.here.len() != pair.there.len() && !cut {
+            continue;
+        }
+        let ascending = |modes: &[usize], hz: &[f64]| {
+            let mut modes = modes.to_vec();
+            modes.sort_by(|&a, &b| hz[a].total_cmp(&hz[b]));
+            modes
+        };
+        let here = ascending(&pair.here, &own.frequencies_hz);
+        let there = ascending(&pair.there, &other.frequencies_hz);
+        for (here, there) in here.into_iter().zip(there) {
+            partners[here] = Some(Partner {
+                hz: other.frequencies_hz[there],
+                mac: pair.mac,
+            });
+        }
+    }
+    partners
 }
 
 /// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.

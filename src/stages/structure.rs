@@ -136,23 +136,26 @@ pub(super) fn ring_and_tie(
     Ok((ring, Some(tie)))
 }
 
+/// A section of a ring as it is asked for.
+///
+/// # Errors
+/// [`StageError::Material`].
+pub(super) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, StageError> {
+    Ok(RingLayer {
+        material: material(case, &section.material)?,
+        area: section.area,
+        inertia: section.inertia,
+        axial_inertia: section.axial_inertia,
+        torsion: section.torsion,
+        radius: section.radius,
+        shear_coefficient: section.shear_coefficient,
+    })
+}
+
 /// The ring of a case with its supports; in space for a solid housing.
 pub(super) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, StageError> {
-    let layers = asked
-        .sections
-        .iter()
-        .map(|section| {
-            Ok(RingLayer {
-                material: material(case, &section.material)?,
-                area: section.area,
-                inertia: section.inertia,
-                axial_inertia: section.axial_inertia,
-                torsion: section.torsion,
-                radius: section.radius,
-                shear_coefficient: section.shear_coefficient,
-            })
-        })
-        .collect::<Result<Vec<_>, StageError>>()?;
+    let layers = asked.sections.iter().map(|section| layer(case, section));
+    let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
     let bond = match (asked.bond, asked.radius_rule) {
         (case::Bond::Composite, _) => Bond::Composite,
         (case::Bond::Slip, case::RadiusRule::Own) => Bond::Slip(RadiusRule::Own),

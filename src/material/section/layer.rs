@@ -45,8 +45,8 @@ impl RingLayer {
             .unwrap_or_else(|| rectangle_torsion(self.rectangle()))
     }
 
-    /// Sides (radial h, axial b), m, of the rectangle with this area and second moment.
-    fn rectangle(&self) -> [f64; 2] {
+    /// Sides (radial h, axial b), m, of the rectangle with this area and second moment: `h = sqrt(12 I / A)`, `b = A / h`.
+    pub fn rectangle(&self) -> [f64; 2] {
         let radial = (12.0 * self.inertia / self.area).sqrt();
         [radial, self.area / radial]
     }

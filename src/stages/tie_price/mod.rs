@@ -1,0 +1,382 @@
+//! The price of the tie: how much a rigid section in the bore raises the frequencies.
+//!
+//! The tie makes every point of the bore move with the ring's section at its angle, over the whole width of the bore. Here
+//! the ring is meshed as a body of the same section and material, joined to the bore over its own width, and both
+//! models are solved in full. The same ring alone, free, as beams and as a body, tells what part of the difference is
+//! the beams'.
+
+mod body;
+mod reason;
+#[cfg(test)]
+mod tests;
+
+pub use reason::NoTiePrice;
+
+use super::housing::description;
+use super::modal_system::FullModes;
+use super::mode_set::{OwnModes, partners};
+use super::structure::{ring, ring_and_tie};
+use super::{HousingStage, StageError, Watch};
+use crate::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
+use crate::case::{self, Case};
+use crate::linalg::DenseMatrix;
+use crate::mesh::Mesh;
+use crate::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
+use crate::model::{
+    Connection, HousingDescription, HousingModel, HousingPart, Link, PlaneModel, Ring, RingFrame,
+    SpringStiffness, SupportShare,
+};
+use body::RingBody;
+use reason::Stop;
+use serde::Serialize;
+
+/// Elastic modes whose price is computed where nothing is said.
+pub const TIE_PRICE_MODES: usize = 10;
+
+/// Free degrees of freedom up to which a solid ring is affordable: a solid of 236 739 took 2.9 GiB (docs/performance.md).
+const LARGEST: usize = 250_000;
+
+/// Modes without strain that a ring in a free housing may have: six, and two if it slides.
+const RIGID: usize = 8;
+
+/// Modes sought beyond those asked for, least and as a part: their order may differ.
+const MORE: [usize; 2] = [4, 4];
+
+/// Stiffness of the radial springs of a sliding joint, in those of the ring's own height: E/h an area.
+const SLIDING: f64 = 1e3;
+
+/// The price of a tie, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TiePrice {
+    /// It was computed.
+    Computed(Box<TieComparison>),
+    /// It was not.
+    NotComputed(NoTiePrice),
+}
+
+/// A ring of beams that is tied to the bore against the same ring as a body that is joined to it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TieComparison {
+    /// The lowest elastic modes of housing and ring.
+    pub modes: Vec<BeamAndSolid>,
+    /// Modes without strain of both together, with the ring of beams and with the solid one.
+    pub rigid_modes: [usize; 2],
+    /// The lowest elastic modes of the ring alone, free: what differs here is the beams', not the tie's.
+    pub ring_alone: Vec<BeamAndSolid>,
+    /// Radius of the solid ring's centroid line, m.
+    pub radius_m: f64,
+    /// Radial side of its section, m.
+    pub height_m: f64,
+    /// Side of its section along the axis, m.
+    pub width_m: f64,
+    /// Its elements.
+    pub elements: usize,
+    /// Degrees of freedom that the modes were computed over, with the ring of beams and with the solid one.
+    pub free_dof: [usize; 2],
+    /// What the reader must know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A mode with the ring as beams and with the ring as a body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BeamAndSolid {
+    /// Index from 0 among the modes with beams, rigid ones included.
+    pub mode: usize,
+    /// Frequency with beams, Hz.
+    pub beams_hz: f64,
+    /// Frequency with the body, Hz; `None`: no mode there has this shape.
+    pub solid_hz: Option<f64>,
+    /// (beams - solid) / solid: positive if the beams and their tie are stiffer.
+    pub relative_difference: Option<f64>,
+    /// MAC of the shapes on the housing's own nodes (of the ring alone: on its centroid line), repeated modes as spaces.
+    pub mac: Option<f64>,
+}
+
+impl TieComparison {
+    /// Largest magnitude of the relative differences of housing and ring; `None` if no mode was recognised.
+    pub fn largest_difference(&self) -> Option<f64> {
+        largest(&self.modes)
+    }
+
+    /// The same of the ring alone: differences of this size say nothing of the tie.
+    pub fn floor(&self) -> Option<f64> {
+        largest(&self.ring_alone)
+    }
+}
+
+fn largest(modes: &[BeamAndSolid]) -> Option<f64> {
+    let differences = modes.iter().filter_map(|mode| mode.relative_difference);
+    differences.map(f64::abs).reduce(f64::max)
+}
+
+/// Computes the price of the tie of a case for its lowest `count` elastic modes.
+///
+/// # Errors
+/// [`StageError`] of the ring, the tie and the eigenvalue computations.
+pub fn tie_price(
+    case: &Case,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<TiePrice, StageError> {
+    match compared(case, housing, count, watch) {
+        Ok(comparison) => Ok(TiePrice::Computed(Box::new(comparison))),
+        Err(Stop::Reason(reason)) => Ok(TiePrice::NotComputed(reason)),
+        Err(Stop::Failed(error)) => Err(*error),
+    }
+}
+
+fn compared(
+    case: &Case,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<TieComparison, Stop> {
+    let both = case.ring.as_ref().zip(case.housing.as_ref());
+    let Some((asked, asked_housing)) = both else {
+        return Err(NoTiePrice::NoTie.into());
+    };
+    let (ring, tie) = ring_and_tie(case, asked, Some(housing))?;
+    let (Some(tie), Some(asked_tie)) = (tie, &asked.tie) else {
+        return Err(NoTiePrice::NoTie.into());
+    };
+    watch.stage("solid ring");
+    let body = RingBody::of(case, asked, asked_tie, housing)?;
+    let description = description(case, asked_housing)?;
+    let plane = description.plane;
+    let with_body = joined(description, asked_tie, housing, &body, &ring)?;
+    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
+    let matrices = CoupledMatrices::new(&housing.matrices, &tie, &ring);
+    let mut beams = FullModes::lowest(matrices, sought, watch)?;
+    beams.sharpen(|motions, all| {
+        let of_ring = ring.strain_products(&motions.ring(all));
+        let of_housing = strain_products(&housing.model, &motions.housing(&housing.model, all))?;
+        Ok(of_housing + of_ring.beams + of_ring.springs)
+    })?;
+    let solid = modes_of(&with_body, sought, watch)?;
+    // the housing's own nodes come first in both
+    let on_housing = |modes: &FullModes, model: &HousingModel| {
+        let shapes = modes.motions.housing(model, &modes.over_all_rows());
+        let rows = housing.model.dof();
+        let shapes = shapes.submatrix(0, 0, rows, shapes.ncols()).to_owned();
+        let own = OwnModes {
+            frequencies_hz: &modes.basis.frequencies_hz,
+            housing: Some((&housing.mesh, &housing.model, &shapes)),
+            ring: None,
+        };
+        own.set()
+    };
+    let sets = [
+        on_housing(&beams, &housing.model),
+        on_housing(&solid, &with_body),
+    ];
+    let mut notes = body.notes.clone();
+    notes.extend(note_of_fit(asked_tie.fit));
+    if ring.has_springs() {
+        notes.push(
+            "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes."
+                .to_owned(),
+        );
+    }
+    Ok(TieComparison {
+        modes: side_by_side(&sets, beams.basis.rigid_modes, count)?,
+        rigid_modes: [beams.basis.rigid_modes, solid.basis.rigid_modes],
+        ring_alone: ring_alone(case, asked, &body, plane, housing, count, watch)?,
+        radius_m: body.ring.radius,
+        height_m: body.ring.height,
+        width_m: body.ring.width,
+        elements: body.ring.elements(housing.model.dimension()),
+        free_dof: [beams.free_dof(), solid.free_dof()],
+        notes,
+    })
+}
+
+fn note_of_fit(fit: case::Fit) -> Option<String> {
+    (fit == case::Fit::Sliding).then(|| {
+        format!("The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height.")
+    })
+}
+
+/// The housing with the solid ring in its bore.
+fn joined(
+    description: HousingDescription,
+    tie: &case::Tie,
+    housing: &HousingStage,
+    body: &RingBody,
+    ring: &Ring,
+) -> Result<HousingModel, Stop> {
+    let HousingStage { mesh, model, .. } = housing;
+    let dimension = model.dimension();
+    let meshed = body.ring.added_to(mesh, model.frame(), dimension);
+    let mut description = description;
+    description.parts.push(HousingPart {
+        group: meshed.body.clone(),
+        material: body.material_in(description.plane)?.into(),
+    });
+    let outside = body.ring.radius + 0.5 * body.ring.height;
+    let area = std::f64::consts::TAU * outside * body.ring.width;
+    let connection = match tie.fit {
+        case::Fit::Bonded => Connection::Tie,
+        case::Fit::Sliding => {
+            let stiffness = SLIDING * body.material.young / body.ring.height * area;
+            Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
+        }
+    };
+    description.links.push(Link {
+        between: [meshed.outer_face.clone(), tie.group.clone()],
+        connection,
+    });
+    let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(Stop::of_joint)?;
+    with_body
+        .attach_ring_springs(&meshed, ring)
+        .map_err(Stop::of_joint)?;
+    let free_dof = with_body.free_dofs().len();
+    if free_dof > LARGEST {
+        return Err(NoTiePrice::TooLarge {
+            free_dof,
+            limit: LARGEST,
+        }
+        .into());
+    }
+    Ok(with_body)
+}
+
+/// The lowest modes of a model of continuum elements.
+fn modes_of(
+    model: &HousingModel,
+    sought: usize,
+    watch: &impl Watch,
+) -> Result<FullModes, StageError> {
+    let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
+    let mut modes = FullModes::lowest(matrices, sought, watch)?;
+    modes.sharpen(|motions: &CoupledMotions, all: &DenseMatrix| {
+        Ok(strain_products(model, &motions.housing(model, all))?)
+    })?;
+    Ok(modes)
+}
+
+/// The ring alone and free, as beams and as a body.
+fn ring_alone(
+    case: &Case,
+    asked: &case::Ring,
+    body: &RingBody,
+    plane: Option<PlaneModel>,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<Vec<BeamAndSolid>, StageError> {
+    let in_space = plane.is_none();
+    let free = case::Ring {
+        supports: Vec::new(),
+        ..asked.clone()
+    };
+    let beams = ring(case, &free, in_space)?;
+    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
+    let mut of_beams = FullModes::lowest(CoupledMatrices::of_ring(&beams), sought, watch)?;
+    of_beams.sharpen(|_, all| {
+        let strain = beams.strain_products(all);
+        Ok(strain.beams + strain.springs)
+    })?;
+    let dimension = if in_space { 3 } else { 2 };
+    let frame = housing.model.frame();
+    let nothing = Mesh {
+        nodes: Vec::new(),
+        node_tags: Vec::new(),
+        blocks: Vec::new(),
+        groups: Vec::new(),
+        format: housing.mesh.format,
+        source: "solid ring".into(),
+    };
+    let meshed = body.ring.added_to(&nothing, frame, dimension);
+    let model = HousingModel::new(
+        &meshed.mesh,
+        HousingDescription {
+            parts: vec![HousingPart {
+                group: meshed.body,
+                material: body.material_in(plane)?.into(),
+            }],
+            plane,
+            frame: *frame,
+            ..HousingDescription::default()
+        },
+    )?;
+    let solid = modes_of(&model, sought, watch)?;
+    let moved = solid.motions.housing(&model, &solid.over_all_rows());
+    let line = &meshed.centroid_line;
+    let points: Vec<[f64; 3]> = line.iter().map(|&node| meshed.mesh.nodes[node]).collect();
+    let on_line = DenseMatrix::from_fn(3 * line.len(), moved.ncols(), |row, mode| {
+        let (node, axis) = (line[row / 3], row % 3);
+        match axis < dimension {
+            true => moved[(dimension * node + axis, mode)],
+            false => 0.0,
+        }
+    });
+    let set = |modes: &FullModes, shapes| ModeSet {
+        frequencies_hz: modes.basis.frequencies_hz.clone(),
+        points: points.clone(),
+        node_tags: None,
+        shapes,
+    };
+    let of_ring = of_beams.over_all_rows();
+    let sets = [
+        set(&of_beams, beam_shapes(&beams, frame, &of_ring, &points)),
+        set(&solid, on_line),
+    ];
+    side_by_side(&sets, of_beams.basis.rigid_modes, count)
+}
+
+/// Displacements of a ring's centroid line at the angles of some points, in the mesh's axes [3 points x modes].
+fn beam_shapes(
+    ring: &Ring,
+    frame: &RingFrame,
+    modes: &DenseMatrix,
+    points: &[[f64; 3]],
+) -> DenseMatrix {
+    let mut shapes = DenseMatrix::zeros(3 * points.len(), modes.ncols());
+    for (place, point) in points.iter().enumerate() {
+        let [x, y, _] = frame.point(*point);
+        let angle = y.atan2(x);
+        let axes = frame.polar_axes(*point);
+        for mode in 0..modes.ncols() {
+            let d = modes.col_as_slice(mode);
+            let polar = match ring.space_rows_at(angle) {
+                Some(rows) => {
+                    [rows.radial, rows.tangential, rows.axial].map(|row| rows.apply(&row, d))
+                }
+                None => {
+                    let rows = ring.rows_at(angle);
+                    let [w, u] = [rows.radial, rows.tangential].map(|row| rows.apply(&row, d));
+                    [w, u, 0.0]
+                }
+            };
+            for axis in 0..3 {
+                shapes[(3 * place + axis, mode)] = (0..3).map(|k| polar[k] * axes[k][axis]).sum();
+            }
+        }
+    }
+    shapes
+}
+
+/// The first `count` elastic modes of the first set with what belongs to them in the second.
+fn side_by_side(
+    [beams, solid]: &[ModeSet; 2],
+    rigid: usize,
+    count: usize,
+) -> Result<Vec<BeamAndSolid>, StageError> {
+    let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
+    let partners = partners(beams, solid, &found);
+    let elastic = partners.iter().enumerate().skip(rigid).take(count);
+    let row = |(mode, partner): (usize, &Option<_>)| {
+        let beams_hz = beams.frequencies_hz[mode];
+        let partner: Option<super::mode_set::Partner> = *partner;
+        BeamAndSolid {
+            mode,
+            beams_hz,
+            solid_hz: partner.map(|partner| partner.hz),
+            relative_difference: partner.map(|partner| beams_hz / partner.hz - 1.0),
+            mac: partner.map(|partner| partner.mac),
+        }
+    };
+    Ok(elastic.map(row).collect())
+}
