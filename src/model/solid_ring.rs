@@ -48,9 +48,9 @@ pub struct SolidRing {
     pub width: f64,
     /// Elements round the ring, at least 3.
     pub around: usize,
-    /// Elements across the height; even: there are nodes on the centroid line.
+    /// Elements across the height, at least 1.
     pub across: usize,
-    /// Elements along the width, without meaning in the plane; even for the same reason.
+    /// Elements along the width, at least 1; without meaning in the plane.
     pub along: usize,
 }
 
@@ -63,9 +63,7 @@ pub struct MeshedRing {
     pub body: String,
     /// Group of its outer face.
     pub outer_face: String,
-    /// Nodes on the centroid line, by angle; those that an element has there.
-    pub centroid_line: Vec<usize>,
-    /// Radius of that line, m.
+    /// Radius of the centroid line, m.
     pub radius: f64,
     /// Sections between elements, by angle from 0: corner nodes with their shares of the area, which add up to 1.
     pub sections: Vec<Vec<(usize, f64)>>,
@@ -98,10 +96,7 @@ impl SolidRing {
         let body = add_group(&mut mesh, "solid ring", solid, grid.cells(self, dimension));
         let faces = grid.outer_faces(self, dimension);
         let outer_face = add_group(&mut mesh, "solid ring, outside", face, faces);
-        let middle = self.layers(dimension).unwrap_or(0);
-        let on_line = (0..2 * self.around).filter_map(|i| grid.node([self.across, i, middle]));
         MeshedRing {
-            centroid_line: on_line.collect(),
             radius: self.radius,
             sections: (0..self.around)
                 .map(|station| grid.section(self, station, dimension))

@@ -78,7 +78,7 @@ fn the_elements_fill_the_ring() {
 }
 
 #[test]
-fn the_outer_face_lies_outside_and_the_centroid_line_in_the_middle() {
+fn the_outer_face_lies_outside_and_sections_balance_about_the_centroid_line() {
     for dimension in [2, 3] {
         let frame = frame(dimension);
         let ring = RING.added_to(&empty(), &frame, dimension);
@@ -90,13 +90,20 @@ fn the_outer_face_lies_outside_and_the_centroid_line_in_the_middle() {
             let [x, y, _] = frame.point(ring.mesh.nodes[node]);
             assert!((x.hypot(y) - 5.75).abs() < 1e-12);
         }
-        assert_eq!(ring.centroid_line.len(), 2 * RING.around);
-        for (place, &node) in ring.centroid_line.iter().enumerate() {
-            let [x, y, z] = frame.point(ring.mesh.nodes[node]);
-            let (sin, cos) = (PI * place as f64 / 24.0).sin_cos();
-            assert!((x - 5.0 * cos).abs() < 1e-12 && (y - 5.0 * sin).abs() < 1e-12);
-            let level = if dimension == 3 { 0.0 } else { z };
-            assert!((z - level).abs() < 1e-12);
+        assert_eq!(ring.sections.len(), RING.around);
+        for (station, section) in ring.sections.iter().enumerate() {
+            let mut mean = [0.0; 3];
+            for &(node, share) in section {
+                let place = frame.point(ring.mesh.nodes[node]);
+                (0..3).for_each(|axis| mean[axis] += share * place[axis]);
+            }
+            let (sin, cos) = (PI * station as f64 / 12.0).sin_cos();
+            let height = if dimension == 3 { 0.0 } else { mean[2] };
+            for (found, expected) in mean.iter().zip([5.0 * cos, 5.0 * sin, height]) {
+                assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+            }
+            let whole: f64 = section.iter().map(|&(_, share)| share).sum();
+            assert!((whole - 1.0).abs() < 1e-14);
         }
         if dimension == 3 {
             let body = ring.mesh.group(&ring.body).expect("its body");

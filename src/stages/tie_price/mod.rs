@@ -14,7 +14,7 @@ pub use reason::NoTiePrice;
 
 use super::housing::description;
 use super::modal_system::FullModes;
-use super::mode_set::{OwnModes, partners};
+use super::mode_set::{Partner, partners};
 use super::structure::{ring, ring_and_tie};
 use super::{HousingStage, StageError, Watch};
 use crate::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
@@ -23,8 +23,8 @@ use crate::linalg::DenseMatrix;
 use crate::mesh::Mesh;
 use crate::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
 use crate::model::{
-    Connection, HousingDescription, HousingModel, HousingPart, Link, PlaneModel, Ring, RingFrame,
-    SpringStiffness, SupportShare,
+    Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, PlaneModel, Ring,
+    RingFrame, SpringStiffness, SupportShare,
 };
 use body::RingBody;
 use reason::Stop;
@@ -89,7 +89,8 @@ pub struct BeamAndSolid {
     pub solid_hz: Option<f64>,
     /// (beams - solid) / solid: positive if the beams and their tie are stiffer.
     pub relative_difference: Option<f64>,
-    /// MAC of the shapes on the housing's own nodes (of the ring alone: on its centroid line), repeated modes as spaces.
+    /// MAC of the shapes on the housing's own nodes and at the corners of the solid ring's sections, which the beams move
+    /// as rigid ones (of the ring alone: there alone); repeated modes as spaces.
     pub mac: Option<f64>,
 }
 
@@ -145,7 +146,7 @@ fn compared(
     let body = RingBody::of(case, asked, asked_tie, housing)?;
     let description = description(case, asked_housing)?;
     let plane = description.plane;
-    let with_body = joined(description, asked_tie, housing, &body, &ring)?;
+    let (with_body, meshed) = joined(description, asked_tie, housing, &body, &ring)?;
     let sought = count + RIGID + MORE[0].max(count / MORE[1]);
     let matrices = CoupledMatrices::new(&housing.matrices, &tie, &ring);
     let mut beams = FullModes::lowest(matrices, sought, watch)?;
@@ -155,21 +156,30 @@ fn compared(
         Ok(of_housing + of_ring.beams + of_ring.springs)
     })?;
     let solid = modes_of(&with_body, sought, watch)?;
-    // the housing's own nodes come first in both
-    let on_housing = |modes: &FullModes, model: &HousingModel| {
-        let shapes = modes.motions.housing(model, &modes.over_all_rows());
-        let rows = housing.model.dof();
-        let shapes = shapes.submatrix(0, 0, rows, shapes.ncols()).to_owned();
-        let own = OwnModes {
-            frequencies_hz: &modes.basis.frequencies_hz,
-            housing: Some((&housing.mesh, &housing.model, &shapes)),
-            ring: None,
-        };
-        own.set()
-    };
+    // the housing's own nodes come first in both, and the ring's after them
+    let of_housing = beams
+        .motions
+        .housing(&housing.model, &beams.over_all_rows());
+    let of_ring = beams.motions.ring(&beams.over_all_rows());
+    let of_solid = solid.motions.housing(&with_body, &solid.over_all_rows());
+    let nodes = housing.mesh.nodes.len();
+    let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
+    let frame = housing.model.frame();
+    let dimension = housing.model.dimension();
+    let carried = beam_shapes(&ring, frame, &of_ring, &points.places[nodes..]);
+    let of_beams =
+        DenseMatrix::from_fn(
+            3 * points.nodes.len(),
+            of_ring.ncols(),
+            |row, mode| match row.checked_sub(3 * nodes) {
+                Some(row) => carried[(row, mode)],
+                None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
+                None => 0.0,
+            },
+        );
     let sets = [
-        on_housing(&beams, &housing.model),
-        on_housing(&solid, &with_body),
+        points.set(&beams, of_beams),
+        points.set(&solid, points.shapes(&of_solid, dimension)),
     ];
     let mut notes = body.notes.clone();
     notes.extend(note_of_fit(asked_tie.fit));
@@ -205,7 +215,7 @@ fn joined(
     housing: &HousingStage,
     body: &RingBody,
     ring: &Ring,
-) -> Result<HousingModel, Stop> {
+) -> Result<(HousingModel, MeshedRing), Stop> {
     let HousingStage { mesh, model, .. } = housing;
     let dimension = model.dimension();
     let meshed = body.ring.added_to(mesh, model.frame(), dimension);
@@ -231,15 +241,60 @@ fn joined(
     with_body
         .attach_ring_springs(&meshed, ring)
         .map_err(Stop::of_joint)?;
-    let free_dof = with_body.free_dofs().len();
-    if free_dof > LARGEST {
-        return Err(NoTiePrice::TooLarge {
+    affordable(with_body.free_dofs().len())?;
+    Ok((with_body, meshed))
+}
+
+fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
+    match free_dof <= LARGEST {
+        true => Ok(()),
+        false => Err(NoTiePrice::TooLarge {
             free_dof,
             limit: LARGEST,
-        }
-        .into());
+        }),
     }
-    Ok(with_body)
+}
+
+fn section_nodes(meshed: &MeshedRing) -> impl Iterator<Item = usize> + '_ {
+    meshed.sections.iter().flatten().map(|&(node, _)| node)
+}
+
+/// Nodes at which modes are compared.
+struct Points {
+    nodes: Vec<usize>,
+    places: Vec<[f64; 3]>,
+    tags: Vec<u64>,
+}
+
+impl Points {
+    fn new(meshed: &MeshedRing, nodes: impl Iterator<Item = usize>) -> Self {
+        let nodes: Vec<usize> = nodes.collect();
+        let mesh = &meshed.mesh;
+        Self {
+            places: nodes.iter().map(|&node| mesh.nodes[node]).collect(),
+            tags: nodes.iter().map(|&node| mesh.node_tags[node]).collect(),
+            nodes,
+        }
+    }
+
+    /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
+    fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
+        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| {
+            match row % 3 < dimension {
+                true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
+                false => 0.0,
+            }
+        })
+    }
+
+    fn set(&self, modes: &FullModes, shapes: DenseMatrix) -> ModeSet {
+        ModeSet {
+            frequencies_hz: modes.basis.frequencies_hz.clone(),
+            points: self.places.clone(),
+            node_tags: Some(self.tags.clone()),
+            shapes,
+        }
+    }
 }
 
 /// The lowest modes of a model of continuum elements.
@@ -293,7 +348,7 @@ fn ring_alone(
         &meshed.mesh,
         HousingDescription {
             parts: vec![HousingPart {
-                group: meshed.body,
+                group: meshed.body.clone(),
                 material: body.material_in(plane)?.into(),
             }],
             plane,
@@ -303,30 +358,16 @@ fn ring_alone(
     )?;
     let solid = modes_of(&model, sought, watch)?;
     let moved = solid.motions.housing(&model, &solid.over_all_rows());
-    let line = &meshed.centroid_line;
-    let points: Vec<[f64; 3]> = line.iter().map(|&node| meshed.mesh.nodes[node]).collect();
-    let on_line = DenseMatrix::from_fn(3 * line.len(), moved.ncols(), |row, mode| {
-        let (node, axis) = (line[row / 3], row % 3);
-        match axis < dimension {
-            true => moved[(dimension * node + axis, mode)],
-            false => 0.0,
-        }
-    });
-    let set = |modes: &FullModes, shapes| ModeSet {
-        frequencies_hz: modes.basis.frequencies_hz.clone(),
-        points: points.clone(),
-        node_tags: None,
-        shapes,
-    };
-    let of_ring = of_beams.over_all_rows();
+    let points = Points::new(&meshed, section_nodes(&meshed));
+    let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
     let sets = [
-        set(&of_beams, beam_shapes(&beams, frame, &of_ring, &points)),
-        set(&solid, on_line),
+        points.set(&of_beams, on_beams),
+        points.set(&solid, points.shapes(&moved, dimension)),
     ];
     side_by_side(&sets, of_beams.basis.rigid_modes, count)
 }
 
-/// Displacements of a ring's centroid line at the angles of some points, in the mesh's axes [3 points x modes].
+/// Displacements of points of a ring's rigid sections, in the mesh's axes [3 points x modes].
 fn beam_shapes(
     ring: &Ring,
     frame: &RingFrame,
@@ -335,19 +376,21 @@ fn beam_shapes(
 ) -> DenseMatrix {
     let mut shapes = DenseMatrix::zeros(3 * points.len(), modes.ncols());
     for (place, point) in points.iter().enumerate() {
-        let [x, y, _] = frame.point(*point);
-        let angle = y.atan2(x);
+        let [x, y, z] = frame.point(*point);
+        let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
         let axes = frame.polar_axes(*point);
+        let (in_space, plane) = (ring.space_rows_at(angle), ring.rows_at(angle));
         for mode in 0..modes.ncols() {
             let d = modes.col_as_slice(mode);
-            let polar = match ring.space_rows_at(angle) {
-                Some(rows) => {
-                    [rows.radial, rows.tangential, rows.axial].map(|row| rows.apply(&row, d))
-                }
+            let polar = match &in_space {
+                Some(rows) => rows.displacement_at(arm, z).map(|row| rows.apply(&row, d)),
                 None => {
-                    let rows = ring.rows_at(angle);
-                    let [w, u] = [rows.radial, rows.tangential].map(|row| rows.apply(&row, d));
-                    [w, u, 0.0]
+                    let tangential = plane.tangential_at(arm);
+                    [
+                        plane.apply(&plane.radial, d),
+                        plane.apply(&tangential, d),
+                        0.0,
+                    ]
                 }
             };
             for axis in 0..3 {
@@ -367,9 +410,8 @@ fn side_by_side(
     let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
     let partners = partners(beams, solid, &found);
     let elastic = partners.iter().enumerate().skip(rigid).take(count);
-    let row = |(mode, partner): (usize, &Option<_>)| {
+    let row = |(mode, &partner): (usize, &Option<Partner>)| {
         let beams_hz = beams.frequencies_hz[mode];
-        let partner: Option<super::mode_set::Partner> = *partner;
         BeamAndSolid {
             mode,
             beams_hz,
