@@ -6,6 +6,7 @@
 //! the beams'.
 
 mod body;
+mod points;
 mod reason;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ use crate::model::{
     RingFrame, SpringStiffness, SupportShare,
 };
 use body::RingBody;
+use points::{Points, beam_shapes, section_nodes};
 use reason::Stop;
 use serde::Serialize;
 
@@ -255,48 +257,6 @@ fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
     }
 }
 
-fn section_nodes(meshed: &MeshedRing) -> impl Iterator<Item = usize> + '_ {
-    meshed.sections.iter().flatten().map(|&(node, _)| node)
-}
-
-/// Nodes at which modes are compared.
-struct Points {
-    nodes: Vec<usize>,
-    places: Vec<[f64; 3]>,
-    tags: Vec<u64>,
-}
-
-impl Points {
-    fn new(meshed: &MeshedRing, nodes: impl Iterator<Item = usize>) -> Self {
-        let nodes: Vec<usize> = nodes.collect();
-        let mesh = &meshed.mesh;
-        Self {
-            places: nodes.iter().map(|&node| mesh.nodes[node]).collect(),
-            tags: nodes.iter().map(|&node| mesh.node_tags[node]).collect(),
-            nodes,
-        }
-    }
-
-    /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
-    fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
-        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| {
-            match row % 3 < dimension {
-                true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
-                false => 0.0,
-            }
-        })
-    }
-
-    fn set(&self, modes: &FullModes, shapes: DenseMatrix) -> ModeSet {
-        ModeSet {
-            frequencies_hz: modes.basis.frequencies_hz.clone(),
-            points: self.places.clone(),
-            node_tags: Some(self.tags.clone()),
-            shapes,
-        }
-    }
-}
-
 /// The lowest modes of a model of continuum elements.
 fn modes_of(
     model: &HousingModel,
@@ -365,40 +325,6 @@ fn ring_alone(
         points.set(&solid, points.shapes(&moved, dimension)),
     ];
     side_by_side(&sets, of_beams.basis.rigid_modes, count)
-}
-
-/// Displacements of points of a ring's rigid sections, in the mesh's axes [3 points x modes].
-fn beam_shapes(
-    ring: &Ring,
-    frame: &RingFrame,
-    modes: &DenseMatrix,
-    points: &[[f64; 3]],
-) -> DenseMatrix {
-    let mut shapes = DenseMatrix::zeros(3 * points.len(), modes.ncols());
-    for (place, point) in points.iter().enumerate() {
-        let [x, y, z] = frame.point(*point);
-        let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
-        let axes = frame.polar_axes(*point);
-        let (in_space, plane) = (ring.space_rows_at(angle), ring.rows_at(angle));
-        for mode in 0..modes.ncols() {
-            let d = modes.col_as_slice(mode);
-            let polar = match &in_space {
-                Some(rows) => rows.displacement_at(arm, z).map(|row| rows.apply(&row, d)),
-                None => {
-                    let tangential = plane.tangential_at(arm);
-                    [
-                        plane.apply(&plane.radial, d),
-                        plane.apply(&tangential, d),
-                        0.0,
-                    ]
-                }
-            };
-            for axis in 0..3 {
-                shapes[(3 * place + axis, mode)] = (0..3).map(|k| polar[k] * axes[k][axis]).sum();
-            }
-        }
-    }
-    shapes
 }
 
 /// The first `count` elastic modes of the first set with what belongs to them in the second.
