@@ -113,6 +113,41 @@ impl Factor {
         Self::judged(symbolic, a, Numbers::Double(numbers))
     }
 
+    /// Factorises `a` in the precision that its size calls for, or in double precision, whatever the quality: for an
+    /// iteration that says itself how far it came.
+    ///
+    /// # Errors
+    /// [`LinalgError::Factorisation`], [`LinalgError::NotPositiveDefinite`].
+    pub fn unjudged(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+        kind: Kind,
+        double: bool,
+        memory: FactorMemory,
+    ) -> Result<Self, LinalgError> {
+        let numbers = if double || symbolic.entries() <= SMALL {
+            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
+        } else {
+            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
+        };
+        Ok(Self::measured(symbolic, a, numbers))
+    }
+
+    /// A factor in single precision, however small it is.
+    #[cfg(test)]
+    pub fn single_for_test(
+        symbolic: &Arc<Symbolic>,
+        a: &SymmetricMatrix,
+    ) -> Result<Self, LinalgError> {
+        let numbers = NumericFactor::new(symbolic, a, Kind::Indefinite, Vec::new())?;
+        Ok(Self::measured(symbolic, a, Numbers::Single(numbers)))
+    }
+
+    /// Whether its entries are in double precision.
+    pub fn is_double(&self) -> bool {
+        matches!(self.numbers, Numbers::Double(_))
+    }
+
     fn judged(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
@@ -142,7 +177,8 @@ impl Factor {
             factor.solve(step.as_mut());
             error -= &step;
             let after = error.norm_l2();
-            factor.contraction = if before > 0.0 { after / before } else { 0.0 };
+            // a factor that is no number must not pass for one without error
+            factor.contraction = if before == 0.0 { 0.0 } else { after / before };
         }
         if !factor.contraction.is_finite() {
             factor.contraction = f64::INFINITY;

@@ -19,6 +19,7 @@ mod dense;
 mod eigen;
 mod error;
 mod factor;
+mod harmonic;
 mod lowest;
 #[allow(unsafe_code)]
 mod metis;
@@ -37,6 +38,7 @@ pub use dense::{
 };
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
+pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes, complex_columns, complex_solve};
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
     transpose_times_dense,
@@ -44,6 +46,9 @@ pub use sparse::{
 
 /// Dense column-major matrix of `f64`.
 pub type DenseMatrix = faer::Mat<f64>;
+
+/// Dense column-major matrix of complex numbers.
+pub type ComplexMatrix = faer::Mat<faer::c64>;
 
 /// Makes faer run sequentially: sums are then formed in one order whatever the machine.
 fn run_sequentially() {
