@@ -6,6 +6,7 @@ mod coupled_modes;
 mod craig_bampton;
 mod error;
 mod estimate;
+pub mod frf;
 mod interior_basis;
 #[cfg(test)]
 mod samples;
