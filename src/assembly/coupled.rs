@@ -113,6 +113,12 @@ impl CoupledMotions {
         }
     }
 
+    /// A matrix of the housing in the mesh's axes [housing dof x housing dof], such as its structural damping, over the
+    /// coordinates of housing and ring [n x n]; the ring adds nothing.
+    pub fn congruent(&self, housing: &SparseMatrix) -> SparseMatrix {
+        congruence(housing, &self.recovery)
+    }
+
     /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
     pub fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
         let rows = x.nrows() - self.housing_dof;

@@ -6,11 +6,13 @@
 mod batch;
 mod coupled;
 mod pattern;
+mod structural;
 
 use crate::element::continuum::{nodal_mass_into, stiffness_into};
 use crate::linalg::{DenseMatrix, SparseMatrix, congruence, transpose_times_dense};
 use crate::model::{HousingModel, ModelError, NodalMatrix, RingTie};
 pub use coupled::{CoupledMatrices, CoupledMotions};
+pub use structural::StructuralStiffness;
 
 use batch::in_batches;
 use pattern::{BlockMatrix, Coupling, Local, NodeGraph};
@@ -35,13 +37,7 @@ impl SystemMatrices {
     /// # Errors
     /// [`ModelError::Element`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Self, ModelError> {
-        let elements = model
-            .elements
-            .iter()
-            .map(|element| model.elements.nodes(element));
-        let extra = model.springs.iter().chain(&model.masses);
-        let groups = elements.chain(extra.map(|extra| extra.nodes.as_slice()));
-        let graph = NodeGraph::new(model.coordinates.len(), &groups.collect::<Vec<_>>());
+        let graph = node_graph(model);
         let mut matrices = Self {
             stiffness: stiffness(model, &graph)?,
             mass: mass(model, &graph)?,
@@ -85,6 +81,17 @@ impl SystemMatrices {
             .map(|dof| fall[(dof, 0)] * self.weight[(dof, 0)])
             .sum();
     }
+}
+
+/// Which nodes an element, a spring or a point mass couples.
+fn node_graph(model: &HousingModel) -> NodeGraph {
+    let elements = model
+        .elements
+        .iter()
+        .map(|element| model.elements.nodes(element));
+    let extra = model.springs.iter().chain(&model.masses);
+    let groups = elements.chain(extra.map(|extra| extra.nodes.as_slice()));
+    NodeGraph::new(model.coordinates.len(), &groups.collect::<Vec<_>>())
 }
 
 fn stiffness(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelError> {

@@ -24,6 +24,9 @@ pub struct IsotropicMaterial {
     pub poisson: f64,
     /// Density in kg/m^3, > 0.
     pub density: f64,
+    /// Structural loss factor, >= 0 and < 2 (0 unless given): stress leads strain by it, `sigma = E (1 + i eta) eps`. For
+    /// frequency responses; undamped modes do not depend on it.
+    pub loss_factor: f64,
 }
 
 /// An orthotropic elastic material: printed, rolled, laminated, wooden.
@@ -37,6 +40,8 @@ pub struct OrthotropicMaterial {
     pub shear: [f64; 3],
     /// Density in kg/m^3, > 0.
     pub density: f64,
+    /// Structural loss factor of all its stiffness, >= 0 and < 2 (0 unless given), as of an isotropic material.
+    pub loss_factor: f64,
     /// The material's x in the mesh's axes.
     pub x_axis: [f64; 3],
     /// A direction in the material's x-y plane, in the mesh's axes.
@@ -49,7 +54,17 @@ impl Material {
             young,
             poisson,
             density,
+            loss_factor: 0.0,
         })
+    }
+
+    /// Structural loss factor, >= 0 and < 2.
+    #[must_use]
+    pub fn loss_factor(&self) -> f64 {
+        match self {
+            Self::Isotropic(material) => material.loss_factor,
+            Self::Orthotropic(material) => material.loss_factor,
+        }
     }
 
     /// Density in kg/m^3.
@@ -78,6 +93,8 @@ struct MaterialForm {
     poisson: OneOrThree,
     density: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    loss_factor: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     shear: Option<[f64; 3]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     x_axis: Option<[f64; 3]>,
@@ -93,12 +110,18 @@ impl TryFrom<MaterialForm> for Material {
     fn try_from(form: MaterialForm) -> Result<Self, Mismatch> {
         const FORMS: &str = "one number each for `young` and `poisson` (isotropic), or three each and `shear` \
             (orthotropic: young = [x, y, z], poisson and shear = [xy, yz, xz])";
+        let loss_factor = form.loss_factor.unwrap_or(0.0);
         match (form.young, form.poisson, form.shear) {
             (OneOrThree::One(young), OneOrThree::One(poisson), None) => {
                 if form.x_axis.is_some() || form.y_axis.is_some() {
                     return Err(Mismatch::form("axes of an isotropic material", FORMS));
                 }
-                Ok(Self::new(young, poisson, form.density))
+                Ok(Self::Isotropic(IsotropicMaterial {
+                    young,
+                    poisson,
+                    density: form.density,
+                    loss_factor,
+                }))
             }
             (OneOrThree::Three(young), OneOrThree::Three(poisson), Some(shear)) => {
                 Ok(Self::Orthotropic(OrthotropicMaterial {
@@ -106,6 +129,7 @@ impl TryFrom<MaterialForm> for Material {
                     poisson,
                     shear,
                     density: form.density,
+                    loss_factor,
                     x_axis: form.x_axis.unwrap_or([1.0, 0.0, 0.0]),
                     y_axis: form.y_axis.unwrap_or([0.0, 1.0, 0.0]),
                 }))
@@ -123,11 +147,13 @@ impl TryFrom<MaterialForm> for Material {
 
 impl From<Material> for MaterialForm {
     fn from(material: Material) -> Self {
+        let loss_factor = Some(material.loss_factor()).filter(|&factor| factor != 0.0);
         match material {
             Material::Isotropic(given) => Self {
                 young: OneOrThree::One(given.young),
                 poisson: OneOrThree::One(given.poisson),
                 density: given.density,
+                loss_factor,
                 shear: None,
                 x_axis: None,
                 y_axis: None,
@@ -136,6 +162,7 @@ impl From<Material> for MaterialForm {
                 young: OneOrThree::Three(given.young),
                 poisson: OneOrThree::Three(given.poisson),
                 density: given.density,
+                loss_factor,
                 shear: Some(given.shear),
                 x_axis: Some(given.x_axis),
                 y_axis: Some(given.y_axis),

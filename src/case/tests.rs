@@ -115,6 +115,21 @@ fn every_key_of_the_full_case_arrives() {
 }
 
 #[test]
+fn loss_factors_are_read_and_written_back() {
+    let case = read(FULL, &["materials.\"my alloy\".loss_factor=0.002"]).unwrap();
+    let of = |name: &str| case.material(name).unwrap().loss_factor();
+    assert!(near(of("my alloy"), 0.002) && near(of("printed"), 0.04));
+    assert_eq!(of("steel").to_bits(), 0.0_f64.to_bits());
+    let written = toml::to_string(&case.materials).unwrap();
+    let expected = ["loss_factor = 0.002", "loss_factor = 0.04"];
+    assert!(
+        expected.iter().all(|line| written.contains(line)),
+        "{written}"
+    );
+    assert_eq!(written.matches("loss_factor").count(), 2, "{written}");
+}
+
+#[test]
 fn defaults_are_those_of_the_format() {
     let text = "[ring]\nsections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n\
         [bearing]\nballs = 7\nball_radius = 1e-3\ninner_race_radius = 2.754e-3\nouter_race_radius = 4.7565e-3\n\

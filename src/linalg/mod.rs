@@ -1,12 +1,12 @@
 //! Linear algebra between the libraries and the mechanics: one sparse type, one dense type, one
-//! factorisation, one eigensolver for sparse problems (block Krylov for the lowest pairs, ARPACK for a band) and one for
-//! dense ones.
+//! factorisation, one eigensolver for sparse problems (block Krylov for the lowest pairs, ARPACK for a band), one for
+//! dense ones, and one solver for harmonic loads.
 //!
 //! The sparse currency is [`SparseMatrix`] (compressed columns, both triangles stored), the dense
 //! one is [`faer::Mat`]. What is dense runs sequentially inside a call; sparse solves and products share their columns among
 //! the threads of the pool.
 //!
-//! **Limitations**: real symmetric problems; a factor has at most 2^31 entries.
+//! **Limitations**: symmetric problems, complex ones for harmonic loads alone; a factor has at most 2^31 entries.
 
 #[allow(unsafe_code)]
 mod arpack;
@@ -38,7 +38,10 @@ pub use dense::{
 };
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
-pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes, complex_columns, complex_solve};
+pub use harmonic::{
+    ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution,
+    HarmonicTimes, complex_columns, complex_solve,
+};
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
     transpose_times_dense,

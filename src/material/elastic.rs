@@ -32,6 +32,14 @@ impl ElasticMaterial {
         }
     }
 
+    /// Structural loss factor eta, in [0, 2).
+    pub fn loss_factor(&self) -> f64 {
+        match self {
+            Self::Isotropic(material) => material.loss_factor,
+            Self::Orthotropic(material) => material.loss_factor,
+        }
+    }
+
     /// Stiffness C (6 x 6, Pa) in mesh axes: `sigma = C eps` with both in the order xx, yy, zz, xy, yz,
     /// xz and engineering shear strains (`gamma_xy = du_x/dy + du_y/dx`). Symmetric and positive definite.
     ///

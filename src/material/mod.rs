@@ -22,6 +22,8 @@ pub struct Material {
     pub poisson: f64,
     /// Density rho, kg/m^3, > 0.
     pub density: f64,
+    /// Structural loss factor eta, in [0, 2): the stiffness is `C (1 + i eta)` under harmonic motion.
+    pub loss_factor: f64,
 }
 
 /// A material that cannot exist, or that the elements cannot use.
@@ -87,6 +89,19 @@ impl Material {
             young,
             poisson,
             density,
+            loss_factor: 0.0,
+        })
+    }
+
+    /// The same material with a structural loss factor, 0 <= eta < 2.
+    ///
+    /// # Errors
+    /// [`MaterialError::OutOfRange`].
+    pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
+        check_loss_factor(loss_factor)?;
+        Ok(Self {
+            loss_factor,
+            ..self
         })
     }
 
@@ -100,6 +115,11 @@ impl Material {
         let nu = self.poisson;
         self.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
+}
+
+fn check_loss_factor(value: f64) -> Result<(), MaterialError> {
+    let (quantity, rule) = ("loss factor", "from 0 to below 2");
+    check((0.0..2.0).contains(&value), quantity, rule, value)
 }
 
 fn check(
@@ -134,6 +154,36 @@ mod tests {
     fn shear_modulus_of_steel() -> Result<(), MaterialError> {
         let steel = Material::new(208e9, 0.3, 7800.0)?;
         assert!((steel.shear_modulus() - 80e9).abs() < 1e-3);
+        Ok(())
+    }
+
+    #[test]
+    fn a_loss_factor_is_below_two() -> Result<(), MaterialError> {
+        let steel = Material::new(208e9, 0.3, 7800.0)?;
+        let wood = OrthotropicMaterial::new(
+            [10e9, 1e9, 1e9],
+            [0.3; 3],
+            [1e9; 3],
+            500.0,
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+        )?;
+        let kept = [
+            ElasticMaterial::from(steel.with_loss_factor(1.9)?).loss_factor(),
+            ElasticMaterial::from(wood.with_loss_factor(0.02)?).loss_factor(),
+            ElasticMaterial::from(wood).loss_factor(),
+        ];
+        assert_eq!(kept.map(|factor| factor.to_string()), ["1.9", "0.02", "0"]);
+        for value in [-0.01, 2.0, f64::NAN] {
+            let expected = format!("loss factor must be from 0 to below 2, found {value}");
+            let found = [
+                steel.with_loss_factor(value).err(),
+                wood.with_loss_factor(value).err(),
+            ];
+            for error in found {
+                assert_eq!(error.map(|error| error.to_string()), Some(expected.clone()));
+            }
+        }
         Ok(())
     }
 

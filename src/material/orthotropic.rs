@@ -1,6 +1,6 @@
 //! Orthotropic materials: nine constants and the axes they hold in.
 
-use super::{MaterialError, check};
+use super::{MaterialError, check, check_loss_factor};
 
 /// A linear elastic material with three perpendicular planes of symmetry.
 ///
@@ -20,6 +20,8 @@ pub struct OrthotropicMaterial {
     pub shear: [f64; 3],
     /// Density rho, kg/m^3, > 0.
     pub density: f64,
+    /// Structural loss factor eta of the whole stiffness, in [0, 2).
+    pub loss_factor: f64,
     /// Material axes x, y, z as unit vectors in mesh coordinates, right-handed.
     pub axes: [[f64; 3]; 3],
 }
@@ -69,7 +71,20 @@ impl OrthotropicMaterial {
             poisson,
             shear,
             density,
+            loss_factor: 0.0,
             axes: orthonormal(axis_x, towards_y)?,
+        })
+    }
+
+    /// The same material with a structural loss factor, 0 <= eta < 2.
+    ///
+    /// # Errors
+    /// [`MaterialError::OutOfRange`].
+    pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
+        check_loss_factor(loss_factor)?;
+        Ok(Self {
+            loss_factor,
+            ..self
         })
     }
 

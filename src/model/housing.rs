@@ -75,6 +75,8 @@ pub struct HousingModel {
     pub(crate) elements: HousingElements,
     /// Properties of the parts, in the order asked for.
     pub(crate) properties: Vec<ContinuumProperties>,
+    /// Structural loss factors of the parts, in the same order.
+    pub(crate) loss_factors: Vec<f64>,
     /// Groups of the parts, in the same order.
     pub(crate) part_groups: Vec<String>,
     pub(crate) formulation: Formulation,
@@ -133,6 +135,10 @@ impl HousingModel {
             coordinates: mesh.nodes.clone(),
             elements,
             properties,
+            loss_factors: parts
+                .iter()
+                .map(|part| part.material.loss_factor())
+                .collect(),
             part_groups: parts.iter().map(|part| part.group.clone()).collect(),
             formulation,
             springs: Vec::new(),

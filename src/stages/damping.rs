@@ -28,3 +28,25 @@ pub(super) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
         admissible => Ok(admissible),
     }
 }
+
+/// Time integration has no structural damping; a loss factor of a part in use must not be passed over.
+///
+/// # Errors
+/// [`StageError::StructuralDamping`].
+pub(super) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
+    let parts = case.housing.iter().flat_map(|housing| &housing.parts);
+    for part in parts {
+        let loss_factor = case
+            .material(&part.material)
+            .map_or(0.0, case::Material::loss_factor);
+        if loss_factor > 0.0 {
+            let material = part.material.clone();
+            return Err(StageError::StructuralDamping {
+                material,
+                loss_factor,
+            });
+        }
+    }
+    Ok(())
+}
+

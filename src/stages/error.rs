@@ -131,6 +131,16 @@ pub enum StageError {
         /// Stiffness coefficient, s.
         beta: f64,
     },
+    /// Structural damping in a simulation over time.
+    #[error(
+        "materials.{material}: loss_factor = {loss_factor} is structural damping, which has a meaning for harmonic motion alone (frf); a run steps through time: leave the key out and give [damping]"
+    )]
+    StructuralDamping {
+        /// Name of the material.
+        material: String,
+        /// Its loss factor.
+        loss_factor: f64,
+    },
     /// A sensor that points out of the plane.
     #[error(
         "sensor \"{name}\": direction has no part in the bearing's plane, in which plane housings and places on the ring (ring_deg) are measured; give direction = [0, 1, 0] or the like"

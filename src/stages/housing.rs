@@ -142,14 +142,22 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, StageErr
                 poisson,
                 shear,
                 density,
+                loss_factor,
                 x_axis,
                 y_axis,
             } = *given;
             OrthotropicMaterial::new(young, poisson, shear, density, x_axis, y_axis)
+                .and_then(|material| material.with_loss_factor(loss_factor))
                 .map(ElasticMaterial::Orthotropic)
                 .map_err(|source| named(name, source))
         }
-        _ => material(case, name).map(ElasticMaterial::from),
+        given => {
+            let loss_factor = given.map_or(0.0, case::Material::loss_factor);
+            material(case, name)?
+                .with_loss_factor(loss_factor)
+                .map(ElasticMaterial::from)
+                .map_err(|source| named(name, source))
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::damping::damping;
+use super::damping::{damping, refuse_structural_damping};
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use crate::case::{self, Case, ModesKept, StepLength};
 use crate::closed_form::race::DefectOrders;
@@ -97,6 +97,7 @@ impl RunResult {
 /// # Errors
 /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
 pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
+    refuse_structural_damping(case)?;
     let stage = StructureStage::build(case, watch)?;
     // a run without ring, bearing, shaft or transient was refused with the case
     let (Some(stage), Some(setup), Some(asked)) =
@@ -267,5 +268,40 @@ fn auto_step(
             // half the stability limit, and never above the source's own step
             NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Source;
+    use crate::stages::Unwatched;
+
+    /// What a run of an example says with these keys set.
+    fn message(set: &[&str]) -> String {
+        let root = env!("CARGO_MANIFEST_DIR");
+        let path = format!("{root}/examples/tadina2011/outer-dent.toml");
+        let case = Case::from_source(Source {
+            text: std::fs::read_to_string(&path).unwrap(),
+            path: path.into(),
+            set: set.iter().map(|set| (*set).to_owned()).collect(),
+        });
+        compute_run(&case.unwrap(), &Unwatched)
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn structural_damping_is_refused_before_anything_is_computed() {
+        let (lossy, nowhere) = (
+            "materials.aluminium.loss_factor=0.01",
+            "housing.mesh=nowhere.msh",
+        );
+        assert_eq!(
+            message(&[lossy, nowhere]),
+            "materials.aluminium: loss_factor = 0.01 is structural damping, which has a meaning for harmonic motion alone (frf); a run steps through time: leave the key out and give [damping]"
+        );
+        let none = message(&["materials.aluminium.loss_factor=0", nowhere]);
+        assert!(none.contains("nowhere.msh"), "{none}");
     }
 }

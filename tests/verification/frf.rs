@@ -7,15 +7,18 @@
 //! Parameters: E 70 GPa, nu 0.33, rho 2700; 0 to 50 kHz; Tet10 stiffness with four points, as the reference's.
 
 use crate::reference_frequencies::data;
-use plummer::assembly::SystemMatrices;
+use crate::setup::{BORE_RADIUS, Housing, dense, steel_ring};
+use plummer::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use plummer::element::continuum::{Formulation, Integration};
 use plummer::linalg::{
-    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, submatrix,
+    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix,
+    submatrix,
 };
 use plummer::material::Material;
 use plummer::mesh::Mesh;
 use plummer::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare,
+    Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
+    Link, RingTie, SpringStiffness, SupportShare,
 };
 use plummer::reduction::frf::{
     FrequencyResponse, FrfPaths, FrfQuantity, ModalBasis, ModalDamping, ModalSuperposition,
@@ -259,4 +262,118 @@ fn reduced_response_of_the_pedestal() {
         assert!(errors[0] < 5e-3, "{}", errors[0]);
         assert!(errors[1] < 2e-2, "{}", errors[1]);
     }
+}
+
+/// Two blocks on springs, joined: steel below with `eta`, something light above with `other`.
+fn blocks(young: [f64; 2], eta: [f64; 2], springs: bool) -> HousingModel {
+    let mesh = Mesh::read_gmsh(&data("two_blocks.msh"), LengthUnit::Millimetre).unwrap();
+    let part = |group: &str, place: usize| HousingPart {
+        group: group.into(),
+        material: Material::new(young[place], 0.3, 7800.0)
+            .and_then(|material| material.with_loss_factor(eta[place]))
+            .unwrap()
+            .into(),
+    };
+    let stiff = SpringStiffness::Global([1e6, 2e6, 3e6]);
+    let description = HousingDescription {
+        parts: vec![part("lower", 0), part("upper", 1)],
+        supports: if springs {
+            vec![HousingSupport {
+                group: "base".into(),
+                constraint: Constraint::Spring(stiff),
+                share: SupportShare::PerGroup,
+            }]
+        } else {
+            Vec::new()
+        },
+        links: vec![Link {
+            between: ["foot", "seat"].map(str::to_owned),
+            connection: Connection::Tie,
+        }],
+        ..HousingDescription::default()
+    };
+    HousingModel::new(&mesh, description).unwrap()
+}
+
+fn largest_difference(a: &SparseMatrix, b: &SparseMatrix) -> f64 {
+    let difference = a - b;
+    let size = |matrix: &SparseMatrix| matrix.data().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    size(&difference) / size(b)
+}
+
+/// Stiffness is linear in Young's modulus: K_s is the stiffness of the same blocks with eta E for E, without springs.
+#[test]
+fn loss_factors_weight_the_stiffness_of_their_parts() {
+    let (young, eta) = ([2e11, 3e9], [0.001, 0.4]);
+    let lossy = blocks(young, eta, true);
+    let found = StructuralStiffness::assemble(&lossy).unwrap().unwrap();
+    let weighted = blocks([young[0] * eta[0], young[1] * eta[1]], [0.0; 2], false);
+    let expected = SystemMatrices::assemble(&weighted).unwrap().stiffness;
+    // two ways to round a product
+    let error = largest_difference(found.matrix(), &expected);
+    assert!(error < 1e-14, "{error:e}");
+    let plain = SystemMatrices::assemble(&lossy).unwrap();
+    let without = SystemMatrices::assemble(&blocks(young, [0.0; 2], true)).unwrap();
+    assert!(largest_difference(&plain.stiffness, &without.stiffness) == 0.0);
+    assert_eq!(plain.stiffness.indices(), found.matrix().indices());
+    let one = StructuralStiffness::assemble(&blocks(young, [0.0, 0.4], true)).unwrap();
+    let upper = SystemMatrices::assemble(&blocks([1e-3, 0.4 * 3e9], [0.0; 2], false)).unwrap();
+    let error = largest_difference(one.unwrap().matrix(), &upper.stiffness);
+    // beside a lower block of 1e-3 Pa
+    assert!(error < 1e-11, "{error:e}");
+    let none = StructuralStiffness::assemble(&blocks(young, [0.0; 2], true)).unwrap();
+    assert!(none.is_none());
+}
+
+/// With one loss factor for all, K_s turns with the tie as K does, and rides on the ring as K does.
+#[test]
+fn structural_damping_follows_the_tie() {
+    let eta = 0.02;
+    let mut housing = Housing::new("ring_6_9_coarse", false, Fit::Sliding);
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/ring_6_9_coarse.msh");
+    let mesh = Mesh::read_gmsh(&path, LengthUnit::parse("mm").unwrap()).unwrap();
+    let aluminium = Material::new(72e9, 0.33, 2700.0).and_then(|m| m.with_loss_factor(eta));
+    let description = HousingDescription {
+        parts: vec![HousingPart {
+            group: "housing".into(),
+            material: aluminium.unwrap().into(),
+        }],
+        plane: Some(plummer::model::PlaneModel {
+            assumption: plummer::element::continuum::PlaneAssumption::Stress,
+            thickness: 4e-3,
+        }),
+        ..HousingDescription::default()
+    };
+    housing.model = HousingModel::new(&mesh, description).unwrap();
+    let ring = steel_ring();
+    let tie = RingTie::new(
+        &mesh,
+        &housing.model,
+        "bore",
+        &ring,
+        BORE_RADIUS,
+        Fit::Sliding,
+    )
+    .unwrap();
+    assert!(tie.rotation().is_some());
+    let plain = SystemMatrices::assemble(&housing.model).unwrap();
+    let lossy = StructuralStiffness::assemble(&housing.model)
+        .unwrap()
+        .unwrap();
+    let coupled = CoupledMatrices::new(&plain, &tie, &ring);
+    let on_ring = coupled.motions.congruent(lossy.matrix());
+    let of_housing = coupled.motions.congruent(&plain.stiffness);
+    let scaled = |matrix: &SparseMatrix| matrix.map(|value| eta * value);
+    assert!(largest_difference(&on_ring, &scaled(&of_housing)) < 1e-14);
+    let ring_part = dense(&(&coupled.stiffness - &of_housing));
+    let first = housing.model.dof();
+    for place in 0..ring.dof() {
+        let found = ring_part[(first + place, first + place)];
+        let own = ring.stiffness()[(place, place)];
+        // the ring's own stiffness beside the housing's share on the same coordinate
+        assert!((found - own).abs() < 1e-9 * own, "{place}: {found} {own}");
+    }
+    let turned = lossy.for_tie(&tie);
+    let expected = scaled(&plain.for_tie(&tie).stiffness);
+    assert!(largest_difference(turned.matrix(), &expected) < 1e-14);
 }

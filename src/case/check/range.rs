@@ -55,6 +55,16 @@ pub(super) fn share(key: impl Into<String>, found: f64) -> Result<(), BrokenRule
     )
 }
 
+/// Zero included, two not.
+pub(super) fn loss_factor(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        (0.0..2.0).contains(&found),
+        key,
+        found,
+        "a number from 0 to below 2",
+    )
+}
+
 pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
     within(
         found > -1.0 && found < 0.5,
@@ -151,6 +161,10 @@ pub(super) fn known_isotropic(
     name: &str,
 ) -> Result<(), BrokenRule> {
     match case.material(name) {
+        Some(Material::Isotropic(material)) if material.loss_factor > 0.0 => {
+            let found = name.to_owned();
+            Err(Rule::LossFactor { found }.at(key))
+        }
         Some(Material::Isotropic(_)) => Ok(()),
         Some(Material::Orthotropic(_)) => {
             let found = name.to_owned();

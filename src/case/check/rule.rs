@@ -46,6 +46,14 @@ pub enum Rule {
         /// The name as written.
         found: String,
     },
+    /// A material with structural damping where none is modelled.
+    #[error(
+        "\"{found}\" has a loss factor, expected a material without: structural damping is for parts of the housing"
+    )]
+    LossFactor {
+        /// The name as written.
+        found: String,
+    },
     /// Constants for which a deformation would have no positive energy.
     #[error("{0}")]
     UnstableMaterial(crate::material::MaterialError),
@@ -159,6 +167,9 @@ impl Rule {
             Self::Beyond { how: "at least", .. } => {
                 Some("raise the sampling rate or narrow `accuracy.band_hz`".to_owned())
             }
+            Self::LossFactor { .. } => Some(
+                "give this part a material of its own name, without `loss_factor`".to_owned(),
+            ),
             Self::BallsDoNotFit { .. } => Some(
                 "check that all radii are in m and none is a diameter; `bearing.radial_play` overrides the play"
                     .to_owned(),

@@ -6,8 +6,8 @@ use super::super::{
     RingSupport, Spring,
 };
 use super::range::{
-    above, above_zero, direction, each_once, known_isotropic, known_material, not_empty, poisson,
-    share, zero_or_more,
+    above, above_zero, direction, each_once, known_isotropic, known_material, loss_factor,
+    not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::material::MaterialError;
@@ -38,6 +38,7 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
             }
         }
         above_zero(at("density"), material.density())?;
+        loss_factor(at("loss_factor"), material.loss_factor())?;
     }
     Ok(())
 }

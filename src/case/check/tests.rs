@@ -145,6 +145,31 @@ fn ratios_and_fractions_stay_within_one() {
 }
 
 #[test]
+fn loss_factors_stay_below_two() {
+    for name in ["\"my alloy\"", "printed"] {
+        for value in ["-0.1", "2"] {
+            let rule = format!("found {value}, expected a number from 0 to below 2");
+            full(&format!("materials.{name}.loss_factor={value}"), &rule);
+        }
+    }
+    holds(FULL, &["materials.printed.loss_factor=1.99"]);
+}
+
+#[test]
+fn rings_and_contacts_have_no_loss_factor() {
+    let lossy = "materials.lossy={young=2e11,poisson=0.3,density=7800,loss_factor=0.01}";
+    for key in ["ring.sections[0].material", "bearing.ball_material"] {
+        breaks(
+            FULL,
+            &[lossy, &format!("{key}=lossy")],
+            key,
+            "\"lossy\" has a loss factor, expected a material without: structural damping is for parts of the housing",
+        );
+    }
+    holds(FULL, &[lossy, "housing.parts[0].material=lossy"]);
+}
+
+#[test]
 fn counts_stay_within_their_range() {
     for (argument, rule) in [
         ("ring.nodes=7", "found 7, expected 8 to 2000 nodes"),
