@@ -49,4 +49,3 @@ pub(super) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
     }
     Ok(())
 }
-

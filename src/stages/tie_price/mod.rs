@@ -25,7 +25,7 @@ use crate::mesh::Mesh;
 use crate::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
 use crate::model::{
     Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, PlaneModel, Ring,
-    RingFrame, SpringStiffness, SupportShare,
+    SpringStiffness, SupportShare,
 };
 use body::RingBody;
 use points::{Points, beam_shapes, section_nodes};
