@@ -25,6 +25,7 @@ mod defect;
 mod document;
 mod error;
 mod fault;
+mod frf;
 mod housing;
 mod link;
 mod load;
@@ -56,6 +57,7 @@ pub use condense::{Condense, FixedInterfaceModes, Interface};
 pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};
+pub use frf::{Frf, Push};
 pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};
 pub use housing::{Integration, LinearElements, PlaneAssumption};
 pub use link::{Joint, Link};
@@ -109,6 +111,9 @@ pub struct Case {
     /// How the housing is condensed.
     #[serde(default)]
     pub condense: Condense,
+    /// Transfer paths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frf: Option<Frf>,
     /// What the signals must be good for; see [`Case::band_hz`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,

@@ -49,19 +49,7 @@ impl TryFrom<SensorForm> for Sensor {
     type Error = Mismatch;
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
-        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
-        let spots = [
-            form.group.map(SensorSpot::Group),
-            form.ring_deg.map(SensorSpot::RingDeg),
-            form.node.map(SensorSpot::Node),
-            form.point.map(SensorSpot::Point),
-        ];
-        let mut given = spots.into_iter().flatten();
-        let spot = match (given.next(), given.next()) {
-            (Some(spot), None) => spot,
-            (None, _) => return Err(Mismatch::form("none of them", ONE)),
-            _ => return Err(Mismatch::form("several", ONE)),
-        };
+        let spot = one_spot(form.group, form.ring_deg, form.node, form.point)?;
         Ok(Self {
             name: form.name,
             spot,
@@ -87,5 +75,27 @@ impl From<Sensor> for SensorForm {
             SensorSpot::Point(point) => form.point = Some(point),
         }
         form
+    }
+}
+
+/// The one place that was given.
+pub(super) fn one_spot(
+    group: Option<String>,
+    ring_deg: Option<f64>,
+    node: Option<u64>,
+    point: Option<[f64; 3]>,
+) -> Result<SensorSpot, Mismatch> {
+    const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+    let spots = [
+        group.map(SensorSpot::Group),
+        ring_deg.map(SensorSpot::RingDeg),
+        node.map(SensorSpot::Node),
+        point.map(SensorSpot::Point),
+    ];
+    let mut given = spots.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (Some(spot), None) => Ok(spot),
+        (None, _) => Err(Mismatch::form("none of them", ONE)),
+        _ => Err(Mismatch::form("several", ONE)),
     }
 }

@@ -11,8 +11,11 @@ use super::coupled_modes::reduced_matrices;
 use super::selection::{BasisChoice, choose_basis};
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
+use crate::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
 use crate::model::HousingPartition;
+
+/// Columns that are condensed at once.
+const BLOCK: usize = 64;
 
 /// A condensed housing with the way back to its nodes.
 #[derive(Debug, Clone)]
@@ -38,17 +41,22 @@ pub fn craig_bampton(
 ) -> Result<CraigBampton, ReductionError> {
     let substructure = Substructure::new(matrices, partition)?;
     let basis = choose_basis(&substructure, choice, attached)?;
-    Ok(CraigBampton::new(substructure, basis, &matrices.weight))
+    Ok(CraigBampton::new(substructure, basis, matrices))
 }
 
 impl CraigBampton {
-    /// The superelement of a basis; `weight` is that of the housing along the bearing's x and y [dof x 2], kg.
-    pub fn new(substructure: Substructure, basis: InteriorBasis, weight: &DenseMatrix) -> Self {
+    /// The superelement of a basis; `matrices` are those that the substructure was made of.
+    pub fn new(
+        substructure: Substructure,
+        basis: InteriorBasis,
+        matrices: &SystemMatrices,
+    ) -> Self {
         let [stiffness, mass] = reduced_matrices(&substructure, &basis, None);
         let superelement = Superelement {
             stiffness,
             mass,
             weight: DenseMatrix::zeros(0, 0),
+            structural: None,
             interface_dof: substructure.interface_dof(),
         };
         let mut condensed = Self {
@@ -56,7 +64,9 @@ impl CraigBampton {
             basis,
             superelement,
         };
-        condensed.superelement.weight = condensed.project(weight);
+        condensed.superelement.weight = condensed.project(&matrices.weight);
+        let structural = matrices.structural.as_ref();
+        condensed.superelement.structural = structural.map(|k| condensed.condensed(k));
         condensed
     }
 
@@ -82,6 +92,45 @@ impl CraigBampton {
                 Some(mode) => modal[(mode, column)],
             },
         )
+    }
+
+    /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
+    pub fn condensed(&self, matrix: &SparseMatrix) -> DenseMatrix {
+        let order = self.superelement.order();
+        let mut condensed = DenseMatrix::zeros(order, order);
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let unit = DenseMatrix::from_fn(order, width, |row, column| {
+                f64::from(u8::from(row == first + column))
+            });
+            let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
+            let block = self.project(&moved);
+            for column in 0..width {
+                condensed
+                    .col_as_slice_mut(first + column)
+                    .copy_from_slice(block.col_as_slice(column));
+            }
+        }
+        condensed
+    }
+
+    /// The same housing with further vectors in its basis: the static response of the interior to loads
+    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too.
+    ///
+    /// # Errors
+    /// As [`InteriorBasis::extended`].
+    pub fn with_loads(
+        self,
+        loads: &DenseMatrix,
+        matrices: &SystemMatrices,
+    ) -> Result<Self, ReductionError> {
+        let interior = &self.substructure.partition().interior;
+        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
+            loads[(interior[row], column)]
+        });
+        let static_response = self.substructure.solve_interior(inside)?;
+        let basis = self.basis.extended(&self.substructure, static_response)?;
+        Ok(Self::new(self.substructure, basis, matrices))
     }
 
     /// Estimated errors of the frequencies in a band, with what will be attached.

@@ -47,8 +47,20 @@ impl CondensedStage {
     /// # Errors
     /// [`StageError`] of mesh, model, ring, tie and reduction.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+        Self::with_basis(case, basis_choice(case), watch)
+    }
+
+    /// The same with another basis than the case asks for.
+    ///
+    /// # Errors
+    /// As [`CondensedStage::build`].
+    pub(super) fn with_basis(
+        case: &Case,
+        choice: BasisChoice,
+        watch: &impl Watch,
+    ) -> Result<Option<Self>, StageError> {
         match HousingStage::build(case, watch)? {
-            Some(housing) => Self::of(case, housing, watch),
+            Some(housing) => Self::of(case, housing, choice, watch),
             None => Ok(None),
         }
     }
@@ -56,6 +68,7 @@ impl CondensedStage {
     fn of(
         case: &Case,
         housing: HousingStage,
+        choice: BasisChoice,
         watch: &impl Watch,
     ) -> Result<Option<Self>, StageError> {
         let boundary = match (&case.condense.interface, &case.ring) {
@@ -79,7 +92,6 @@ impl CondensedStage {
             }
         };
         watch.stage("condense");
-        let choice = basis_choice(case);
         let condensed = craig_bampton(
             &boundary.matrices(&housing),
             boundary.partition(),
@@ -209,7 +221,7 @@ fn nodes_of(housing: &HousingStage, tags: &[u64]) -> Result<Vec<usize>, StageErr
 }
 
 /// The basis that a case asks for.
-fn basis_choice(case: &Case) -> BasisChoice {
+pub(super) fn basis_choice(case: &Case) -> BasisChoice {
     BasisChoice {
         size: match case.condense.fixed_interface_modes {
             FixedInterfaceModes::Count(count) => BasisSize::Count(count),

@@ -10,7 +10,9 @@ use crate::material::{MaterialError, SectionError};
 use crate::mesh::MeshError;
 use crate::modal::ModalError;
 use crate::model::{ModelError, RingError};
+use crate::linalg::HarmonicError;
 use crate::reduction::ReductionError;
+use crate::reduction::frf::FrfError;
 use crate::report::ReportError;
 use crate::series::SeriesError;
 use crate::signal::SignalError;
@@ -228,6 +230,12 @@ pub enum StageError {
     /// Craig-Bampton.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
+    /// Frequency responses.
+    #[error("frf: {0}")]
+    Frf(#[from] FrfError),
+    /// Harmonic response of the full model.
+    #[error("frf: {0}")]
+    Harmonic(#[from] HarmonicError),
     /// Coupling, equilibrium, linearisation.
     #[error(transparent)]
     System(#[from] SystemError),

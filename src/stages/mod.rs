@@ -16,6 +16,8 @@ mod drawing;
 mod energy_tables;
 mod error;
 mod free_system;
+mod frf;
+mod frf_report;
 #[cfg(test)]
 mod free_system_tests;
 mod housing;
@@ -48,6 +50,8 @@ pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use free_system::FreeSystem;
+pub use frf::{ComparedResponse, FrfResult, RankedPath, TransferPath, compute_frf};
+pub use frf_report::frf_report;
 pub use housing::HousingStage;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use mesh_digest::{MeshDigest, mesh_digests};
