@@ -84,8 +84,8 @@ mod tests {
         let exact = |row: usize| c64::new(row as f64 + 1.0, -0.5) * (1.0 / units[row]);
         let f = ComplexMatrix::from_fn(4, 1, |row, _| (0..4).map(|j| z[(row, j)] * exact(j)).sum());
         let found = complex_solve(&z, &f).expect("square");
-        for row in 0..4 {
-            let error = (found.x[(row, 0)] - exact(row)).norm() * units[row];
+        for (row, unit) in units.iter().enumerate() {
+            let error = (found.x[(row, 0)] - exact(row)).norm() * unit;
             // condition below 20
             assert!(error < 1e-13, "{row}: {error:e}");
         }
