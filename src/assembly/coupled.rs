@@ -103,11 +103,6 @@ impl CoupledMatrices {
 }
 
 impl CoupledMotions {
-    /// A matrix over the housing's degrees of freedom [housing dof x housing dof] in the coordinates [n x n].
-    pub fn of_housing(&self, matrix: &SparseMatrix) -> SparseMatrix {
-        congruence(matrix, &self.recovery)
-    }
-
     /// Displacements of the housing in the mesh's axes [housing dof x k] for coordinates x [n x k], tied nodes filled
     /// in.
     pub fn housing(&self, model: &HousingModel, x: &DenseMatrix) -> DenseMatrix {

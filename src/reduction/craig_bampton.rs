@@ -41,16 +41,12 @@ pub fn craig_bampton(
 ) -> Result<CraigBampton, ReductionError> {
     let substructure = Substructure::new(matrices, partition)?;
     let basis = choose_basis(&substructure, choice, attached)?;
-    Ok(CraigBampton::new(substructure, basis, matrices))
+    Ok(CraigBampton::new(substructure, basis, &matrices.weight))
 }
 
 impl CraigBampton {
-    /// The superelement of a basis; `matrices` are those that the substructure was made of.
-    pub fn new(
-        substructure: Substructure,
-        basis: InteriorBasis,
-        matrices: &SystemMatrices,
-    ) -> Self {
+    /// The superelement of a basis; `weight` is that of the housing along the bearing's x and y [dof x 2], kg.
+    pub fn new(substructure: Substructure, basis: InteriorBasis, weight: &DenseMatrix) -> Self {
         let [stiffness, mass] = reduced_matrices(&substructure, &basis, None);
         let superelement = Superelement {
             stiffness,
@@ -64,10 +60,14 @@ impl CraigBampton {
             basis,
             superelement,
         };
-        condensed.superelement.weight = condensed.project(&matrices.weight);
-        let structural = matrices.structural.as_ref();
-        condensed.superelement.structural = structural.map(|k| condensed.condensed(k));
+        condensed.superelement.weight = condensed.project(weight);
         condensed
+    }
+
+    /// The same with the imaginary part of the stiffness of lossy parts [dof x dof], N/m.
+    pub fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
+        self.superelement.structural = Some(self.condensed(matrix));
+        self
     }
 
     /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
@@ -115,14 +115,15 @@ impl CraigBampton {
     }
 
     /// The same housing with further vectors in its basis: the static response of the interior to loads
-    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too.
+    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too. Structural damping is to be added
+    /// again.
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
     pub fn with_loads(
         self,
         loads: &DenseMatrix,
-        matrices: &SystemMatrices,
+        weight: &DenseMatrix,
     ) -> Result<Self, ReductionError> {
         let interior = &self.substructure.partition().interior;
         let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
@@ -130,7 +131,7 @@ impl CraigBampton {
         });
         let static_response = self.substructure.solve_interior(inside)?;
         let basis = self.basis.extended(&self.substructure, static_response)?;
-        Ok(Self::new(self.substructure, basis, matrices))
+        Ok(Self::new(self.substructure, basis, weight))
     }
 
     /// Estimated errors of the frequencies in a band, with what will be attached.

@@ -3,7 +3,7 @@
 use super::free_system::{of_housing, of_ring};
 use super::structure::ring_and_tie;
 use super::{HousingStage, StageError, Watch};
-use crate::assembly::{CoupledMatrices, SystemMatrices};
+use crate::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::case::{Case, FixedInterfaceModes, Interface};
 use crate::exchange::DofLabel;
 use crate::linalg::{DenseMatrix, transpose_times_dense};
@@ -98,12 +98,36 @@ impl CondensedStage {
             choice,
             boundary.attached(),
         )?;
-        Ok(Some(Self {
+        let stage = Self {
             housing,
             boundary,
             choice,
             condensed,
-        }))
+        };
+        stage.with_structural().map(Some)
+    }
+
+    /// The stage with the loss factors of the parts in its superelement.
+    fn with_structural(mut self) -> Result<Self, StageError> {
+        if let Some(structural) = StructuralStiffness::assemble(&self.housing.model)? {
+            let structural = match self.boundary.ring() {
+                Some((_, tie)) => structural.for_tie(tie),
+                None => structural,
+            };
+            self.condensed = self.condensed.with_structural(structural.matrix());
+        }
+        Ok(self)
+    }
+
+    /// The same with a basis that is exact in statics for loads on the housing's degrees of freedom [dof x k], in the
+    /// displacements that the partition uses.
+    ///
+    /// # Errors
+    /// [`StageError::Reduction`].
+    pub(super) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, StageError> {
+        let weight = self.matrices().weight.clone();
+        self.condensed = self.condensed.with_loads(loads, &weight)?;
+        self.with_structural()
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.

@@ -4,6 +4,7 @@ use super::condensed::{CondensedStage, basis_choice};
 use super::damping::{modal_damping, viscous_matrix};
 use super::places::{Place, PlaceBodies};
 use super::{StageError, Watch};
+use crate::assembly::StructuralStiffness;
 use crate::case::{self, Case};
 use crate::linalg::{DenseMatrix, HarmonicDamping, HarmonicProblem, complex_columns};
 use crate::reduction::frf::{
@@ -113,7 +114,11 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
     }
     for (index, variant) in cases.iter().enumerate() {
         watch.fraction(index as f64 / cases.len() as f64);
-        let asked = variant.case.frf.as_ref().ok_or(StageError::NothingToCondense)?;
+        let asked = variant
+            .case
+            .frf
+            .as_ref()
+            .ok_or(StageError::NothingToCondense)?;
         let other = Reduced::build(&variant.case, asked, &super::Unwatched)?;
         let response = direct_response(&other.system, &other.paths, &other.frequencies_hz)?;
         others.push((variant.what.clone(), response));
@@ -151,7 +156,7 @@ impl Reduced {
             .unwrap_or([0.0, basis_choice(case).band_hz]);
         let damping = modal_damping(case)?;
         let choice = choice(case, &damping, band_hz);
-        let mut stage = CondensedStage::with_basis(case, choice, watch)?
+        let stage = CondensedStage::with_basis(case, choice, watch)?
             .ok_or(StageError::NothingToCondense)?;
         let sensors = sensors(case, asked);
         let ring = stage.boundary.ring();
@@ -171,10 +176,13 @@ impl Reduced {
             .collect::<Result<Vec<_>, _>>()?;
         // static response to every force and, as the path back is the same, to a force at every sensor
         let dof = stage.housing.model.dof();
-        let all: Vec<Vec<f64>> = from.iter().chain(&to).map(|at| at.on_housing(dof)).collect();
+        let all: Vec<Vec<f64>> = from
+            .iter()
+            .chain(&to)
+            .map(|at| at.on_housing(dof))
+            .collect();
         let loads = DenseMatrix::from_fn(dof, all.len(), |row, column| all[column][row]);
-        let matrices = stage.matrices().into_owned();
-        stage.condensed = stage.condensed.with_loads(&loads, &matrices)?;
+        let stage = stage.with_loads(&loads)?;
         let (system, basis) = system(case, &stage)?;
         let order = system.order();
         let rows: Vec<Vec<f64>> = from.iter().map(|at| at.reduced(&stage.condensed)).collect();
@@ -183,7 +191,13 @@ impl Reduced {
             loads: DenseMatrix::from_fn(order, rows.len(), |row, load| rows[load][row]),
             sensors: DenseMatrix::from_fn(seen.len(), order, |sensor, row| seen[sensor][row]),
         };
-        let superposition = ModalSuperposition::new(&system, &basis, &paths, basis.frequencies_hz().len(), &NO_MORE)?;
+        let superposition = ModalSuperposition::new(
+            &system,
+            &basis,
+            &paths,
+            basis.frequencies_hz().len(),
+            &NO_MORE,
+        )?;
         let resonances: Vec<Resonance> = basis
             .frequencies_hz()
             .iter()
@@ -325,8 +339,8 @@ fn compare(
     };
     watch.stage("full model");
     let coupled = stage.full_matrices();
-    let structural = stage.housing.matrices.structural.as_ref();
-    let structural = structural.map(|k| coupled.motions.of_housing(k));
+    let structural = StructuralStiffness::assemble(&stage.housing.model)?;
+    let structural = structural.map(|k| coupled.motions.congruent(k.matrix()));
     let damping = HarmonicDamping {
         alpha,
         beta,
@@ -336,7 +350,9 @@ fn compare(
     let free = &coupled.free_dofs;
     let problem = HarmonicProblem::restricted(&coupled.stiffness, &coupled.mass, &damping, free)?;
     let rows = |places: &[Place]| -> Vec<Vec<f64>> {
-        let whole = places.iter().map(|place| place.full(&stage.boundary, &coupled));
+        let whole = places
+            .iter()
+            .map(|place| place.full(&stage.boundary, &coupled));
         whole
             .map(|row| free.iter().map(|&dof| row[dof]).collect())
             .collect()
@@ -411,11 +427,18 @@ fn rank(
             .map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm())
             .collect()
     };
-    let all = || std::iter::once(("as given", own)).chain(others.iter().map(|(what, response)| (what.as_str(), response)));
+    let all = || {
+        std::iter::once(("as given", own)).chain(
+            others
+                .iter()
+                .map(|(what, response)| (what.as_str(), response)),
+        )
+    };
     let mut ranking = Vec::with_capacity(paths.len());
     for (path, transfer) in paths.iter().enumerate() {
-        let magnitudes: Vec<Vec<f64>> =
-            all().map(|(_, response)| accelerance(response, transfer.place)).collect();
+        let magnitudes: Vec<Vec<f64>> = all()
+            .map(|(_, response)| accelerance(response, transfer.place))
+            .collect();
         let variants: Vec<BandVariant<'_>> = all()
             .zip(&magnitudes)
             .map(|((name, response), magnitudes)| BandVariant {

@@ -16,10 +16,10 @@ mod drawing;
 mod energy_tables;
 mod error;
 mod free_system;
-mod frf;
-mod frf_report;
 #[cfg(test)]
 mod free_system_tests;
+mod frf;
+mod frf_report;
 mod housing;
 mod inspect;
 mod mesh_digest;

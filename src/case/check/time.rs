@@ -4,7 +4,8 @@ use super::super::{
     Case, Damping, FixedInterfaceModes, Interface, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio, share, zero_or_more,
+    above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
+    share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 
