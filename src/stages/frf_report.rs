@@ -81,25 +81,29 @@ fn model(result: &FrfResult) -> Section {
 
 fn of_path(result: &FrfResult, path: &TransferPath) -> Result<Section, StageError> {
     let (sensor, load) = path.place;
-    let hz = result.response.frequencies_hz().to_vec();
+    let all = result.response.frequencies_hz();
     let accelerance = result
         .response
         .path(sensor, load, FrfQuantity::Accelerance)?;
-    let curve =
-        |name: &str, values: Vec<f64>| Curve::new(name, Abscissa::Points(hz.clone()), values);
+    // at rest there is no acceleration, and no logarithm of it
+    let moving = || {
+        let pairs = all.iter().zip(&accelerance);
+        pairs.filter(|(_, h)| h.norm() > 0.0)
+    };
+    let curve = |values: Vec<f64>| {
+        let hz = moving().map(|(hz, _)| *hz).collect();
+        Curve::new("reduced", Abscissa::Points(hz), values)
+    };
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
-    let smallest = f64::MIN_POSITIVE;
-    let magnitude = accelerance.iter().map(|h| h.norm().max(smallest)).collect();
-    let phase = accelerance.iter().map(|h| h.arg().to_degrees()).collect();
     let magnitude = Plot::new(
         "Accelerance, magnitude",
         frequency(),
         Axis::new("Acceleration over force", "1/kg").log(),
     )
-    .curve(curve("reduced", magnitude));
+    .curve(curve(moving().map(|(_, h)| h.norm()).collect()));
     let phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
-        .curve(curve("reduced", phase));
+        .curve(curve(moving().map(|(_, h)| h.arg().to_degrees()).collect()));
     let mut table = Table::new(
         format!("What carries the path from {} to {}", path.from, path.to),
         [
