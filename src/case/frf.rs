@@ -60,12 +60,20 @@ impl TryFrom<PushForm> for Push {
     type Error = Mismatch;
 
     fn try_from(form: PushForm) -> Result<Self, Mismatch> {
-        let spot = one_spot(form.group, form.ring_deg, form.node, form.point)?;
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+        ];
+        let spot = one_spot(spots, ONE)?;
         let name = form.name.unwrap_or_else(|| match &spot {
             SensorSpot::Group(group) => group.clone(),
             SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
             SensorSpot::Node(tag) => format!("node {tag}"),
             SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
+            SensorSpot::Recovered(row) => row.clone(),
         });
         Ok(Self {
             name,
@@ -90,6 +98,8 @@ impl From<Push> for PushForm {
             SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
             SensorSpot::Node(tag) => form.node = Some(tag),
             SensorSpot::Point(point) => form.point = Some(point),
+            // a force acts on a place, never on a row of a file: no form makes one
+            SensorSpot::Recovered(_) => {}
         }
         form
     }

@@ -11,7 +11,8 @@ pub struct Sensor {
     pub name: String,
     /// Where it stands.
     pub spot: SensorSpot,
-    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
+    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero; zero for
+    /// [`SensorSpot::Recovered`], whose row has a direction of its own.
     pub direction: [f64; 3],
 }
 
@@ -26,6 +27,8 @@ pub enum SensorSpot {
     Node(u64),
     /// The mesh's node nearest to this point, in m.
     Point([f64; 3]),
+    /// What a row of the superelement's sensors gives, by name.
+    Recovered(String),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -40,7 +43,10 @@ struct SensorForm {
     node: Option<u64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
-    direction: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recovered: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    direction: Option<[f64; 3]>,
 }
 
 written_as!(Sensor, SensorForm);
@@ -49,11 +55,32 @@ impl TryFrom<SensorForm> for Sensor {
     type Error = Mismatch;
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
-        let spot = one_spot(form.group, form.ring_deg, form.node, form.point)?;
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
+        let spot = one_spot(
+            [
+                form.group.map(SensorSpot::Group),
+                form.ring_deg.map(SensorSpot::RingDeg),
+                form.node.map(SensorSpot::Node),
+                form.point.map(SensorSpot::Point),
+                form.recovered.map(SensorSpot::Recovered),
+            ],
+            ONE,
+        )?;
+        let direction = match (&spot, form.direction) {
+            (SensorSpot::Recovered(_), None) => [0.0; 3],
+            (SensorSpot::Recovered(_), Some(_)) => {
+                return Err(Mismatch::form(
+                    "`direction` beside `recovered`",
+                    "`recovered` alone: its row has a direction",
+                ));
+            }
+            (_, Some(direction)) => direction,
+            (_, None) => return Err(Mismatch::Missing { key: "direction" }),
+        };
         Ok(Self {
             name: form.name,
             spot,
-            direction: form.direction,
+            direction,
         })
     }
 }
@@ -66,36 +93,31 @@ impl From<Sensor> for SensorForm {
             ring_deg: None,
             node: None,
             point: None,
-            direction: sensor.direction,
+            recovered: None,
+            direction: Some(sensor.direction),
         };
         match sensor.spot {
             SensorSpot::Group(group) => form.group = Some(group),
             SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
             SensorSpot::Node(tag) => form.node = Some(tag),
             SensorSpot::Point(point) => form.point = Some(point),
+            SensorSpot::Recovered(row) => {
+                (form.recovered, form.direction) = (Some(row), None);
+            }
         }
         form
     }
 }
 
 /// The one place that was given.
-pub(super) fn one_spot(
-    group: Option<String>,
-    ring_deg: Option<f64>,
-    node: Option<u64>,
-    point: Option<[f64; 3]>,
+pub(super) fn one_spot<const N: usize>(
+    spots: [Option<SensorSpot>; N],
+    expected: &'static str,
 ) -> Result<SensorSpot, Mismatch> {
-    const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
-    let spots = [
-        group.map(SensorSpot::Group),
-        ring_deg.map(SensorSpot::RingDeg),
-        node.map(SensorSpot::Node),
-        point.map(SensorSpot::Point),
-    ];
     let mut given = spots.into_iter().flatten();
     match (given.next(), given.next()) {
         (Some(spot), None) => Ok(spot),
-        (None, _) => Err(Mismatch::form("none of them", ONE)),
-        _ => Err(Mismatch::form("several", ONE)),
+        (None, _) => Err(Mismatch::form("none of them", expected)),
+        _ => Err(Mismatch::form("several", expected)),
     }
 }
