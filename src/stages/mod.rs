@@ -23,6 +23,7 @@ mod frf_report;
 mod housing;
 mod import_error;
 mod imported;
+mod imported_report;
 #[cfg(test)]
 mod imported_tests;
 mod inspect;
@@ -59,6 +60,7 @@ pub use frf_report::frf_report;
 pub use housing::HousingStage;
 pub use import_error::ImportError;
 pub use imported::ImportedHousing;
+pub use imported_report::imported_report;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;
