@@ -94,7 +94,13 @@ mod tests {
 
     #[test]
     fn a_singular_matrix_is_uncertain() {
-        for (corner, limits) in [(4.0, [1e-3, f64::INFINITY]), (4.01, [0.0, 1e-12])] {
+        // exactly singular; with a condition of 1e14 round-off takes most of sixteen digits; regular
+        let cases = [
+            (4.0, [1e-3, f64::INFINITY]),
+            (4.0 + 1e-13, [1e-6, 1.0]),
+            (4.01, [0.0, 1e-12]),
+        ];
+        for (corner, limits) in cases {
             let z = ComplexMatrix::from_fn(2, 2, |i, j| {
                 c64::new([[1.0, 2.0], [2.0, corner]][i][j], 0.0)
             });
