@@ -164,6 +164,7 @@ impl Reduced {
             housing: Some(&stage.housing),
             ring: ring.map(|(ring, _)| ring),
             tie: ring.map(|(_, tie)| tie),
+            frame: *stage.housing.model.frame(),
         };
         let from = asked
             .from
