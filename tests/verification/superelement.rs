@@ -70,7 +70,7 @@ fn interface_nodes() -> Vec<u64> {
             let [x, y, z] = housing.mesh.nodes[*place];
             (x - 6e-3 * cos).powi(2) + (y - 6e-3 * sin).powi(2) + z * z
         };
-        let tags = &housing.model.node_tags;
+        let tags = &housing.mesh.node_tags;
         let others = (0..housing.mesh.nodes.len()).filter(|&place| !nodes.contains(&tags[place]));
         let nearest = others
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
