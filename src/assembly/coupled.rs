@@ -27,6 +27,7 @@ pub struct CoupledMotions {
     /// Housing displacements in the mesh's axes from all coordinates [housing dof x n].
     recovery: SparseMatrix,
     housing_dof: usize,
+    ring_dof: usize,
 }
 
 impl CoupledMatrices {
@@ -68,6 +69,7 @@ impl CoupledMatrices {
             motions: CoupledMotions {
                 recovery,
                 housing_dof,
+                ring_dof: ring.dof(),
             },
         }
     }
@@ -83,20 +85,28 @@ impl CoupledMatrices {
             motions: CoupledMotions {
                 recovery: SparseMatrix::eye_csc(model.dof()),
                 housing_dof: model.dof(),
+                ring_dof: 0,
             },
         }
     }
 
     /// A ring alone.
     pub fn of_ring(ring: &Ring) -> Self {
-        let order = ring.dof();
+        Self::of_condensed(ring.stiffness(), ring.mass(), ring.dof())
+    }
+
+    /// A ring in a housing that is condensed already: stiffness and mass [n x n] over the ring's displacements, then
+    /// over amplitudes of the housing's modes. Nothing of the housing can be recovered.
+    pub fn of_condensed(stiffness: &DenseMatrix, mass: &DenseMatrix, ring_dof: usize) -> Self {
+        let order = stiffness.nrows();
         Self {
-            stiffness: placed(ring.stiffness(), 0, order),
-            mass: placed(ring.mass(), 0, order),
+            stiffness: placed(stiffness, 0, order),
+            mass: placed(mass, 0, order),
             free_dofs: (0..order).collect(),
             motions: CoupledMotions {
                 recovery: TripletBuilder::new(0, order).build(),
                 housing_dof: 0,
+                ring_dof,
             },
         }
     }
@@ -121,8 +131,8 @@ impl CoupledMotions {
 
     /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
     pub fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
-        let rows = x.nrows() - self.housing_dof;
-        x.submatrix(self.housing_dof, 0, rows, x.ncols()).to_owned()
+        x.submatrix(self.housing_dof, 0, self.ring_dof, x.ncols())
+            .to_owned()
     }
 
     /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the ring

@@ -10,32 +10,25 @@ use super::link::Link;
 use super::union::{Mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Housing {
     /// Mesh file. Relative paths in a case file are relative to that file; here they are resolved.
     pub mesh: PathBuf,
     /// Unit of the mesh's coordinates.
     pub length_unit: LengthUnit,
     /// How a plane mesh stands for a solid; `None` for a mesh of solids.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<Plane>,
     /// Integration of the stiffness of ten-noded tetrahedra.
-    #[serde(default)]
     pub integration: Integration,
     /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
-    #[serde(default)]
     pub linear: LinearElements,
     /// Which group is made of what; at least one.
     pub parts: Vec<Part>,
     /// What holds the housing; may be empty.
-    #[serde(default)]
     pub supports: Vec<Support>,
     /// Masses without size, each spread over a group; may be empty.
-    #[serde(default)]
     pub masses: Vec<PointMass>,
     /// Connections between its groups; may be empty.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<Link>,
 }
 

@@ -8,7 +8,7 @@ use super::check::{BrokenRule, groups_of};
 use super::document::{Document, Source};
 use super::error::{CaseError, Place};
 use super::nearest::Choices;
-use super::{Case, Interface, Linearise, material, unsupported};
+use super::{Case, HousingSource, Interface, Linearise, material, unsupported};
 
 /// What a case is to be used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,10 +86,10 @@ impl Case {
 
     /// Every file that the case names.
     fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
-        let mesh = self.housing.iter_mut().map(|housing| &mut housing.mesh);
+        let housing = self.housing.iter_mut().map(HousingSource::path_mut);
         let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
         let meshes = self.modes.convergence.iter_mut();
-        mesh.chain(compared)
+        housing.chain(compared)
             .chain(meshes.flat_map(|convergence| &mut convergence.meshes))
     }
 
@@ -145,7 +145,9 @@ impl Case {
             .ring
             .as_ref()
             .is_some_and(|ring| !ring.supports.is_empty())
-            || (self.housing.as_ref()).is_some_and(|housing| !housing.supports.is_empty());
+            || (self.meshed_housing()).is_some_and(|housing| !housing.supports.is_empty())
+            // what holds it is in its stiffness
+            || self.superelement().is_some();
         let equilibrium = ("a support in [housing] or [ring]", held);
         let tied = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
         let (needed_by, needed) = match purpose {
@@ -155,7 +157,8 @@ impl Case {
                     ("[housing]", self.housing.is_some()),
                     (
                         "ring.tie, or condense.interface = { group = \"NAME\" }",
-                        tied || self.condense.interface != Interface::Ring,
+                        tied || self.superelement().is_some()
+                            || self.condense.interface != Interface::Ring,
                     ),
                 ],
             ),

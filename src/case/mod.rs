@@ -26,6 +26,7 @@ mod document;
 mod error;
 mod fault;
 mod housing;
+mod housing_source;
 mod link;
 mod load;
 mod material;
@@ -58,6 +59,7 @@ pub use document::Source;
 pub use error::{CaseError, Place};
 pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};
 pub use housing::{Integration, LinearElements, PlaneAssumption};
+pub use housing_source::HousingSource;
 pub use link::{Joint, Link};
 pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
@@ -84,7 +86,7 @@ pub struct Case {
     pub materials: BTreeMap<String, Material>,
     /// The housing; `None`: the ring on its springs alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub housing: Option<Housing>,
+    pub housing: Option<HousingSource>,
     /// The ring; `None`: the housing alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ring: Option<Ring>,

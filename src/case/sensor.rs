@@ -11,7 +11,8 @@ pub struct Sensor {
     pub name: String,
     /// Where it stands.
     pub spot: SensorSpot,
-    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
+    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero; zero for
+    /// [`SensorSpot::Recovered`], whose row has a direction of its own.
     pub direction: [f64; 3],
 }
 
@@ -26,6 +27,8 @@ pub enum SensorSpot {
     Node(u64),
     /// The mesh's node nearest to this point, in m.
     Point([f64; 3]),
+    /// What a row of the superelement's sensors gives, by name.
+    Recovered(String),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -40,7 +43,10 @@ struct SensorForm {
     node: Option<u64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
-    direction: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recovered: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    direction: Option<[f64; 3]>,
 }
 
 written_as!(Sensor, SensorForm);
@@ -49,12 +55,13 @@ impl TryFrom<SensorForm> for Sensor {
     type Error = Mismatch;
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
-        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
         let spots = [
             form.group.map(SensorSpot::Group),
             form.ring_deg.map(SensorSpot::RingDeg),
             form.node.map(SensorSpot::Node),
             form.point.map(SensorSpot::Point),
+            form.recovered.map(SensorSpot::Recovered),
         ];
         let mut given = spots.into_iter().flatten();
         let spot = match (given.next(), given.next()) {
@@ -62,10 +69,21 @@ impl TryFrom<SensorForm> for Sensor {
             (None, _) => return Err(Mismatch::form("none of them", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
+        let direction = match (&spot, form.direction) {
+            (SensorSpot::Recovered(_), None) => [0.0; 3],
+            (SensorSpot::Recovered(_), Some(_)) => {
+                return Err(Mismatch::form(
+                    "`direction` beside `recovered`",
+                    "`recovered` alone: its row has a direction",
+                ));
+            }
+            (_, Some(direction)) => direction,
+            (_, None) => return Err(Mismatch::Missing { key: "direction" }),
+        };
         Ok(Self {
             name: form.name,
             spot,
-            direction: form.direction,
+            direction,
         })
     }
 }
@@ -78,13 +96,17 @@ impl From<Sensor> for SensorForm {
             ring_deg: None,
             node: None,
             point: None,
-            direction: sensor.direction,
+            recovered: None,
+            direction: Some(sensor.direction),
         };
         match sensor.spot {
             SensorSpot::Group(group) => form.group = Some(group),
             SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
             SensorSpot::Node(tag) => form.node = Some(tag),
             SensorSpot::Point(point) => form.point = Some(point),
+            SensorSpot::Recovered(row) => {
+                (form.recovered, form.direction) = (Some(row), None);
+            }
         }
         form
     }

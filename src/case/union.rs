@@ -20,6 +20,8 @@ pub(super) enum Mismatch {
         found: String,
         valid: &'static [&'static str],
     },
+    /// A key that this combination needs.
+    Missing { key: &'static str },
 }
 
 impl Mismatch {
@@ -36,6 +38,7 @@ impl Mismatch {
                 E::invalid_value(Unexpected::Other(&found), &expected)
             }
             Self::Word { found, valid } => E::unknown_variant(&found, valid),
+            Self::Missing { key } => E::missing_field(key),
         }
     }
 }

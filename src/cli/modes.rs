@@ -49,10 +49,16 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
 fn summary(result: &ModesResult) -> String {
     let survey = &result.survey;
     let check = survey.basis.count_check;
-    let mut lines = vec![format!(
-        "{} degrees of freedom, {} rigid modes, {:.6e} kg",
-        survey.dof, survey.basis.rigid_modes, survey.mass.mass
-    )];
+    let mut first = format!(
+        "{} degrees of freedom, {} rigid modes",
+        survey.dof, survey.basis.rigid_modes
+    );
+    if let Some(mass) = &survey.mass {
+        first.push_str(&format!(", {:.6e} kg", mass.mass));
+    }
+    let mut lines = vec![first];
+    let imported = result.structure.iter().flat_map(|stage| &stage.imported);
+    lines.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     lines.push(match check.above_hz {
         Some(above) => format!(
             "between {above:.2} and {:.2} Hz: {} modes counted, {} found",

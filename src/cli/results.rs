@@ -7,7 +7,7 @@ use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
 use crate::reduction::Bound;
 use crate::stages::{
-    CondenseResult, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError,
+    CondenseResult, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError, StructureStage,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -102,6 +102,7 @@ pub(super) fn run_json(
             })),
             "envelope_peaks": window.peaks,
         })).collect::<Vec<_>>(),
+        "superelement": imported(&result.stage),
         "not_analysed": result.not_analysed,
     });
     extend(&mut map, fields);
@@ -119,12 +120,12 @@ pub(super) fn modes_json(
     let mut map = common("modes", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), json!(files.tables));
     let survey = &result.survey;
-    let basis = &survey.basis;
+    let (basis, found) = (&survey.basis, survey.participation.as_ref());
     let fields = json!({
         "dof": survey.dof,
         "free_dof": survey.free_dof,
-        "mass_kg": survey.mass.mass,
-        "centroid_m": survey.mass.centroid(),
+        "mass_kg": survey.mass.as_ref().map(|mass| mass.mass),
+        "centroid_m": survey.mass.as_ref().map(|mass| mass.centroid()),
         "mass": survey.mass,
         "frequencies_hz": result.base.unloaded_hz,
         "error_bounds_hz": basis.error_bounds_hz,
@@ -139,13 +140,14 @@ pub(super) fn modes_json(
             "iterate": basis.times.iterate,
             "count": basis.times.count,
         },
-        "participation_factors": matrix(&survey.participation.factors),
-        "effective_mass": matrix(&survey.participation.effective),
-        "effective_mass_sum": survey.participation.sums,
-        "effective_mass_total": survey.participation.totals,
+        "participation_factors": found.map(|found| matrix(&found.factors)),
+        "effective_mass": found.map(|found| matrix(&found.effective)),
+        "effective_mass_sum": found.map(|found| &found.sums),
+        "effective_mass_total": found.map(|found| &found.totals),
         "energy_shares": survey.shares,
         "free_motions": survey.mechanisms,
         "condensation_difference": result.base.condensation_difference,
+        "superelement": result.structure.as_ref().and_then(|stage| imported(stage)),
         "loaded": loaded(&result.base),
         "expected": result.base.expected,
         "comparisons": result.comparisons,
@@ -209,6 +211,17 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
         }),
     );
     map
+}
+
+/// What a result says of a superelement from a file.
+fn imported(stage: &StructureStage) -> Option<Value> {
+    let imported = stage.imported.as_ref()?;
+    Some(json!({
+        "path": imported.path,
+        "interface_dof": imported.element.interface_dof,
+        "modes": imported.element.modal_dof(),
+        "notes": imported.notes,
+    }))
 }
 
 /// Rows of a matrix.

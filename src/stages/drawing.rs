@@ -189,6 +189,8 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 let [x, y] = [0, 1].map(|k| housing.model.ring_coordinates(node)[k]);
                 Some(Point { x, y })
             }),
+            // a row does not say where it is
+            SensorSpot::Recovered(_) => None,
             SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
                 let nodes = &housing.mesh.group(group).ok()?.nodes;
                 let mean = |k: usize| {
@@ -204,8 +206,7 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
                 })
             }),
         };
-        let frame = stage.housing.as_ref().map(|housing| housing.model.frame());
-        let [x, y, _] = frame.map_or(sensor.direction, |frame| frame.vector(sensor.direction));
+        let [x, y, _] = stage.frame().vector(sensor.direction);
         let size = sensor
             .direction
             .iter()

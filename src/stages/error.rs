@@ -2,6 +2,7 @@
 
 use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
+use super::ImportError;
 use crate::case::CaseError;
 use crate::element::ElementError;
 use crate::exchange::{CsvError, NpzError, ReadModesError};
@@ -225,6 +226,14 @@ pub enum StageError {
         /// Whether the mesh has it.
         in_mesh: bool,
     },
+    /// A superelement that cannot take the housing's place.
+    #[error("housing.superelement: {}: {source}", path.display())]
+    Import {
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<ImportError>,
+    },
     /// Craig-Bampton.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
@@ -257,6 +266,7 @@ impl StageError {
         match self {
             Self::Case(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
+            Self::Import { source, .. } => source.help(),
             Self::ModeShapes(ReadModesError::Csv(CsvError::Content { .. })) => Some(
                 "frequencies without shapes are checked by `modes.expected` in the case file".to_owned(),
             ),

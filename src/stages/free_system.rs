@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 
 use super::modal_system::Bodies;
-use super::{StageError, Watch};
+use super::{ImportedHousing, StageError, Watch};
+use crate::assembly::CoupledMatrices;
 use crate::case::Case;
 use crate::exchange::{DofBody, DofDirection, DofLabel};
 use crate::linalg::{SparseMatrix, submatrix};
 use crate::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::system::Structure;
 
 /// `K x = (2 pi f)^2 M x` of a housing, of a ring, or of both coupled in full (nothing condensed); its f are the case's
 /// eigenfrequencies.
@@ -29,6 +31,24 @@ impl FreeSystem {
     /// # Errors
     /// [`StageError`] of mesh, model, elements, ring and tie.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+        if let Some(path) = case.superelement()
+            && let Some(asked) = &case.ring
+        {
+            watch.stage("read");
+            let (imported, ring) = ImportedHousing::read(case, asked, path)?;
+            imported.accept()?;
+            let structure = Structure::with_housing(ring, &imported.element, [0.0; 2])?;
+            let (k, m) = (structure.stiffness(), structure.mass());
+            let matrices = CoupledMatrices::of_condensed(k, m, structure.ring().dof());
+            let modes = (0..imported.element.modal_dof() as u64).map(DofLabel::modal);
+            let mut rows = of_ring(structure.ring(), &imported.frame);
+            rows.extend(modes);
+            return Ok(Self {
+                stiffness: matrices.stiffness,
+                mass: matrices.mass,
+                rows,
+            });
+        }
         let (bodies, matrices) = Bodies::assemble(case, watch)?;
         let mut labels = Vec::with_capacity(matrices.mass.rows());
         if let Some((_, model)) = &bodies.housing {

@@ -29,7 +29,7 @@ impl HousingStage {
     /// # Errors
     /// [`StageError`] of mesh, model and elements.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
-        let Some(housing) = &case.housing else {
+        let Some(housing) = case.meshed_housing() else {
             return Ok(None);
         };
         watch.stage("read");

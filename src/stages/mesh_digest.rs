@@ -59,7 +59,8 @@ impl From<&MeshDigest> for MeshFile {
     }
 }
 
-/// The meshes of a case, of its variants and of its mesh convergence, each once.
+/// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a
+/// mesh.
 ///
 /// # Errors
 /// [`StageError::Mesh`] for a file that cannot be read, [`StageError::Case`] for a variant that is no case.
@@ -69,9 +70,10 @@ pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, StageError> {
     let housings = cases.filter_map(|case| case.housing.as_ref());
     let others = case.modes.convergence.iter();
     let others = others.flat_map(|convergence| &convergence.meshes);
+    let others = others.map(PathBuf::as_path);
     let mut paths: Vec<&Path> = Vec::new();
-    for path in housings.map(|housing| &housing.mesh).chain(others) {
-        if !paths.contains(&path.as_path()) {
+    for path in housings.map(|housing| housing.path()).chain(others) {
+        if !paths.contains(&path) {
             paths.push(path);
         }
     }

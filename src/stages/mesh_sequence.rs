@@ -3,7 +3,7 @@
 use super::inspect::{elements_of, size};
 use super::modal_system::{Bodies, FullModes};
 use super::{StageError, Unwatched};
-use crate::case::{Case, ModeExtent};
+use crate::case::{Case, HousingSource, ModeExtent};
 use crate::mesh::{ElementKind, Mesh};
 use crate::modal::{MeshLevels, ModeSet};
 use std::path::PathBuf;
@@ -42,7 +42,7 @@ impl MeshSequence {
     /// [`StageError::OtherMesh`] for one that cannot be read, lacks a group or is of another body;
     /// [`StageError::Sequence`] for sizes that are too near to each other.
     pub fn read(case: &Case) -> Result<Option<Self>, StageError> {
-        let (Some(asked), Some(housing)) = (&case.modes.convergence, &case.housing) else {
+        let (Some(asked), Some(housing)) = (&case.modes.convergence, case.meshed_housing()) else {
             return Ok(None);
         };
         let mut levels = vec![Level::read(case, housing.mesh.clone())?];
@@ -102,7 +102,7 @@ impl Level {
     fn read(case: &Case, path: PathBuf) -> Result<Self, StageError> {
         let other = on_mesh(case, path);
         // a case without a housing has no sequence
-        let Some(housing) = &other.housing else {
+        let Some(housing) = other.meshed_housing() else {
             return Ok(Self {
                 mesh: PathBuf::new(),
                 elements: 0,
@@ -147,7 +147,7 @@ impl Level {
 
 fn on_mesh(case: &Case, path: PathBuf) -> Case {
     let mut other = case.clone();
-    if let Some(housing) = &mut other.housing {
+    if let Some(HousingSource::Mesh(housing)) = &mut other.housing {
         housing.mesh = path;
     }
     other

@@ -19,6 +19,10 @@ mod free_system;
 #[cfg(test)]
 mod free_system_tests;
 mod housing;
+mod import_error;
+mod imported;
+#[cfg(test)]
+mod imported_tests;
 mod inspect;
 mod mesh_digest;
 mod mesh_sequence;
@@ -49,6 +53,8 @@ pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use free_system::FreeSystem;
 pub use housing::HousingStage;
+pub use import_error::ImportError;
+pub use imported::ImportedHousing;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;

@@ -185,16 +185,24 @@ pub(super) fn unloaded_modes(
     stage: &StructureStage,
     extent: ModeExtent,
 ) -> Result<UnloadedModes, StageError> {
-    let ring = stage.structure.ring();
-    let matrices = match (&stage.housing, &stage.tie) {
-        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
-        _ => CoupledMatrices::of_ring(ring),
-    };
-    let basis = FullModes::of(matrices, extent, &Unwatched)?.basis;
+    let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
     Ok(UnloadedModes {
         frequencies_hz: basis.frequencies_hz,
         rigid: basis.rigid_modes,
     })
+}
+
+/// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
+pub(super) fn matrices_of(stage: &StructureStage) -> CoupledMatrices {
+    let structure = &stage.structure;
+    let ring = structure.ring();
+    match (&stage.housing, &stage.tie) {
+        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
+        _ if stage.imported.is_some() => {
+            CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
+        }
+        _ => CoupledMatrices::of_ring(ring),
+    }
 }
 
 /// Frequencies of a model in full.

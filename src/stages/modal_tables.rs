@@ -3,7 +3,7 @@
 use super::shape_view::shown_places;
 use super::{ModalSurvey, ModesResult};
 use crate::case::{Case, Material};
-use crate::modal::MassDistribution;
+use crate::modal::{MassDistribution, MassProperties, Participation};
 use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, significant};
 
 /// Direction of a column of a participation, by the number of columns.
@@ -73,8 +73,7 @@ pub(super) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
 }
 
 /// Mass, centroid, inertia.
-pub(super) fn mass_facts(survey: &ModalSurvey) -> Vec<Fact> {
-    let mass = &survey.mass;
+pub(super) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
     let millimetres = |values: &[f64]| {
         let texts: Vec<String> = values
             .iter()
@@ -135,7 +134,7 @@ pub(super) fn material_table(case: &Case) -> Table {
             Column::number("Density", "kg/m^3"),
         ],
     );
-    let parts = case.housing.iter().flat_map(|housing| &housing.parts);
+    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
     let parts = parts.map(|part| (part.group.clone(), part.material.clone()));
     let layers = case.ring.iter().flat_map(|ring| &ring.sections);
     let layers = layers.map(|layer| ("ring".to_owned(), layer.material.clone()));
@@ -169,8 +168,7 @@ pub(super) fn material_table(case: &Case) -> Table {
 }
 
 /// Effective mass of every mode along every direction, in per cent of the whole.
-pub(super) fn effective_mass_table(survey: &ModalSurvey) -> Table {
-    let found = &survey.participation;
+pub(super) fn effective_mass_table(survey: &ModalSurvey, found: &Participation) -> Table {
     let names = directions(found.totals.len());
     let mut columns = vec![
         Column::number("Mode", ""),
@@ -200,8 +198,7 @@ pub(super) fn effective_mass_table(survey: &ModalSurvey) -> Table {
 }
 
 /// Effective masses of the translations as a chart.
-pub(super) fn effective_mass_bars(survey: &ModalSurvey) -> Bars {
-    let found = &survey.participation;
+pub(super) fn effective_mass_bars(survey: &ModalSurvey, found: &Participation) -> Bars {
     let names = directions(found.totals.len());
     let translations = if names.len() == 3 { 2 } else { 3 };
     let count = survey.basis.count();

@@ -32,10 +32,13 @@ pub fn modes_report(
     report = report
         .section(purpose(result))
         .section(model(case, result, &view)?);
-    let mass = Section::new("Mass properties")
-        .paragraph("From the mass matrix itself, point masses included.")
-        .facts(mass_facts(&result.survey));
-    report = report.section(mass).section(frequencies(result));
+    if let Some(mass) = &result.survey.mass {
+        let section = Section::new("Mass properties")
+            .paragraph("From the mass matrix itself, point masses included.")
+            .facts(mass_facts(mass));
+        report = report.section(section);
+    }
+    report = report.section(frequencies(result));
     let proof = Section::new("Completeness and accuracy")
         .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
         .facts(proof_facts(&result.survey));
@@ -47,19 +50,20 @@ pub fn modes_report(
         report = report.section(convergence_section(convergence, &result.survey));
     }
     if result.survey.basis.count() > 0 {
-        let mut mass = Section::new("Effective mass")
-            .bars(effective_mass_bars(&result.survey))
-            .table(effective_mass_table(&result.survey));
-        for table in energy_tables(&result.survey) {
-            mass = mass.table(table);
+        if let Some(found) = &result.survey.participation {
+            let mut mass = Section::new("Effective mass")
+                .bars(effective_mass_bars(&result.survey, found))
+                .table(effective_mass_table(&result.survey, found));
+            for table in energy_tables(&result.survey) {
+                mass = mass.table(table);
+            }
+            report = report.section(mass);
         }
         let shapes = ModeShapeView {
             figures: ShapeFigures::Modes,
             ..view
         };
-        report = report
-            .section(mass)
-            .section(Section::new("Mode shapes").shapes(shapes));
+        report = report.section(Section::new("Mode shapes").shapes(shapes));
     }
     if !result.variants.is_empty() {
         report = report.section(
@@ -79,6 +83,10 @@ pub fn modes_report(
     }
     for text in assumptions(case, setup.as_ref()) {
         report = report.assumption(text);
+    }
+    let imported = result.structure.iter().flat_map(|stage| &stage.imported);
+    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
+        report = report.warning(text);
     }
     let notes = result.convergence.iter();
     let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
@@ -128,6 +136,9 @@ fn purpose(result: &ModesResult) -> Section {
     let what = match (&result.structure, result.mesh_and_model()) {
         (Some(_), Some(_)) => {
             "a housing and the ring in its bore, coupled in full (nothing condensed)"
+        }
+        (Some(stage), None) if stage.imported.is_some() => {
+            "a ring in a housing that is a superelement from a file"
         }
         (Some(_), None) => "a ring on its springs",
         _ => "a housing",

@@ -24,6 +24,8 @@ pub(super) struct PlaceBodies<'a> {
     pub housing: Option<&'a HousingStage>,
     pub ring: Option<&'a Ring>,
     pub tie: Option<&'a RingTie>,
+    /// Where the bearing sits in the axes that directions are given in.
+    pub frame: RingFrame,
 }
 
 impl Place {
@@ -37,6 +39,7 @@ impl Place {
             housing: Some(&stage.housing),
             ring: ring.map(|(ring, _)| ring),
             tie: ring.map(|(_, tie)| tie),
+            frame: *stage.housing.model.frame(),
         };
         Self::new(bodies, &sensor.name, &sensor.spot, sensor.direction)
     }
@@ -51,10 +54,6 @@ impl Place {
         spot: &SensorSpot,
         direction: [f64; 3],
     ) -> Result<Self, StageError> {
-        let frame = match bodies.housing {
-            Some(housing) => *housing.model.frame(),
-            None => RingFrame::default(),
-        };
         let needs_housing = |place: String| StageError::SensorNeedsHousing {
             name: name.to_owned(),
             place,
@@ -64,7 +63,7 @@ impl Place {
                 let ring = bodies.ring.ok_or_else(|| StageError::SensorNeedsRing {
                     name: name.to_owned(),
                 })?;
-                let direction = in_plane(name, frame.vector(direction))?;
+                let direction = in_plane(name, bodies.frame.vector(direction))?;
                 return Ok(Self::Ring(
                     ring.displacement_row(degrees.to_radians(), direction),
                 ));
@@ -75,6 +74,9 @@ impl Place {
             }
             (SensorSpot::Node(tag), Some(housing)) => {
                 (vec![tagged_node(housing, name, *tag)?], housing)
+            }
+            (SensorSpot::Recovered(row), _) => {
+                return Err(needs_housing(format!("row \"{row}\" of a superelement")));
             }
             (SensorSpot::Group(group), None) => {
                 return Err(needs_housing(format!("group \"{group}\"")));

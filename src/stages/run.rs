@@ -105,6 +105,9 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     else {
         return Err(crate::system::SystemError::NotSupported.into());
     };
+    if let Some(imported) = &stage.imported {
+        imported.refuse_structural_damping()?;
+    }
     watch.stage("equilibrium");
     let equilibrium = Equilibrium::find(&stage.structure, &setup, asked.start)?;
     watch.stage("linearise");

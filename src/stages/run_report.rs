@@ -44,6 +44,10 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
             .table(equilibrium_table(&result.equilibrium)),
     );
     report = report.section(Section::new("Computation").facts(computation(result)));
+    let imported = result.stage.imported.iter();
+    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
+        report = report.warning(text);
+    }
     for text in assumptions(case, Some(&result.setup)) {
         report = report.assumption(text);
     }

@@ -2,12 +2,13 @@
 
 use super::condensed::{Boundary, CondensedStage};
 use super::housing::material;
+use super::imported::ImportedHousing;
 use super::places::{Place, PlaceBodies};
 use super::{HousingStage, StageError, Watch};
 use crate::case::{self, Case, Interface};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
-use crate::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
+use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
 use crate::system::{Sensor, Structure, StructureModes};
 
 /// The linear model of a case.
@@ -15,6 +16,8 @@ use crate::system::{Sensor, Structure, StructureModes};
 pub struct StructureStage {
     /// The housing, if the case has one.
     pub housing: Option<HousingStage>,
+    /// The superelement that stands for the housing, if the case has one.
+    pub imported: Option<Box<ImportedHousing>>,
     /// How the ring sits in the housing, if there is one.
     pub tie: Option<RingTie>,
     /// Number of vectors of the condensed housing's interior.
@@ -41,6 +44,15 @@ impl StructureStage {
         if case.condense.interface != Interface::Ring {
             return Err(StageError::InterfaceOfRing);
         }
+        if let Some(path) = case.superelement() {
+            watch.stage("read");
+            let (imported, ring) = ImportedHousing::read(case, asked, path)?;
+            imported.accept()?;
+            let mut structure = Structure::with_housing(ring, &imported.element, gravity)?;
+            let rows = imported.sensor_rows(case, structure.ring())?;
+            add_sensors(&mut structure, &case.sensors, rows)?;
+            return Self::solved(structure, Around::Imported(Box::new(imported)), watch).map(Some);
+        }
         let Some(stage) = CondensedStage::build(case, watch)? else {
             let ring = ring(case, asked, false)?;
             let mut structure = Structure::ring_alone(ring, gravity);
@@ -48,6 +60,7 @@ impl StructureStage {
                 housing: None,
                 ring: Some(structure.ring()),
                 tie: None,
+                frame: RingFrame::default(),
             };
             let mut rows = Vec::with_capacity(case.sensors.len());
             for sensor in &case.sensors {
@@ -55,7 +68,7 @@ impl StructureStage {
                 rows.push(place.on_ring(structure.dof()));
             }
             add_sensors(&mut structure, &case.sensors, rows)?;
-            return Self::solved(structure, None, watch).map(Some);
+            return Self::solved(structure, Around::Nothing, watch).map(Some);
         };
         let mut rows = Vec::with_capacity(case.sensors.len());
         for sensor in &case.sensors {
@@ -73,29 +86,55 @@ impl StructureStage {
         let (ring, tie) = *bodies;
         let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
         add_sensors(&mut structure, &case.sensors, rows)?;
-        let housing = (housing, tie, condensed.basis.count());
-        Self::solved(structure, Some(housing), watch).map(Some)
+        let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
+        Self::solved(structure, around, watch).map(Some)
     }
 
     fn solved(
         structure: Structure,
-        housing: Option<(HousingStage, RingTie, usize)>,
+        around: Around,
         watch: &impl Watch,
     ) -> Result<Self, StageError> {
         watch.stage("eigen");
-        let modes = structure.modes()?;
-        let (housing, tie, fixed_interface_modes) = match housing {
-            Some((housing, tie, count)) => (Some(housing), Some(tie), count),
-            None => (None, None, 0),
-        };
-        Ok(Self {
-            housing,
-            tie,
-            fixed_interface_modes,
+        let mut stage = Self {
+            modes: structure.modes()?,
+            housing: None,
+            imported: None,
+            tie: None,
+            fixed_interface_modes: 0,
             structure,
-            modes,
-        })
+        };
+        match around {
+            Around::Nothing => {}
+            Around::Imported(imported) => {
+                stage.fixed_interface_modes = imported.element.modal_dof();
+                stage.imported = Some(imported);
+            }
+            Around::Housing(parts) => {
+                let (housing, tie, count) = *parts;
+                (stage.housing, stage.tie) = (Some(housing), Some(tie));
+                stage.fixed_interface_modes = count;
+            }
+        }
+        Ok(stage)
     }
+
+    /// Where the bearing sits in the mesh's axes; a ring alone has none but its own.
+    pub fn frame(&self) -> RingFrame {
+        match (&self.housing, &self.imported) {
+            (Some(housing), _) => *housing.model.frame(),
+            (None, Some(imported)) => imported.frame,
+            (None, None) => RingFrame::default(),
+        }
+    }
+}
+
+/// What is around a ring.
+enum Around {
+    Nothing,
+    /// A housing, the tie to it, and the number of vectors of its interior.
+    Housing(Box<(HousingStage, RingTie, usize)>),
+    Imported(Box<ImportedHousing>),
 }
 
 fn add_sensors(

@@ -1,6 +1,6 @@
 //! The modes of a case's housing, ring, or both, without contact and in full: nothing condensed.
 
-use super::modal_system::FullModes;
+use super::modal_system::{FullModes, matrices_of};
 use super::{HousingStage, StageError, StructureStage, Watch};
 use crate::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::case::ModeExtent;
@@ -21,10 +21,11 @@ pub struct ModalSurvey {
     pub free_dof: usize,
     /// The modes with their proof.
     pub basis: ModalBasis,
-    /// Mass, centroid and inertia, in the mesh's axes (of a ring alone: in its own).
-    pub mass: MassProperties,
-    /// Participation factors and effective masses, rotations about the centroid.
-    pub participation: Participation,
+    /// Mass, centroid and inertia, in the mesh's axes (of a ring alone: in its own); `None` for a superelement from a
+    /// file, whose interface does not tell them.
+    pub mass: Option<MassProperties>,
+    /// Participation factors and effective masses, rotations about the centroid; `None` where there is no mass.
+    pub participation: Option<Participation>,
     /// Where the energy of each mode is; `None` if there is only one place for it: one part, which is the only group
     /// too, or a ring, without springs.
     pub shares: Option<EnergyShares>,
@@ -79,8 +80,8 @@ impl ModalSurvey {
             dof: model.dof(),
             free_dof: modes.free_dof(),
             basis: modes.basis,
-            mass,
-            participation,
+            mass: Some(mass),
+            participation: Some(participation),
             shares,
             mechanisms,
             housing: Some(shapes),
@@ -100,8 +101,31 @@ impl ModalSurvey {
         let ring = stage.structure.ring();
         match (&stage.housing, &stage.tie) {
             (Some(housing), Some(tie)) => Self::of_coupled(housing, tie, ring, extent, watch),
+            _ if stage.imported.is_some() => Self::of_imported(stage, extent, watch),
             _ => Self::of_ring(ring, extent, watch),
         }
+    }
+
+    /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
+    fn of_imported(
+        stage: &StructureStage,
+        extent: ModeExtent,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
+        let ring = stage.structure.ring();
+        let modes = FullModes::of(matrices_of(stage), extent, watch)?;
+        let of_ring = modes.motions.ring(&modes.over_all_rows());
+        Ok(Self {
+            dof: stage.structure.dof(),
+            free_dof: modes.free_dof(),
+            basis: modes.basis,
+            mass: None,
+            participation: None,
+            shares: None,
+            mechanisms: None,
+            housing: None,
+            ring: Some(RingShapes::new(ring, &stage.frame(), &of_ring)),
+        })
     }
 
     fn of_coupled(
@@ -144,8 +168,8 @@ impl ModalSurvey {
             dof: model.dof() + ring.dof(),
             free_dof: modes.free_dof(),
             basis: modes.basis,
-            mass,
-            participation,
+            mass: Some(mass),
+            participation: Some(participation),
             shares: Some(shares),
             mechanisms,
             housing: Some(shapes),
@@ -173,8 +197,8 @@ impl ModalSurvey {
             dof: ring.dof(),
             free_dof: modes.free_dof(),
             basis: modes.basis,
-            mass,
-            participation,
+            mass: Some(mass),
+            participation: Some(participation),
             shares,
             mechanisms: Some(Mechanisms::of_ring(ring)),
             housing: None,

@@ -42,7 +42,17 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) 
             ),
         ));
     }
-    if let (Some(housing), Some(asked)) = (&stage.housing, &case.housing) {
+    if let Some(imported) = &stage.imported {
+        facts.push(Fact::new("Superelement", imported.path.display().to_string()));
+        facts.push(Fact::new(
+            "Its coordinates",
+            format!(
+                "{} ring displacements and {} modes",
+                imported.element.interface_dof, stage.fixed_interface_modes
+            ),
+        ));
+    }
+    if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
         facts.extend([
             Fact::new("Housing mesh", asked.mesh.display().to_string()),
             Fact::new(
@@ -340,7 +350,7 @@ pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             list.push("The bore follows the ring's own interpolation: a section-rigid bore, somewhat stiffer than a bore with the ring meshed into it.".to_owned());
         }
     }
-    if let Some(plane) = case.housing.as_ref().and_then(|housing| housing.plane) {
+    if let Some(plane) = case.meshed_housing().and_then(|housing| housing.plane) {
         list.push(format!(
             "Housing in plane {:?}, {} mm thick.",
             plane.assumption,

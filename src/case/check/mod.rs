@@ -41,7 +41,7 @@ impl Case {
 /// Returns every mesh group that a case names, with the key that names it.
 pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
     let mut groups = Vec::new();
-    if let Some(housing) = &case.housing {
+    if let Some(housing) = case.meshed_housing() {
         for (index, part) in housing.parts.iter().enumerate() {
             groups.push((format!("housing.parts[{index}].group"), part.group.as_str()));
         }

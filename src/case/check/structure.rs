@@ -2,7 +2,7 @@
 
 use super::super::path::quoted;
 use super::super::{
-    Axis, Bond, Case, Fit, Hold, Housing, Joint, Material, OrthotropicMaterial, RadiusRule, Ring,
+    Axis, Bond, Case, Fit, Hold, Housing, HousingSource, Joint, Material, OrthotropicMaterial, RadiusRule, Ring,
     RingSupport, Spring,
 };
 use super::range::{
@@ -59,8 +59,11 @@ fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
 }
 
 pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
-    let Some(housing) = &case.housing else {
-        return Ok(());
+    let Some(housing) = case.meshed_housing() else {
+        return match (case.superelement(), &case.ring) {
+            (Some(_), None) => Err(Rule::Needs { other: "[ring]" }.at("housing.superelement")),
+            _ => Ok(()),
+        };
     };
     if let Some(plane) = &housing.plane {
         above_zero("housing.plane.thickness", plane.thickness)?;
@@ -141,7 +144,9 @@ pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
     }
     sections(case, ring)?;
     for (index, support) in ring.supports.iter().enumerate() {
-        let plane = (case.housing.as_ref()).is_none_or(|housing| housing.plane.is_some());
+        // whether a superelement is plane is told by its file
+        let plane = case.superelement().is_none()
+            && (case.meshed_housing()).is_none_or(|housing| housing.plane.is_some());
         ring_support(&format!("ring.supports[{index}]"), support, plane)?;
     }
     tie(case, ring)
@@ -198,13 +203,18 @@ fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), Bro
 
 fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     let tie = match (&ring.tie, &case.housing) {
-        (None, None) => return Ok(()),
-        (None, Some(_)) => return Err(Rule::Unconnected.at("ring")),
+        // the interface of a superelement is the ring itself
+        (None, None | Some(HousingSource::Superelement(_))) => return Ok(()),
+        (Some(_), Some(HousingSource::Superelement(_))) => {
+            let other = "housing.superelement";
+            return Err(Rule::Beside { other }.at("ring.tie"));
+        }
+        (None, Some(HousingSource::Mesh(_))) => return Err(Rule::Unconnected.at("ring")),
         (Some(_), None) => {
             let other = "[housing]";
             return Err(Rule::Needs { other }.at("ring.tie"));
         }
-        (Some(tie), Some(_)) => tie,
+        (Some(tie), Some(HousingSource::Mesh(_))) => tie,
     };
     direction("ring.tie.axis", tie.axis)?;
     direction("ring.tie.zero_deg", tie.zero_deg)?;

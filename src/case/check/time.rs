@@ -73,12 +73,24 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
             let name = sensor.name.clone();
             return Err(Rule::ReservedName { name }.at(at("name")));
         }
-        direction(at("direction"), sensor.direction)?;
+        if !matches!(sensor.spot, SensorSpot::Recovered(_)) {
+            direction(at("direction"), sensor.direction)?;
+        }
+        let mesh = match case.superelement() {
+            None => "[housing]",
+            Some(_) => "`housing.mesh`",
+        };
+        let meshed = case.meshed_housing().is_some();
         let (key, other, present) = match sensor.spot {
-            SensorSpot::Group(_) => ("group", "[housing]", case.housing.is_some()),
-            SensorSpot::Node(_) => ("node", "[housing]", case.housing.is_some()),
-            SensorSpot::Point(_) => ("point", "[housing]", case.housing.is_some()),
+            SensorSpot::Group(_) => ("group", mesh, meshed),
+            SensorSpot::Node(_) => ("node", mesh, meshed),
+            SensorSpot::Point(_) => ("point", mesh, meshed),
             SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
+            SensorSpot::Recovered(_) => (
+                "recovered",
+                "`housing.superelement`",
+                case.superelement().is_some(),
+            ),
         };
         if !present {
             return Err(Rule::Needs { other }.at(at(key)));
@@ -126,8 +138,11 @@ fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
     let Some(convergence) = &case.modes.convergence else {
         return Ok(());
     };
-    let Some(housing) = &case.housing else {
-        let other = "[housing]";
+    let Some(housing) = case.meshed_housing() else {
+        let other = match case.superelement() {
+            None => "[housing]",
+            Some(_) => "`housing.mesh`",
+        };
         return Err(Rule::Needs { other }.at("modes.convergence"));
     };
     let key = "modes.convergence.meshes";
@@ -151,6 +166,10 @@ fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
 }
 
 pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
+    if case.superelement().is_some() && case.condense.interface != Interface::Ring {
+        let other = "housing.superelement";
+        return Err(Rule::Beside { other }.at("condense.interface"));
+    }
     if let Interface::Nodes(nodes) = &case.condense.interface {
         not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
         let names: Vec<String> = nodes.iter().map(u64::to_string).collect();

@@ -79,7 +79,7 @@ impl ExportFormat {
     /// Names of the files that an export of a case writes beside `export.json`.
     fn files(self, case: &Case) -> Vec<&'static str> {
         let of_bodies = |housing, ring| {
-            let housing = case.housing.as_ref().map(|_| housing);
+            let housing = case.meshed_housing().map(|_| housing);
             housing
                 .into_iter()
                 .chain(case.ring.as_ref().map(|_| ring))

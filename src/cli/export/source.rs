@@ -73,7 +73,7 @@ impl Source {
         };
         progress.stage("read");
         let shapes = read_modes_npz(&path).map_err(ExportError::from)?;
-        let housing = self.case.housing.as_ref();
+        let housing = self.case.meshed_housing();
         let mesh = housing
             .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
             .transpose()

@@ -77,6 +77,16 @@ pub enum Op4Error {
         /// What stands there.
         found: String,
     },
+    /// A matrix that is not there.
+    #[error("{}: expected a matrix \"{name}\", found {known}", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        name: &'static str,
+        /// What the file has.
+        known: String,
+    },
     /// A matrix of complex numbers.
     #[error("matrix \"{name}\": expected real numbers, found complex ones (type {kind})")]
     Complex {

@@ -6,7 +6,7 @@
 //! | NumPy archive, everything | [`write_superelement_npz`] | [`read_superelement_npz`] |
 //! | Matrix Market, one symmetric matrix | [`write_dense_matrix_market`](super::write_dense_matrix_market) | |
 //! | table of its rows | [`write_dofs_csv`](super::write_dofs_csv) of [`SuperelementRecord::labels`] | |
-//! | Nastran OUTPUT4 | [`write_superelement_op4`] | [`read_op4`](super::read_op4), then [`SuperelementRecord::of_matrices`] |
+//! | Nastran OUTPUT4 | [`write_superelement_op4`] | [`read_superelement_op4`]; others' names: [`read_op4`](super::read_op4), then [`SuperelementRecord::of_matrices`] |
 //! | MBDyn's modal element | [`write_mbdyn_fem`] | |
 //!
 //! Source of the condensation: R. R. Craig, M. C. C. Bampton, "Coupling of substructures for dynamic analyses", AIAA
@@ -30,7 +30,7 @@ pub use error::SuperelementError;
 pub use mbdyn::{MbdynError, MbdynReference, MbdynSummary, write_mbdyn_fem};
 pub use npz_read::read_superelement_npz;
 pub use npz_write::write_superelement_npz;
-pub use op4::write_superelement_op4;
+pub use op4::{read_superelement_op4, write_superelement_op4};
 
 use super::DofLabel;
 use crate::linalg::DenseMatrix;
@@ -103,6 +103,23 @@ impl SuperelementRecord {
         record.check_matrices()?;
         record.modal_hz = record.diagonal_hz()?;
         Ok(record)
+    }
+
+    /// Both triangles of each matrix become their mean.
+    fn symmetrise(&mut self) {
+        let others = [&mut self.damping, &mut self.structural];
+        let matrices = [&mut self.stiffness, &mut self.mass]
+            .into_iter()
+            .chain(others.into_iter().flatten());
+        for matrix in matrices {
+            for row in 0..matrix.nrows() {
+                for column in 0..row {
+                    let mean = 0.5 * matrix[(row, column)] + 0.5 * matrix[(column, row)];
+                    matrix[(row, column)] = mean;
+                    matrix[(column, row)] = mean;
+                }
+            }
+        }
     }
 
     /// Number n of coordinates.

@@ -45,22 +45,8 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
     record.sensors = file.sensors(order)?;
     record.field = file.field(order)?;
     record.check().map_err(fault)?;
-    symmetrise(&mut record.stiffness);
-    symmetrise(&mut record.mass);
-    record.damping.as_mut().map(symmetrise);
-    record.structural.as_mut().map(symmetrise);
+    record.symmetrise();
     Ok(record)
-}
-
-/// Both triangles become their mean.
-fn symmetrise(matrix: &mut DenseMatrix) {
-    for row in 0..matrix.nrows() {
-        for column in 0..row {
-            let mean = 0.5 * matrix[(row, column)] + 0.5 * matrix[(column, row)];
-            matrix[(row, column)] = mean;
-            matrix[(column, row)] = mean;
-        }
-    }
 }
 
 /// An archive and its name.

@@ -3,7 +3,73 @@
 use std::path::Path;
 
 use super::{SuperelementError, SuperelementRecord};
-use crate::exchange::op4::{Op4Error, Op4Format, write_op4};
+use crate::exchange::DofLabel;
+use crate::exchange::op4::{Op4Error, Op4Format, Op4Matrix, read_op4, write_op4};
+use crate::linalg::DenseMatrix;
+
+/// Stiffness between modes, relative to both diagonals, that is round-off of a computation.
+const BLOCK: f64 = 1e-8;
+
+/// Reads the matrices that [`write_superelement_op4`] names, whether in capitals or not; `KAA` and `MAA` are required.
+/// Matrices that are symmetric within the limit of [`SuperelementRecord::check`] become exactly so.
+///
+/// The file does not say how many coordinates are those of the interface. `interface` has what it may be, ascending:
+/// the first after which the stiffness is that of modes, a diagonal with nothing beside it, else the largest that the
+/// matrices have rows for; all rows if they are too few for any. Labels are numbers alone ([`DofLabel::interface`]).
+///
+/// # Errors
+/// [`Op4Error`] of the file; [`Op4Error::Missing`], [`Op4Error::Superelement`].
+pub fn read_superelement_op4(
+    path: &Path,
+    interface: &[usize],
+) -> Result<SuperelementRecord, Op4Error> {
+    let fault = |fault: SuperelementError| Op4Error::Superelement {
+        fault: Box::new(fault),
+    };
+    let matrices = read_op4(path)?;
+    let dense = |name: &str| {
+        let mut matrices = matrices.iter();
+        let found = matrices.find(|matrix| matrix.name().eq_ignore_ascii_case(name));
+        found.map(Op4Matrix::dense).transpose()
+    };
+    let required = |name: &'static str| {
+        let known = || match matrices.iter().map(Op4Matrix::name).collect::<Vec<_>>() {
+            names if names.is_empty() => "none".to_owned(),
+            names => names.join(", "),
+        };
+        dense(name)?.ok_or_else(|| Op4Error::Missing {
+            path: path.to_owned(),
+            name,
+            known: known(),
+        })
+    };
+    let (stiffness, mass) = (required("KAA")?, required("MAA")?);
+    let count = interface_of(&stiffness, interface);
+    let labels = (0..count as u64).map(DofLabel::interface).collect();
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels).map_err(fault)?;
+    (record.damping, record.structural) = (dense("BAA")?, dense("K4AA")?);
+    record.check().map_err(fault)?;
+    record.symmetrise();
+    Ok(record)
+}
+
+/// How many of the coordinates are those of the interface.
+fn interface_of(stiffness: &DenseMatrix, candidates: &[usize]) -> usize {
+    let order = stiffness.nrows().min(stiffness.ncols());
+    let fitting = || candidates.iter().copied().filter(|&count| count <= order);
+    let modal = |&first: &usize| (first..order).all(|mode| is_modal(stiffness, order, mode));
+    let found = fitting().find(modal);
+    found.or_else(|| fitting().next_back()).unwrap_or(order)
+}
+
+/// Whether a coordinate's stiffness is its own alone.
+fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
+    let own = stiffness[(mode, mode)];
+    (0..order).filter(|&row| row != mode).all(|row| {
+        let scale = (own * stiffness[(row, row)]).abs().sqrt();
+        stiffness[(row, mode)].abs() <= BLOCK * scale
+    })
+}
 
 /// Writes the matrices \[n x n\] of a superelement, whole or not at all: `KAA` (stiffness), `MAA` (mass) and, where there
 /// are any, `BAA` (viscous damping) and `K4AA` (imaginary part of the stiffness). Rows are those of

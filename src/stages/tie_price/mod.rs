@@ -136,7 +136,7 @@ fn compared(
     count: usize,
     watch: &impl Watch,
 ) -> Result<TieComparison, Stop> {
-    let both = case.ring.as_ref().zip(case.housing.as_ref());
+    let both = case.ring.as_ref().zip(case.meshed_housing());
     let Some((asked, asked_housing)) = both else {
         return Err(NoTiePrice::NoTie.into());
     };
