@@ -1,17 +1,21 @@
 //! `plummer condense`: a superelement and its certificate.
 
 use super::report_files::ReportFiles;
-use super::results::{common, condense_fields};
-use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict};
+use super::results::{common, condense_fields, imported_fields};
+use super::{
+    Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict,
+};
 use crate::case::Case;
 use crate::exchange::write_superelement_npz;
 use crate::reduction::Check;
 use crate::stages::{
-    Comparison, CondenseResult, StageError, compute_condense, condense_report, superelement_record,
+    Comparison, CondenseResult, ImportedHousing, StageError, compute_condense, condense_report,
+    imported_report, superelement_record,
 };
 use serde_json::Value;
 
 /// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
+/// A superelement from a file is checked instead.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
@@ -28,6 +32,11 @@ pub fn condense(
         } => Comparison::Full,
         _ => Comparison::None,
     };
+    if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
+        progress.stage("check");
+        let (imported, _) = ImportedHousing::read(case, ring, path)?;
+        return check_imported(case, options, &imported, progress, started);
+    }
     let result = compute_condense(case, comparison, progress)?;
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
@@ -47,13 +56,47 @@ pub fn condense(
         summary: summary(&result),
         result: json,
         written: [vec![path, element], files.paths].concat(),
-        verdict: verdict(&result),
+        verdict: verdict(
+            &result.checks,
+            "the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz",
+        ),
     })
 }
 
-fn verdict(result: &CondenseResult) -> Verdict {
-    let failed: Vec<String> = result
-        .checks
+/// What is condensed already is checked, no more: `report.html` and, last, `condense.json`.
+fn check_imported(
+    case: &Case,
+    options: &Options,
+    imported: &ImportedHousing,
+    progress: &Progress,
+    started: std::time::Instant,
+) -> Result<Outcome, CliError> {
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let command = options.command_line("condense", case);
+    let report = imported_report(case, imported, &command);
+    let files = ReportFiles::write(&folder, "condense", case, report)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("condense", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), serde_json::json!(files.tables));
+    map.extend(imported_fields(imported));
+    let json = Value::Object(map);
+    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    let mut lines = imported.notes.clone();
+    lines.extend(check_lines(&imported.checks));
+    Ok(Outcome {
+        summary: lines.join("\n"),
+        result: json,
+        written: [vec![path], files.paths].concat(),
+        verdict: verdict(
+            &imported.checks,
+            "the report says what each check is; `modes` and `run` refuse these matrices",
+        ),
+    })
+}
+
+fn verdict(checks: &[Check], help: &str) -> Verdict {
+    let failed: Vec<String> = checks
         .iter()
         .filter(|check| !check.ok())
         .map(|check| {
@@ -68,7 +111,7 @@ fn verdict(result: &CondenseResult) -> Verdict {
     } else {
         Verdict::Bad {
             what: failed.join("; "),
-            help: Some("the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz".to_owned()),
+            help: Some(help.to_owned()),
         }
     }
 }
@@ -78,7 +121,6 @@ fn summary(result: &CondenseResult) -> String {
         &result.stage.condensed.superelement,
         &result.stage.condensed.basis,
     );
-    let passed = result.checks.iter().filter(|check| check.ok()).count();
     let mut lines = vec![
         format!(
             "{} interface coordinates, {} fixed-interface modes, {} residual vectors, for {} interior degrees of freedom",
@@ -99,13 +141,17 @@ fn summary(result: &CondenseResult) -> String {
         let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));
         lines.push(format!("error against the full model: {largest:.1e}"));
     }
-    lines.push(format!(
-        "checks passed: {passed} of {}",
-        result.checks.len()
-    ));
-    let failed = result.checks.iter().filter(|check| !check.ok());
-    lines.extend(failed.map(line));
+    lines.extend(check_lines(&result.checks));
     lines.join("\n")
+}
+
+/// How many checks pass, and which do not.
+fn check_lines(checks: &[Check]) -> Vec<String> {
+    let failed = || checks.iter().filter(|check| !check.ok());
+    let passed = checks.len() - failed().count();
+    let mut lines = vec![format!("checks passed: {passed} of {}", checks.len())];
+    lines.extend(failed().map(line));
+    lines
 }
 
 fn line(check: &Check) -> String {

@@ -5,9 +5,9 @@ use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
 use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
-use crate::reduction::Bound;
+use crate::reduction::{Bound, Check};
 use crate::stages::{
-    CondenseResult, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError, StructureStage,
+    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError, StructureStage,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -194,23 +194,46 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
                 "rounds": result.estimate.rounds,
                 "out_of_band": result.estimate.out_of_band,
             },
-            "checks": result.checks.iter().map(|check| json!({
-                "name": check.name,
-                "what": check.what,
-                "value": check.value,
-                "limit": check.limit,
-                "bound": match check.bound {
-                    Bound::AtMost => "at most",
-                    Bound::AtLeast => "at least",
-                },
-                "ok": check.ok(),
-            })).collect::<Vec<_>>(),
+            "checks": checks_json(&result.checks),
             "full_frequencies_hz": result.full.as_ref().map(|full| &full.frequencies_hz),
             "relative_error": result.full.as_ref().map(|full| &full.relative_errors),
             "effectivity": result.full.as_ref().and_then(|full| full.effectivity),
         }),
     );
     map
+}
+
+/// What `condense.json` says of a superelement from a file.
+pub(super) fn imported_fields(imported: &ImportedHousing) -> Map<String, Value> {
+    let mut map = Map::new();
+    extend(
+        &mut map,
+        json!({
+            "superelement": imported.path,
+            "interface_dof": imported.element.interface_dof,
+            "interior_frequencies_hz": imported.record.modal_hz,
+            "notes": imported.notes,
+            "checks": checks_json(&imported.checks),
+        }),
+    );
+    map
+}
+
+fn checks_json(checks: &[Check]) -> Vec<Value> {
+    let check = |check: &Check| {
+        json!({
+            "name": check.name,
+            "what": check.what,
+            "value": check.value,
+            "limit": check.limit,
+            "bound": match check.bound {
+                Bound::AtMost => "at most",
+                Bound::AtLeast => "at least",
+            },
+            "ok": check.ok(),
+        })
+    };
+    checks.iter().map(check).collect()
 }
 
 /// What a result says of a superelement from a file.

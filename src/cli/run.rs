@@ -86,6 +86,9 @@ fn summary(result: &RunResult) -> String {
             });
         }
     }
+    if let Some(imported) = &result.stage.imported {
+        lines.extend(imported.notes.iter().cloned());
+    }
     for text in &result.not_analysed {
         lines.push(format!("warning: not analysed: {text}"));
     }

@@ -108,7 +108,7 @@ fn what(result: &CondenseResult) -> Section {
     Section::new("What was condensed").facts(facts)
 }
 
-fn check_table(checks: &[Check]) -> Table {
+pub(super) fn check_table(checks: &[Check]) -> Table {
     let mut table = Table::new(
         "Certificate",
         [

@@ -21,6 +21,7 @@ mod free_system_tests;
 mod housing;
 mod import_error;
 mod imported;
+mod imported_report;
 #[cfg(test)]
 mod imported_tests;
 mod inspect;
@@ -55,6 +56,7 @@ pub use free_system::FreeSystem;
 pub use housing::HousingStage;
 pub use import_error::ImportError;
 pub use imported::ImportedHousing;
+pub use imported_report::imported_report;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;
