@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::union::{Mismatch, written_as};
-use super::{
-    Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support,
-};
+use super::{Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support};
 use crate::units::LengthUnit;
 
 /// Where the housing comes from.

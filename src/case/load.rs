@@ -89,7 +89,8 @@ impl Case {
         let housing = self.housing.iter_mut().map(HousingSource::path_mut);
         let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
         let meshes = self.modes.convergence.iter_mut();
-        housing.chain(compared)
+        housing
+            .chain(compared)
             .chain(meshes.flat_map(|convergence| &mut convergence.meshes))
     }
 

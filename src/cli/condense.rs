@@ -2,9 +2,7 @@
 
 use super::report_files::ReportFiles;
 use super::results::{common, condense_fields, imported_fields};
-use super::{
-    Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict,
-};
+use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::exchange::write_superelement_npz;
 use crate::reduction::Check;

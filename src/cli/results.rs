@@ -7,7 +7,8 @@ use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
 use crate::reduction::{Bound, Check};
 use crate::stages::{
-    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, RunEnd, RunResult, StageError, StructureStage,
+    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, RunEnd, RunResult,
+    StageError, StructureStage,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;

@@ -20,6 +20,7 @@ mod eigen;
 mod error;
 mod factor;
 mod harmonic;
+mod idle;
 mod lowest;
 #[allow(unsafe_code)]
 mod metis;
@@ -42,6 +43,7 @@ pub use harmonic::{
     ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution,
     HarmonicTimes, complex_columns, complex_solve,
 };
+pub use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
     transpose_times_dense,

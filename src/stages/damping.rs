@@ -34,7 +34,10 @@ pub(super) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
 /// # Errors
 /// [`StageError::StructuralDamping`].
 pub(super) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
-    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
+    let parts = case
+        .meshed_housing()
+        .into_iter()
+        .flat_map(|housing| &housing.parts);
     for part in parts {
         let loss_factor = case
             .material(&part.material)

@@ -1,8 +1,8 @@
 //! What can go wrong on the way from a case to a result, and whose fault it is.
 
+use super::ImportError;
 use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
-use super::ImportError;
 use crate::case::CaseError;
 use crate::element::ElementError;
 use crate::exchange::{CsvError, NpzError, ReadModesError};

@@ -207,11 +207,7 @@ fn frame(interface: &[DofLabel]) -> Result<RingFrame, ImportError> {
 }
 
 /// Whether labels are the ring's in the ring's order; what the file does not say passes.
-fn check_labels(
-    interface: &[DofLabel],
-    ring: &Ring,
-    frame: &RingFrame,
-) -> Result<(), ImportError> {
+fn check_labels(interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Result<(), ImportError> {
     if !labelled(interface) {
         return Ok(());
     }

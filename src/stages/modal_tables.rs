@@ -134,7 +134,10 @@ pub(super) fn material_table(case: &Case) -> Table {
             Column::number("Density", "kg/m^3"),
         ],
     );
-    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
+    let parts = case
+        .meshed_housing()
+        .into_iter()
+        .flat_map(|housing| &housing.parts);
     let parts = parts.map(|part| (part.group.clone(), part.material.clone()));
     let layers = case.ring.iter().flat_map(|ring| &ring.sections);
     let layers = layers.map(|layer| ("ring".to_owned(), layer.material.clone()));

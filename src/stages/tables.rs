@@ -43,7 +43,10 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) 
         ));
     }
     if let Some(imported) = &stage.imported {
-        facts.push(Fact::new("Superelement", imported.path.display().to_string()));
+        facts.push(Fact::new(
+            "Superelement",
+            imported.path.display().to_string(),
+        ));
         facts.push(Fact::new(
             "Its coordinates",
             format!(

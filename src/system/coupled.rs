@@ -10,7 +10,7 @@ use super::residual::ResidualFlexibility;
 use super::structure::{Structure, StructureModes};
 use crate::bearing::SpeedCursor;
 use crate::dynamics::{LinearCoordinate, State};
-use crate::linalg::{DenseMatrix, symmetric_generalised_eigen};
+use crate::linalg::{DenseMatrix, acting_generalised_eigen};
 use std::f64::consts::TAU;
 
 /// Which modes of the structure a run keeps.
@@ -63,7 +63,7 @@ impl ModeDamping {
             Self::Rayleigh { alpha, beta } => Ok(m * faer::Scale(alpha) + k * faer::Scale(beta)),
             Self::Modal(ratio) if ratio <= 0.0 => Ok(DenseMatrix::zeros(k.nrows(), k.ncols())),
             Self::Modal(_) => {
-                let modes = symmetric_generalised_eigen(k, m)?;
+                let modes = acting_generalised_eigen(k, m)?;
                 let moved = m * &modes.vectors;
                 let scaled = DenseMatrix::from_fn(moved.nrows(), moved.ncols(), |row, mode| {
                     let value = modes.values[mode];

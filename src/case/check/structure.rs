@@ -2,8 +2,8 @@
 
 use super::super::path::quoted;
 use super::super::{
-    Axis, Bond, Case, Fit, Hold, Housing, HousingSource, Joint, Material, OrthotropicMaterial, RadiusRule, Ring,
-    RingSupport, Spring,
+    Axis, Bond, Case, Fit, Hold, Housing, HousingSource, Joint, Material, OrthotropicMaterial,
+    RadiusRule, Ring, RingSupport, Spring,
 };
 use super::range::{
     above, above_zero, direction, each_once, known_isotropic, known_material, loss_factor,

@@ -124,7 +124,10 @@ fn volumes(mesh: &Mesh) -> Vec<ElementId> {
 
 /// Number of each element's part, from 1 in the order of `housing.parts`, and what the numbers mean.
 fn part_numbers(case: &Case, mesh: &Mesh, elements: &[ElementId]) -> (Vec<i64>, String) {
-    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
+    let parts = case
+        .meshed_housing()
+        .into_iter()
+        .flat_map(|housing| &housing.parts);
     let mut numbers = BTreeMap::new();
     let mut names = Vec::new();
     for (number, part) in (1..).zip(parts) {

@@ -1,7 +1,7 @@
 //! Symmetry, definiteness and block structure of a superelement's matrices.
 
 use super::{Check, ReductionError, Superelement};
-use crate::linalg::{DenseMatrix, symmetric_eigen};
+use crate::linalg::{DenseMatrix, acting_motions, congruent, symmetric_eigen};
 
 /// Asymmetry: matrices are symmetrised when they are made, and files keep 16 digits.
 const SYMMETRY: f64 = 1e-12;
@@ -22,7 +22,12 @@ pub(super) fn checks(element: &Superelement) -> Result<Vec<Check>, ReductionErro
     let (k, m) = (&element.stiffness, &element.mass);
     let (b, n) = (element.interface_dof, element.order());
     let lowest_k = symmetric_eigen(&scaled(k))?;
-    let lowest_m = symmetric_eigen(&scaled(m))?;
+    let acting = acting_motions(k, m)?;
+    let lowest_m = match &acting {
+        Some(basis) => symmetric_eigen(&scaled(&congruent(m, basis)))?,
+        None => symmetric_eigen(&scaled(m))?,
+    };
+    let idle = acting.map_or(0, |basis| n - basis.ncols());
     let first = |values: &[f64]| values.first().copied().unwrap_or(1.0);
     let modal = b..n;
     let coupling = modal.clone().flat_map(|q| (0..b).map(move |row| (row, q)));
@@ -54,7 +59,12 @@ pub(super) fn checks(element: &Superelement) -> Result<Vec<Check>, ReductionErro
         ),
         Check::at_least(
             "mass definite",
-            "lowest eigenvalue of m scaled to a unit diagonal",
+            match idle {
+                0 => "lowest eigenvalue of m scaled to a unit diagonal".to_owned(),
+                _ => format!(
+                    "lowest eigenvalue of m scaled to a unit diagonal, without {idle} motions that have neither stiffness nor mass"
+                ),
+            },
             first(&lowest_m.values),
             DEFINITE,
         ),

@@ -3,9 +3,7 @@
 use super::matrices::largest;
 use super::{Check, CraigBampton, ReductionError};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{
-    DenseMatrix, sparse_times_dense, symmetric_eigen, symmetric_generalised_eigen,
-};
+use crate::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
 
 /// Energy of a motion that the matrices let pass, relative to the sum of the magnitudes of its terms: round-off of a sum
 /// of many terms.
@@ -182,7 +180,7 @@ impl RigidMotions {
 /// The modes that should be rigid, and that there is none more.
 fn zero_modes(condensed: &CraigBampton, expected: usize) -> Result<Check, ReductionError> {
     let element = &condensed.superelement;
-    let modes = symmetric_generalised_eigen(&element.stiffness, &element.mass)?;
+    let modes = acting_generalised_eigen(&element.stiffness, &element.mass)?;
     let at = |place: usize| modes.values.get(place).copied().unwrap_or(f64::INFINITY);
     let elastic = at(expected);
     Ok(match expected.checked_sub(1) {

@@ -14,7 +14,7 @@
 use super::error::check_frequencies;
 use super::response::check_path;
 use super::{FrequencyResponse, FrfError, FrfPaths, ModalDamping, ReducedSystem};
-use crate::linalg::{ComplexMatrix, DenseCholesky, DenseMatrix, symmetric_generalised_eigen};
+use crate::linalg::{ComplexMatrix, DenseCholesky, DenseMatrix, acting_generalised_eigen};
 use faer::{Scale, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -56,7 +56,7 @@ impl ModalBasis {
     /// # Errors
     /// [`FrfError::Linalg`].
     pub fn new(system: &ReducedSystem) -> Result<Self, FrfError> {
-        let spectrum = symmetric_generalised_eigen(system.stiffness(), system.mass())?;
+        let spectrum = acting_generalised_eigen(system.stiffness(), system.mass())?;
         let count = spectrum
             .values
             .iter()

@@ -23,7 +23,7 @@ use thiserror::Error;
 
 use super::{SuperelementError, SuperelementRecord};
 use crate::exchange::DofBody;
-use crate::linalg::{DenseMatrix, LinalgError, symmetric_generalised_eigen};
+use crate::linalg::{DenseMatrix, LinalgError, acting_generalised_eigen};
 use nodes::{Node, nodes};
 use rigid::{Inertia, inertia};
 
@@ -220,7 +220,7 @@ fn modes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usize), 
         DenseMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])])
     };
     let (stiffness, mass) = (part(&record.stiffness), part(&record.mass));
-    let spectrum = symmetric_generalised_eigen(&stiffness, &mass)
+    let spectrum = acting_generalised_eigen(&stiffness, &mass)
         .map_err(|source| MbdynError::Eigen { source })?;
     let finite = spectrum.values.iter().copied().filter(|v| v.is_finite());
     let limit = RIGID_LIMIT * finite.clone().fold(0.0, f64::max);
