@@ -38,19 +38,24 @@ Example: a housing on the nodes of its bore, its frequencies against those of th
   plummer condense examples/scenes/pedestal.toml --compare-full
 
 Files:
-  superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mtx, mbdyn
+  superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mbdyn;
+                    in another case it takes the housing's place: [housing] superelement = \"superelement.npz\"
   condense.json     checks with limits and verdicts, estimated errors";
 
 const EXPORT_EXAMPLE: &str = "\
-Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again
+Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
+housing for Nastran and pyYeti
   plummer export examples/scenes/pedestal.toml --to mtx
   plummer export out/pedestal --to vtu
+  plummer export examples/scenes/pedestal.toml --to op4
 
 Files:
   vtu  modes.vtu, ring.vtu: elements with a field a mode (ParaView, PyVista)
   uff  modes.uff, ring.uff: nodes, elements, mode shapes (universal file, datasets 2411, 2412, 55)
   mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
-  npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)";
+  npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
+  op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA of the condensed housing, interface first (pyyeti.nastran.op4)
+  mbdyn  superelement.fem: data of MBDyn's modal joint";
 
 /// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
 #[derive(Debug, Clone, Parser)]
@@ -123,11 +128,9 @@ pub enum ExportFormat {
     Mtx,
     /// Matrices and mode shapes as NumPy archives
     Npz,
-    /// Matrices as Nastran's OUTPUT4 files; not written yet
-    #[value(hide = true)]
+    /// The condensed housing's matrices as Nastran's OUTPUT4 file
     Op4,
-    /// A modal body of MBDyn; not written yet
-    #[value(hide = true)]
+    /// The condensed housing as a modal body of MBDyn
     Mbdyn,
 }
 

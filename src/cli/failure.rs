@@ -171,9 +171,14 @@ mod tests {
                 "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
             ),
             (
-                CliError::from(ExportError::NotWritten { format: "op4" }),
+                CliError::from(ExportError::NothingCondensed {
+                    format: "op4",
+                    found: "a ring alone",
+                }),
                 2,
-                "error: --to op4 is not written yet: expected vtu, uff, mtx or npz\n",
+                "error: --to op4 writes a condensed housing: expected [housing] with a mesh, and ring.tie or \
+                 condense.interface, found a ring alone\n\
+                 help: --to mtx and --to npz write matrices that are not condensed\n",
             ),
             (
                 CliError::from(ExportError::NoResults { folder: path() }),

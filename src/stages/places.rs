@@ -68,16 +68,10 @@ impl Place {
                     ring.displacement_row(degrees.to_radians(), direction),
                 ));
             }
-            (SensorSpot::Group(group), Some(housing)) => (of_group(housing, group)?, housing),
-            (SensorSpot::Point(point), Some(housing)) => {
-                (vec![nearest_node(housing, name, point)?], housing)
-            }
-            (SensorSpot::Node(tag), Some(housing)) => {
-                (vec![tagged_node(housing, name, *tag)?], housing)
-            }
             (SensorSpot::Recovered(row), _) => {
                 return Err(needs_housing(format!("row \"{row}\" of a superelement")));
             }
+            (spot, Some(housing)) => (nodes_at(housing, name, spot)?, housing),
             (SensorSpot::Group(group), None) => {
                 return Err(needs_housing(format!("group \"{group}\"")));
             }
@@ -151,6 +145,23 @@ fn in_plane(name: &str, direction: [f64; 3]) -> Result<[f64; 2], StageError> {
         Err(StageError::SensorDirection {
             name: name.to_owned(),
         })
+    }
+}
+
+/// Nodes of the mesh at a place; none at one on the ring.
+///
+/// # Errors
+/// [`StageError`] for a place that is not there.
+pub(super) fn nodes_at(
+    housing: &HousingStage,
+    name: &str,
+    spot: &SensorSpot,
+) -> Result<Vec<usize>, StageError> {
+    match spot {
+        SensorSpot::Group(group) => of_group(housing, group),
+        SensorSpot::Point(point) => Ok(vec![nearest_node(housing, name, point)?]),
+        SensorSpot::Node(tag) => Ok(vec![tagged_node(housing, name, *tag)?]),
+        SensorSpot::RingDeg(_) | SensorSpot::Recovered(_) => Ok(Vec::new()),
     }
 }
 

@@ -3,11 +3,15 @@
 use super::StageError;
 use super::condensed::CondensedStage;
 use super::damping::damping;
-use super::places::Place;
+use super::places::{Place, nodes_at};
 use crate::case::Case;
-use crate::exchange::{SensorRow, SuperelementRecord};
+use crate::exchange::{FieldRecovery, SensorRow, SuperelementRecord};
 use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+
+/// Numbers of a recovery that goes into a file: 8 MiB.
+const FIELD: usize = 1 << 20;
 
 /// The superelement with its labels, its damping, its weight and the rows of the case's sensors.
 ///
@@ -43,10 +47,61 @@ pub fn superelement_record(
             .collect(),
         weight: Some(weight(stage)),
         sensors,
-        field: None,
+        field: field(case, stage)?,
         stiffness: element.stiffness.clone(),
         mass: element.mass.clone(),
     })
+}
+
+/// The way back to nodes of the mesh: all of them, else those of the sensors and of the bore, else those of the sensors;
+/// the first whose recovery has at most [`FIELD`] numbers.
+fn field(case: &Case, stage: &CondensedStage) -> Result<Option<FieldRecovery>, StageError> {
+    let housing = &stage.housing;
+    let d = housing.model.dimension();
+    let used = |node: &usize| housing.model.is_used(*node);
+    let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
+    let mut of_sensors = BTreeSet::new();
+    for sensor in &case.sensors {
+        of_sensors.extend(nodes_at(housing, &sensor.name, &sensor.spot)?);
+    }
+    let driven = stage.boundary.partition().driven.iter();
+    let with_bore: BTreeSet<usize> = driven
+        .map(|dof| dof / d)
+        .chain(of_sensors.clone())
+        .collect();
+    let order = stage.condensed.superelement.order();
+    let fits = |nodes: &Vec<usize>| !nodes.is_empty() && 3 * nodes.len() * order <= FIELD;
+    let choices = [
+        all,
+        with_bore.into_iter().collect(),
+        of_sensors.into_iter().collect(),
+    ];
+    let Some(nodes) = choices.into_iter().find(fits) else {
+        return Ok(None);
+    };
+    let mut recovery = DenseMatrix::zeros(3 * nodes.len(), order);
+    for (place, &node) in nodes.iter().enumerate() {
+        for axis in 0..d {
+            let mut direction = [0.0; 3];
+            direction[axis] = 1.0;
+            let entries = match stage.boundary.ring() {
+                Some((_, tie)) => tie.displacement_row(&housing.model, node, direction),
+                None => housing.model.displacement_row(node, direction),
+            };
+            let row = Place::Housing(entries).reduced(&stage.condensed);
+            for (column, value) in row.into_iter().enumerate() {
+                recovery[(3 * place + axis, column)] = value;
+            }
+        }
+    }
+    Ok(Some(FieldRecovery {
+        node_tags: nodes.iter().map(|&n| housing.model.node_tags[n]).collect(),
+        positions: nodes
+            .iter()
+            .map(|&n| housing.model.coordinates()[n])
+            .collect(),
+        recovery,
+    }))
 }
 
 /// Mass times unit accelerations along the mesh's axes, on the coordinates [order x 3].

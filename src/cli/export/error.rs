@@ -5,18 +5,24 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::exchange::{
-    DofTableError, MatrixMarketError, ModeShapesError, NpzError, NpzReadError, UffError, VtuError,
+    DofTableError, MatrixMarketError, MbdynError, ModeShapesError, NpzError, NpzReadError,
+    Op4Error, UffError, VtuError,
 };
 
 /// Why something was not exported.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// A format to come.
-    #[error("--to {format} is not written yet: expected vtu, uff, mtx or npz")]
-    NotWritten {
+    /// A case with nothing to condense.
+    #[error(
+        "--to {format} writes a condensed housing: expected [housing] with a mesh, and ring.tie or condense.interface, found \
+         {found}"
+    )]
+    NothingCondensed {
         /// The format.
         format: &'static str,
+        /// What the case has instead.
+        found: &'static str,
     },
     /// A folder without results of `plummer modes`.
     #[error("{} has no modes.json: expected a case file or a folder with results of `plummer modes`", folder.display())]
@@ -79,6 +85,12 @@ pub enum ExportError {
     /// A universal file.
     #[error(transparent)]
     Uff(#[from] UffError),
+    /// An OUTPUT4 file.
+    #[error(transparent)]
+    Op4(#[from] Op4Error),
+    /// The data of a modal element.
+    #[error("--to mbdyn: {0}")]
+    Mbdyn(#[from] MbdynError),
 }
 
 impl ExportError {
@@ -92,6 +104,8 @@ impl ExportError {
                 | Self::Dofs(_)
                 | Self::Vtu(VtuError::Write { .. })
                 | Self::Uff(UffError::Write { .. })
+                | Self::Op4(Op4Error::Write { .. })
+                | Self::Mbdyn(MbdynError::Write { .. } | MbdynError::Eigen { .. })
         )
     }
 
@@ -110,6 +124,13 @@ impl ExportError {
             Self::SetForResults { .. } => "name the case file to compute it again".to_owned(),
             Self::Results { .. } | Self::DoesNotFit { .. } | Self::Read(_) => {
                 "run `plummer modes` again with --force, or name the case file".to_owned()
+            }
+            Self::NothingCondensed { .. } => {
+                "--to mtx and --to npz write matrices that are not condensed".to_owned()
+            }
+            Self::Mbdyn(MbdynError::RigidMotions { .. }) => {
+                "MBDyn's bodies are solid: a housing that is free in space, or held by its supports"
+                    .to_owned()
             }
             Self::Shapes(_) => "ask for more modes in [modes]".to_owned(),
             _ => return None,

@@ -1,8 +1,9 @@
 //! `plummer export`: matrices and mode shapes in the formats of other programs.
 //!
-//! A case is computed as far as the format needs: matrices are assembled, mode shapes solved for. A folder with results of
+//! A case is computed as far as the format needs: matrices are assembled, mode shapes solved for, the housing condensed. A folder with results of
 //! `plummer modes` gives its mode shapes without solving again.
 
+mod condensed;
 mod error;
 mod matrices;
 mod record;
@@ -35,11 +36,11 @@ struct Export {
 /// written.
 pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    if let ExportFormat::Op4 | ExportFormat::Mbdyn = to {
-        return Err(ExportError::NotWritten { format: to.name() }.into());
-    }
     let source = Source::open(from, options)?;
     let case = source.case();
+    if let ExportFormat::Op4 | ExportFormat::Mbdyn = to {
+        condensed::can_condense(case, to)?;
+    }
     let folder = match (&options.out, source.folder()) {
         (None, Some(folder)) => OutputFolder::at(folder),
         _ => OutputFolder::of(case, options),
@@ -53,7 +54,9 @@ pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcom
         ExportFormat::Mtx => matrices::mtx(case, &folder, &progress),
         ExportFormat::Npz => matrices::npz(&source, &folder, &progress),
         ExportFormat::Vtu => shapes::vtu(&source, &folder, &progress),
-        _ => shapes::uff(&source, &folder, &progress),
+        ExportFormat::Uff => shapes::uff(&source, &folder, &progress),
+        ExportFormat::Op4 => condensed::op4(case, &folder, &progress),
+        ExportFormat::Mbdyn => condensed::mbdyn(case, &folder, &progress),
     };
     progress.finish();
     let Export { files, summary } = exported?;
@@ -90,7 +93,8 @@ impl ExportFormat {
             Self::Npz => vec!["stiffness.npz", "mass.npz", "dofs.npz", "modes.npz"],
             Self::Vtu => of_bodies("modes.vtu", "ring.vtu"),
             Self::Uff => of_bodies("modes.uff", "ring.uff"),
-            Self::Op4 | Self::Mbdyn => Vec::new(),
+            Self::Op4 => vec!["superelement.op4", "superelement_dofs.csv"],
+            Self::Mbdyn => vec!["superelement.fem"],
         }
     }
 }
