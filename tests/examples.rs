@@ -50,7 +50,7 @@ fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
     assert!(near(bearing.contact_damping, 2.0));
     assert!(near(bearing.defects[0].length, 0.75e-3));
     assert!(matches!(case.damping, Some(Damping::Modal(ratio)) if near(ratio, 0.03)));
-    let housing = case.housing.as_ref().unwrap();
+    let housing = case.meshed_housing().unwrap();
     assert_eq!(
         housing.mesh,
         path("tadina2011").join("../../meshes/ring_6_9.msh")

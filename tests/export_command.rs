@@ -9,7 +9,10 @@ use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::io::load_coo_from_matrix_market_file;
-use plummer::exchange::{read_mode_shapes, write_modes_npz};
+use plummer::exchange::{
+    Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz,
+    write_superelement_npz,
+};
 use plummer::stages::MeshDigest;
 use serde_json::Value;
 use vtkio::Vtk;
@@ -314,17 +317,11 @@ fn results_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn formats_to_come_and_files_in_the_way_are_refused() {
+fn files_in_the_way_are_refused() {
     let folder = scratch("refused");
-    for format in ["op4", "mbdyn"] {
-        assert_eq!(
-            refused(&folder, &format!("export ring.toml --to {format}")),
-            format!("error: --to {format} is not written yet: expected vtu, uff, mtx or npz\n")
-        );
-    }
     assert!(
         refused(&folder, "export ring.toml --to stl")
-            .contains("[possible values: vtu, uff, mtx, npz]")
+            .contains("[possible values: vtu, uff, mtx, npz, op4, mbdyn]")
     );
     assert!(!folder.join("out").exists());
     let out = folder.join("out/ring");
@@ -409,4 +406,153 @@ fn tables_lie_beside_the_report() {
     assert!(shown.contains("wrote out/housing/tables\n"), "{shown}");
     assert!(!out.join("tables/modes-99-old.csv").exists());
     assert!(out.join("tables/notes.csv").exists());
+}
+
+/// A pillow block on its feet with a ring of 8 nodes.
+fn write_solid(folder: &Path) {
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pedestal.msh");
+    fs::copy(mesh, folder.join("b.msh")).unwrap();
+    let text = "[housing]\nmesh = \"b.msh\"\nlength_unit = \"mm\"\n\
+        parts = [{ group = \"housing\", material = \"aluminium\" }]\n\
+        supports = [{ group = \"feet\", fixed = [\"x\", \"y\", \"z\"] }]\n\
+        [condense]\nfixed_interface_modes = 6\n";
+    let ring = RING.replace("24", "8");
+    let solid = format!(
+        "{text}{ring}{TIE}[[sensors]]\nname = \"a\"\npoint = [0, 10e-3, 0]\ndirection = [0, 1, 0]\n"
+    );
+    fs::write(folder.join("solid.toml"), solid).unwrap();
+}
+
+/// The condensed housing as OUTPUT4 with its rows, and as the data of MBDyn's modal element.
+#[test]
+fn a_condensed_housing_is_exported() {
+    let folder = scratch("condensed");
+    good(&folder, "condense coupled.toml --quiet");
+    let out = folder.join("out/coupled");
+    let record = read_superelement_npz(&out.join("superelement.npz")).unwrap();
+    let shown = good(&folder, "export coupled.toml --to op4");
+    assert!(
+        shown.contains(
+            "wrote out/coupled/superelement.op4\nwrote out/coupled/superelement_dofs.csv\n"
+        ),
+        "{shown}"
+    );
+    let matrices = read_op4(&out.join("superelement.op4")).unwrap();
+    let names: Vec<&str> = matrices.iter().map(Op4Matrix::name).collect();
+    assert_eq!(names, ["KAA", "MAA"]);
+    assert_eq!(matrices[0].dense().unwrap(), record.stiffness);
+    assert_eq!(matrices[1].dense().unwrap(), record.mass);
+    let mut table = csv::Reader::from_path(out.join("superelement_dofs.csv")).unwrap();
+    let rows: Vec<BTreeMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), record.order());
+    assert_eq!(
+        (rows[4]["body"].as_str(), rows[4]["node"].as_str()),
+        ("ring", "1")
+    );
+    assert_eq!(rows[4]["direction"], "y");
+    assert_eq!(rows[72]["body"], "modal");
+    let export = json(out.join("export.json"));
+    assert_eq!(
+        (&export["to"], export["files"].as_array().unwrap().len()),
+        (&"op4".into(), 2)
+    );
+    let again = refused(&folder, "export coupled.toml --to op4");
+    assert!(
+        again.starts_with("error: out/coupled/superelement.op4 is the result of an earlier run")
+    );
+    // held by its feet: no inertia
+    write_solid(&folder);
+    let shown = good(&folder, "export solid.toml --to mbdyn");
+    assert!(
+        shown.contains("held by its supports: `clamped` in MBDyn's joint"),
+        "{shown}"
+    );
+    let text = fs::read_to_string(folder.join("out/solid/superelement.fem")).unwrap();
+    // the ring's nodes and, as the whole mesh is too much, those of the bore and of the sensor
+    assert!(text.contains("ring0") && text.contains("ring7"), "names");
+    let refusals = [
+        ("ring.toml", "a ring alone"),
+        ("housing.toml", "a housing that nothing is attached to"),
+    ];
+    for (case, found) in refusals {
+        for format in ["op4", "mbdyn"] {
+            assert_eq!(
+                refused(&folder, &format!("export {case} --to {format}")),
+                format!(
+                    "error: --to {format} writes a condensed housing: expected [housing] with a mesh, and ring.tie or \
+                     condense.interface, found {found}\nhelp: --to mtx and --to npz write matrices that are not condensed\n"
+                )
+            );
+        }
+    }
+}
+
+/// A superelement written by `condense`, or its OUTPUT4 file, in the housing's place.
+#[test]
+fn a_superelement_takes_the_housing_s_place() {
+    let folder = scratch("import");
+    good(&folder, "condense coupled.toml --quiet");
+    good(&folder, "export coupled.toml --to op4 --quiet");
+    good(&folder, "modes coupled.toml --quiet");
+    let full = numbers(&json(folder.join("out/coupled/modes.json"))["frequencies_hz"]);
+    for kind in ["npz", "op4"] {
+        let text =
+            format!("[housing]\nsuperelement = \"out/coupled/superelement.{kind}\"\n{RING}{MODES}");
+        fs::write(folder.join(format!("{kind}.toml")), text).unwrap();
+        let shown = good(&folder, &format!("modes {kind}.toml"));
+        assert!(shown.contains("What needs its mesh is left out"), "{shown}");
+        let unlabelled = shown.contains("Only their number was checked.");
+        assert_eq!(unlabelled, kind == "op4", "{shown}");
+        let result = json(folder.join(format!("out/{kind}/modes.json")));
+        assert_eq!(result["mass_kg"], Value::Null);
+        assert_eq!(result["superelement"]["interface_dof"], 72);
+        let found = numbers(&result["frequencies_hz"]);
+        for (found, full) in found.iter().zip(&full) {
+            // what condensing costs: accuracy.target is 0.01
+            assert!((found / full - 1.0).abs() < 0.01, "{found} {full}");
+        }
+        let report = fs::read_to_string(folder.join(format!("out/{kind}/report.html"))).unwrap();
+        assert!(report.contains("What needs its mesh is left out"));
+        let shown = good(&folder, &format!("condense {kind}.toml"));
+        assert!(shown.contains("checks passed: 7 of 7"), "{shown}");
+        assert!(!folder.join(format!("out/{kind}/superelement.npz")).exists());
+        // the ring's line and the matrices are there, its housing is not
+        good(&folder, &format!("export {kind}.toml --to vtu --quiet"));
+        assert!(!folder.join(format!("out/{kind}/modes.vtu")).exists());
+        good(&folder, &format!("export {kind}.toml --to mtx --quiet"));
+        let k = mtx(&folder.join(format!("out/{kind}/stiffness.mtx")));
+        let m = mtx(&folder.join(format!("out/{kind}/mass.mtx")));
+        for (own, found) in frequencies(&k, &m, 6).iter().zip(&found) {
+            // two dense solvers
+            assert!((own / found - 1.0).abs() < 1e-8, "{own} {found}");
+        }
+        let error = refused(&folder, &format!("export {kind}.toml --to op4"));
+        assert!(
+            error.contains("found a superelement, which is condensed already"),
+            "{error}"
+        );
+        let error = refused(
+            &folder,
+            &format!("modes {kind}.toml --set ring.nodes=12 --force"),
+        );
+        assert!(
+            error.contains("interface coordinates (x, y, about_z of each of the ring's 12 nodes)"),
+            "{error}"
+        );
+    }
+    // a stiffness between interface and mode
+    let path = folder.join("out/coupled/superelement.npz");
+    let mut record = read_superelement_npz(&path).unwrap();
+    record.stiffness[(0, 72)] = 1e-3 * record.stiffness[(72, 72)];
+    record.stiffness[(72, 0)] = record.stiffness[(0, 72)];
+    write_superelement_npz(&path, &record).unwrap();
+    let error = refused(&folder, "modes npz.toml --force");
+    assert!(
+        error.starts_with(
+            "error: housing.superelement: out/coupled/superelement.npz: check \"k_bq = 0\" ("
+        ),
+        "{error}"
+    );
+    let checked = plummer(&folder, "condense npz.toml --force");
+    assert_eq!(checked.status.code(), Some(1));
 }

@@ -163,3 +163,108 @@ impl From<HousingSource> for SourceForm {
         form
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::case::{Case, CaseError, HousingSource, Source};
+
+    const CASE: &str = "[housing]\nsuperelement = \"s.npz\"\n\n[ring]\n\
+        sections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n";
+
+    fn read(set: &[&str]) -> Result<Case, CaseError> {
+        Case::from_source(Source {
+            path: "folder/case.toml".into(),
+            text: CASE.to_owned(),
+            set: set.iter().map(|&set| set.to_owned()).collect(),
+        })
+    }
+
+    #[test]
+    fn a_superelement_stands_alone_and_is_beside_the_case() {
+        let case = read(&["sensors=[{name='a',recovered='P1'}]"]).unwrap();
+        assert_eq!(case.superelement(), Some(Path::new("folder/s.npz")));
+        assert!(case.meshed_housing().is_none());
+        // the echo has the form of the file
+        let echo = serde_json::to_value(&case).unwrap();
+        assert_eq!(
+            (&echo["housing"], &echo["sensors"]),
+            (
+                &serde_json::json!({ "superelement": "folder/s.npz" }),
+                &serde_json::json!([{ "name": "a", "recovered": "P1" }])
+            )
+        );
+        let again: Case = serde_json::from_value(echo).unwrap();
+        assert!(matches!(
+            again.housing,
+            Some(HousingSource::Superelement(_))
+        ));
+        assert_eq!(again.sensors, case.sensors);
+    }
+
+    #[test]
+    fn what_contradicts_it_is_named() {
+        for (set, message) in [
+            (
+                "housing.mesh=a.msh",
+                "folder/case.toml:1: `housing`: found `mesh` beside `superelement`, expected `superelement` alone, or \
+                 `mesh` with its keys",
+            ),
+            (
+                "housing.supports=[]",
+                "folder/case.toml:1: `housing`: found `supports` beside `superelement`, expected `superelement` alone, or \
+                 `mesh` with its keys",
+            ),
+            (
+                "ring.tie={group='bore'}",
+                "--set ring.tie={group='bore'}: `ring.tie`: found beside `housing.superelement`, expected one of the two",
+            ),
+            (
+                "condense.interface={nodes=[1]}",
+                "--set condense.interface={nodes=[1]}: `condense.interface`: found beside `housing.superelement`, expected \
+                 one of the two",
+            ),
+            (
+                "sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]",
+                "--set sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]: `sensors[0].point`: needs `housing.mesh`, \
+                 which the case lacks",
+            ),
+            (
+                "sensors=[{name='a',recovered='P1',direction=[1,0,0]}]",
+                "--set sensors=[{name='a',recovered='P1',direction=[1,0,0]}]: `sensors[0]`: found `direction` beside \
+                 `recovered`, expected `recovered` alone: its row has a direction",
+            ),
+            (
+                "sensors=[{name='a',ring_deg=0}]",
+                "--set sensors=[{name='a',ring_deg=0}]: `sensors[0]` lacks the required key `direction`",
+            ),
+            (
+                "modes.convergence={meshes=['b.msh']}",
+                "--set modes.convergence={meshes=['b.msh']}: `modes.convergence`: needs `housing.mesh`, which the case \
+                 lacks",
+            ),
+        ] {
+            assert_eq!(read(&[set]).unwrap_err().to_string(), message);
+        }
+        let bare = Case::from_source(Source {
+            path: "a.toml".into(),
+            text: "[housing]\nsuperelement = \"s.npz\"\n".to_owned(),
+            set: Vec::new(),
+        });
+        assert_eq!(
+            bare.unwrap_err().to_string(),
+            "a.toml:2: `housing.superelement`: needs [ring], which the case lacks"
+        );
+        let recovered = "[[sensors]]\nname = \"a\"\nrecovered = \"P1\"\n";
+        let ring = Case::from_source(Source {
+            path: "a.toml".into(),
+            text: CASE[CASE.find("[ring]").unwrap()..].to_owned() + recovered,
+            set: Vec::new(),
+        });
+        assert_eq!(
+            ring.unwrap_err().to_string(),
+            "a.toml:5: `sensors[0].recovered`: needs `housing.superelement`, which the case lacks"
+        );
+    }
+}

@@ -43,7 +43,7 @@ fn every_key_of_the_full_case_arrives() {
             .young,
         71e9
     ));
-    let housing = case.housing.as_ref().unwrap();
+    let housing = case.meshed_housing().unwrap();
     assert_eq!(housing.mesh, Path::new("folder/pedestal.msh"));
     assert!(near(housing.length_unit.to_metres(), 1e-3));
     assert!(matches!(
