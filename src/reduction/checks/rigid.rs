@@ -3,7 +3,9 @@
 use super::matrices::largest;
 use super::{Check, CraigBampton, ReductionError};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
+use crate::linalg::{
+    DenseMatrix, LinalgError, acting_generalised_eigen, sparse_times_dense, symmetric_eigen,
+};
 
 /// Energy of a motion that the matrices let pass, relative to the sum of the magnitudes of its terms: round-off of a sum
 /// of many terms.
@@ -180,8 +182,13 @@ impl RigidMotions {
 /// The modes that should be rigid, and that there is none more.
 fn zero_modes(condensed: &CraigBampton, expected: usize) -> Result<Check, ReductionError> {
     let element = &condensed.superelement;
-    let modes = acting_generalised_eigen(&element.stiffness, &element.mass)?;
-    let at = |place: usize| modes.values.get(place).copied().unwrap_or(f64::INFINITY);
+    let values = match acting_generalised_eigen(&element.stiffness, &element.mass) {
+        Ok(modes) => modes.values,
+        // indefinite matrices, which have a check of their own, have no modes
+        Err(LinalgError::NotPositiveDefinite { .. }) => vec![f64::NAN; element.order()],
+        Err(error) => return Err(error.into()),
+    };
+    let at = |place: usize| values.get(place).copied().unwrap_or(f64::INFINITY);
     let elastic = at(expected);
     Ok(match expected.checked_sub(1) {
         Some(_) => {
