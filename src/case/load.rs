@@ -17,6 +17,8 @@ pub enum Purpose {
     Modes,
     /// A condensed housing.
     Condense,
+    /// Transfer paths.
+    Frf,
     /// The simulation in time.
     Run,
 }
@@ -58,6 +60,7 @@ impl Case {
     pub fn from_source(source: Source) -> Result<Self, CaseError> {
         let case = Self::without_variants(source)?;
         case.variants()?;
+        case.frf_variants()?;
         Ok(case)
     }
 
@@ -100,25 +103,45 @@ impl Case {
     /// # Errors
     /// [`CaseError::Variant`] when one of them is not a valid case. A case from [`Case::load`] has valid ones only.
     pub fn variants(&self) -> Result<Vec<VariantCase>, CaseError> {
+        self.read_variants(&self.modes.variants, "modes.variants")
+    }
+
+    /// Returns the variants under `frf.variants`.
+    ///
+    /// # Errors
+    /// As [`Case::variants`].
+    pub fn frf_variants(&self) -> Result<Vec<VariantCase>, CaseError> {
+        let variants = self.frf.as_ref().map_or(&[][..], |frf| &frf.variants);
+        self.read_variants(variants, "frf.variants")
+    }
+
+    fn read_variants(
+        &self,
+        variants: &[super::Variant],
+        key: &str,
+    ) -> Result<Vec<VariantCase>, CaseError> {
         let read = |(index, variant): (usize, &super::Variant)| {
             let mut source = self.source.clone();
             source.set.extend(variant.set.iter().cloned());
             match Self::without_variants(source) {
                 Ok(mut case) => {
                     case.modes.variants.clear();
+                    if let Some(frf) = &mut case.frf {
+                        frf.variants.clear();
+                    }
                     Ok(VariantCase {
                         what: variant.what.clone(),
                         case,
                     })
                 }
                 Err(error) => Err(CaseError::Variant {
-                    place: self.place(&format!("modes.variants[{index}]")),
+                    place: self.place(&format!("{key}[{index}]")),
                     what: variant.what.clone(),
                     source: Box::new(error),
                 }),
             }
         };
-        self.modes.variants.iter().enumerate().map(read).collect()
+        variants.iter().enumerate().map(read).collect()
     }
 
     /// Returns where a key was written: file and line, or `--set` argument.
@@ -152,6 +175,19 @@ impl Case {
         let equilibrium = ("a support in [housing] or [ring]", held);
         let tied = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
         let (needed_by, needed) = match purpose {
+            Purpose::Frf => (
+                "`frf`",
+                vec![
+                    ("[housing]", self.housing.is_some()),
+                    ("[frf]", self.frf.is_some()),
+                    ("[[sensors]]", !self.sensors.is_empty()),
+                    ("[damping]", self.damping.is_some()),
+                    (
+                        "ring.tie, or condense.interface = { nodes = [TAGS] }",
+                        tied || self.condense.interface != Interface::Ring,
+                    ),
+                ],
+            ),
             Purpose::Condense => (
                 "`condense`",
                 vec![

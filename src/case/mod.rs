@@ -25,6 +25,7 @@ mod defect;
 mod document;
 mod error;
 mod fault;
+mod frf;
 mod housing;
 mod housing_source;
 mod link;
@@ -57,6 +58,7 @@ pub use condense::{Condense, FixedInterfaceModes, Interface};
 pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};
+pub use frf::{Frf, Push};
 pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};
 pub use housing::{Integration, LinearElements, PlaneAssumption};
 pub use housing_source::HousingSource;
@@ -111,6 +113,9 @@ pub struct Case {
     /// How the housing is condensed.
     #[serde(default)]
     pub condense: Condense,
+    /// Transfer paths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frf: Option<Frf>,
     /// What the signals must be good for; see [`Case::band_hz`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,

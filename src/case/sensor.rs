@@ -56,19 +56,16 @@ impl TryFrom<SensorForm> for Sensor {
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
-        let spots = [
-            form.group.map(SensorSpot::Group),
-            form.ring_deg.map(SensorSpot::RingDeg),
-            form.node.map(SensorSpot::Node),
-            form.point.map(SensorSpot::Point),
-            form.recovered.map(SensorSpot::Recovered),
-        ];
-        let mut given = spots.into_iter().flatten();
-        let spot = match (given.next(), given.next()) {
-            (Some(spot), None) => spot,
-            (None, _) => return Err(Mismatch::form("none of them", ONE)),
-            _ => return Err(Mismatch::form("several", ONE)),
-        };
+        let spot = one_spot(
+            [
+                form.group.map(SensorSpot::Group),
+                form.ring_deg.map(SensorSpot::RingDeg),
+                form.node.map(SensorSpot::Node),
+                form.point.map(SensorSpot::Point),
+                form.recovered.map(SensorSpot::Recovered),
+            ],
+            ONE,
+        )?;
         let direction = match (&spot, form.direction) {
             (SensorSpot::Recovered(_), None) => [0.0; 3],
             (SensorSpot::Recovered(_), Some(_)) => {
@@ -109,5 +106,18 @@ impl From<Sensor> for SensorForm {
             }
         }
         form
+    }
+}
+
+/// The one place that was given.
+pub(super) fn one_spot<const N: usize>(
+    spots: [Option<SensorSpot>; N],
+    expected: &'static str,
+) -> Result<SensorSpot, Mismatch> {
+    let mut given = spots.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (Some(spot), None) => Ok(spot),
+        (None, _) => Err(Mismatch::form("none of them", expected)),
+        _ => Err(Mismatch::form("several", expected)),
     }
 }

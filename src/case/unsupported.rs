@@ -41,7 +41,7 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 14] = [
+const UNSUPPORTED: [Unsupported; 13] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
@@ -77,7 +77,6 @@ const UNSUPPORTED: [Unsupported; 14] = [
         Extent::Table,
         "give one constant force, [x, y] in N",
     ),
-    refused(&["frf"], Extent::Key, "leave the table out"),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
     refused(
         &["transient", "method"],
@@ -194,7 +193,6 @@ mod tests {
             "shaft.loads=[{force=[{time=0,x=1}]}]",
             "shaft.loads[0].force",
         ),
-        ("frf={from=[],to=[]}", "frf"),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),
         (

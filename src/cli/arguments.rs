@@ -42,6 +42,14 @@ Files:
                     in another case it takes the housing's place: [housing] superelement = \"superelement.npz\"
   condense.json     checks with limits and verdicts, estimated errors";
 
+const FRF_EXAMPLE: &str = "\
+Example: what a force on the raceway does at the sensors, against the full model at its peaks
+  plummer frf examples/scenes/pedestal_frf.toml
+
+Files:
+  frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path
+  frf.uff   the same for test software (universal file, dataset 58)";
+
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
 housing for Nastran and pyYeti
@@ -105,6 +113,12 @@ pub enum Command {
         #[arg(long)]
         compare_full: bool,
     },
+    /// Transfer paths from forces to sensors, reduced against full
+    #[command(after_help = FRF_EXAMPLE)]
+    Frf {
+        /// Case file (TOML)
+        case: PathBuf,
+    },
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
@@ -157,6 +171,7 @@ impl Command {
             Self::Run { .. } => "run",
             Self::Modes { .. } => "modes",
             Self::Condense { .. } => "condense",
+            Self::Frf { .. } => "frf",
             Self::Inspect { .. } => "inspect",
             Self::Export { .. } => "export",
         }
@@ -273,6 +288,7 @@ mod tests {
             "plummer run --help",
             "plummer modes --help",
             "plummer condense --help",
+            "plummer frf --help",
             "plummer inspect --help",
             "plummer export --help",
         ] {

@@ -7,6 +7,7 @@ mod arguments;
 mod condense;
 mod export;
 mod failure;
+mod frf;
 mod inspect;
 mod mode_checks;
 mod modes;
@@ -68,6 +69,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Run { case } => compute(case, Purpose::Run, arguments),
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
         Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
+        Command::Frf { case } => compute(case, Purpose::Frf, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Inspect {
             mesh,
@@ -93,6 +95,7 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
         Purpose::Run => run::run(&case, options, &progress),
         Purpose::Modes => modes::modes(&case, options, &progress),
         Purpose::Condense => condense::condense(&case, arguments, &progress),
+        Purpose::Frf => frf::frf(&case, options, &progress),
     };
     progress.finish();
     outcome

@@ -199,6 +199,7 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
             "full_frequencies_hz": result.full.as_ref().map(|full| &full.frequencies_hz),
             "relative_error": result.full.as_ref().map(|full| &full.relative_errors),
             "effectivity": result.full.as_ref().and_then(|full| full.effectivity),
+            "tie_price": result.tie_price,
         }),
     );
     map

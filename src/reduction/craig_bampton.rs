@@ -11,8 +11,11 @@ use super::coupled_modes::reduced_matrices;
 use super::selection::{BasisChoice, choose_basis};
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::assembly::SystemMatrices;
-use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
+use crate::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
 use crate::model::HousingPartition;
+
+/// Columns that are condensed at once.
+const BLOCK: usize = 64;
 
 /// A condensed housing with the way back to its nodes.
 #[derive(Debug, Clone)]
@@ -49,6 +52,7 @@ impl CraigBampton {
             stiffness,
             mass,
             weight: DenseMatrix::zeros(0, 0),
+            structural: None,
             interface_dof: substructure.interface_dof(),
         };
         let mut condensed = Self {
@@ -58,6 +62,12 @@ impl CraigBampton {
         };
         condensed.superelement.weight = condensed.project(weight);
         condensed
+    }
+
+    /// The same with the imaginary part of the stiffness of lossy parts [dof x dof], N/m.
+    pub fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
+        self.superelement.structural = Some(self.condensed(matrix));
+        self
     }
 
     /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
@@ -82,6 +92,46 @@ impl CraigBampton {
                 Some(mode) => modal[(mode, column)],
             },
         )
+    }
+
+    /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
+    pub fn condensed(&self, matrix: &SparseMatrix) -> DenseMatrix {
+        let order = self.superelement.order();
+        let mut condensed = DenseMatrix::zeros(order, order);
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let unit = DenseMatrix::from_fn(order, width, |row, column| {
+                f64::from(u8::from(row == first + column))
+            });
+            let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
+            let block = self.project(&moved);
+            for column in 0..width {
+                condensed
+                    .col_as_slice_mut(first + column)
+                    .copy_from_slice(block.col_as_slice(column));
+            }
+        }
+        condensed
+    }
+
+    /// The same housing with further vectors in its basis: the static response of the interior to loads
+    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too. Structural damping is to be added
+    /// again.
+    ///
+    /// # Errors
+    /// As [`InteriorBasis::extended`].
+    pub fn with_loads(
+        self,
+        loads: &DenseMatrix,
+        weight: &DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let interior = &self.substructure.partition().interior;
+        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
+            loads[(interior[row], column)]
+        });
+        let static_response = self.substructure.solve_interior(inside)?;
+        let basis = self.basis.extended(&self.substructure, static_response)?;
+        Ok(Self::new(self.substructure, basis, weight))
     }
 
     /// Estimated errors of the frequencies in a band, with what will be attached.

@@ -37,7 +37,7 @@ const QUASI_STATIC: f64 = 1e-10;
 /// A mode of the reduced model in the band, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EstimatedMode {
-    /// Of the reduced model, Hz.
+    /// Of the reduced model, Hz; infinite if it has too few coordinates to have the mode at all.
     pub frequency_hz: f64,
     /// Estimate of `(reduced - full) / full`, both in Hz; not negative.
     pub relative_error: f64,
@@ -108,17 +108,17 @@ impl ErrorEstimate {
             estimate.rounds += 1;
             let now = modes.values.partition_point(|&value| value <= top);
             last_fall = (0..now)
-                .map(|mode| fall(before[mode], modes.values[mode]))
+                .map(|mode| fall(at(&before, mode), modes.values[mode]))
                 .collect();
             estimate.converged = now == count
                 && (0..now).all(|mode| {
-                    let total = fall(reduced.values[mode], modes.values[mode]);
+                    let total = fall(at(&reduced.values, mode), modes.values[mode]);
                     let left = last_fall[mode] * remainder(modes.values[mode], basis);
                     left <= REMAINDER * total || left <= ROUND_OFF
                 });
         }
         for (mode, &fallen) in last_fall.iter().enumerate() {
-            let (was, is) = (reduced.values[mode], modes.values[mode]);
+            let (was, is) = (at(&reduced.values, mode), modes.values[mode]);
             let total = fall(was, is) + fallen * remainder(is, basis);
             estimate.out_of_band += usize::from(was > top);
             estimate.modes.push(EstimatedMode {
@@ -128,6 +128,11 @@ impl ErrorEstimate {
         }
         Ok(estimate)
     }
+}
+
+/// An eigenvalue, or infinity where a basis has too few vectors for it.
+fn at(values: &[f64], mode: usize) -> f64 {
+    values.get(mode).copied().unwrap_or(f64::INFINITY)
 }
 
 /// `(f~ - f) / f` from the squares of both.

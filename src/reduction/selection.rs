@@ -56,11 +56,20 @@ pub fn choose_basis(
         BasisSize::Count(count) => {
             let count = count.min(substructure.interior_dof());
             let residual = if choice.enhanced { count / 2 } else { 0 };
-            let pairs = modes(substructure, count - residual)?;
-            let basis = InteriorBasis::of_modes(substructure, &pairs, count - residual);
-            with_residuals(substructure, &basis, attached, |_, elastic| {
-                (elastic..elastic + residual).collect()
-            })
+            let pairs = modes(substructure, count)?;
+            let mut basis = InteriorBasis::of_modes(substructure, &pairs, count - residual);
+            // an interface of few coordinates has few residual vectors; those of the basis with them are further ones
+            while basis.count() < count {
+                let missing = count - basis.count();
+                let more = with_residuals(substructure, &basis, attached, |_, elastic| {
+                    (elastic..elastic + missing).collect()
+                })?;
+                if more.count() == basis.count() {
+                    break;
+                }
+                basis = more;
+            }
+            Ok(basis)
         }
         BasisSize::UpTo(hz) => {
             let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0)?;

@@ -12,6 +12,8 @@ pub struct Superelement {
     pub mass: DenseMatrix,
     /// Mass times unit accelerations along the bearing's x and y, on the coordinates [order x 2], kg.
     pub weight: DenseMatrix,
+    /// Imaginary part of the stiffness by the parts' loss factors [order x order], N/m; `None` without any.
+    pub structural: Option<DenseMatrix>,
     /// Number of interface coordinates, <= order.
     pub interface_dof: usize,
 }

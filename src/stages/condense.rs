@@ -2,7 +2,7 @@
 
 use super::condensed::CondensedStage;
 use super::modal_system::FullModes;
-use super::{StageError, Watch};
+use super::{StageError, TIE_PRICE_MODES, TiePrice, Watch, tie_price};
 use crate::case::{Case, ModeExtent};
 use crate::linalg::EigenProblem;
 use crate::reduction::{Check, ErrorEstimate, check_craig_bampton};
@@ -46,6 +46,8 @@ pub struct CondenseResult {
     pub checks: Vec<Check>,
     /// The full model, if asked for.
     pub full: Option<FullComparison>,
+    /// What the ring's rigid sections change, if the full model was asked for and a ring is tied.
+    pub tie_price: Option<TiePrice>,
 }
 
 impl CondenseResult {
@@ -76,13 +78,16 @@ pub fn compute_condense(
     let mut checks =
         check_craig_bampton(&stage.condensed, &matrices, &stage.rigid_motions(), band_hz)?;
     checks.push(estimated_error(&estimate, case.target()));
-    let mut full = None;
+    let (mut full, mut price) = (None, None);
     if comparison == Comparison::Full {
         watch.stage("full model");
         let found = compare(&stage, &estimate, watch)?;
         checks.push(fixed_interface(&stage)?);
         checks.push(free_frequencies(&found, case.target()));
         full = Some(found);
+        if stage.boundary.ring().is_some() {
+            price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
+        }
     }
     drop(matrices);
     Ok(CondenseResult {
@@ -90,6 +95,7 @@ pub fn compute_condense(
         estimate,
         checks,
         full,
+        tie_price: price,
     })
 }
 

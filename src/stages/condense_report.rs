@@ -1,7 +1,7 @@
 //! The report of `plummer condense`: the certificate of a superelement.
 
 use super::condense::{CondenseResult, FullComparison};
-use super::{Boundary, StageError};
+use super::{BeamAndSolid, Boundary, StageError, TiePrice};
 use crate::case::Case;
 use crate::reduction::{BasisSize, Bound, Check};
 use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant};
@@ -47,7 +47,7 @@ pub fn condense_report(
             ),
             Verdict::None,
         );
-    Ok(report
+    let mut report = report
         .section(what(result))
         .section(
             Section::new("Checks")
@@ -55,7 +55,11 @@ pub fn condense_report(
                 .table(check_table(&result.checks)),
         )
         .section(errors(result))
-        .section(vectors(result)))
+        .section(vectors(result));
+    if let Some(price) = &result.tie_price {
+        report = report.section(tie(price));
+    }
+    Ok(report)
 }
 
 fn what(result: &CondenseResult) -> Section {
@@ -204,4 +208,57 @@ fn vectors(result: &CondenseResult) -> Section {
         "Below {} Hz these are the fixed-interface modes, all of them; above, combinations with the residual vectors.",
         significant(complete, 6)
     )))
+}
+
+/// What section-rigid bores cost.
+fn tie(price: &TiePrice) -> Section {
+    let section = Section::new("The price of the tie").paragraph("The tie makes every point of the bore follow the rigid section of the ring at its angle. Here are the frequencies of housing and ring through the tie, and of the same housing with the ring as a solid in its bore.");
+    let found = match price {
+        TiePrice::NotComputed(reason) => {
+            return section.paragraph(format!("Not computed: {reason}."));
+        }
+        TiePrice::Computed(found) => found,
+    };
+    let table = |caption: &str, modes: &[BeamAndSolid]| {
+        let mut table = Table::new(
+            caption,
+            [
+                Column::number("Mode", ""),
+                Column::number("Beams", "Hz"),
+                Column::number("Solid", "Hz"),
+                Column::number("Difference", "%"),
+                Column::number("MAC", ""),
+            ],
+        );
+        let number = |value: Option<f64>, digits| {
+            value.map_or_else(|| Cell::text("none"), |value| Cell::number(value, digits))
+        };
+        for mode in modes {
+            table = table.row([
+                Cell::text((mode.mode + 1).to_string()),
+                Cell::number(mode.beams_hz, 6),
+                number(mode.solid_hz, 6),
+                number(mode.relative_difference.map(|x| 100.0 * x), 3),
+                number(mode.mac, 3),
+            ]);
+        }
+        table
+    };
+    let mut section = section
+        .paragraph(format!(
+            "The solid ring: {} elements, {:.4} mm high, {:.4} mm wide, centroid radius {:.4} mm.",
+            found.elements,
+            1e3 * found.height_m,
+            1e3 * found.width_m,
+            1e3 * found.radius_m
+        ))
+        .table(table("Housing and ring", &found.modes))
+        .table(table(
+            "The ring alone: what the beams themselves cost",
+            &found.ring_alone,
+        ));
+    for note in &found.notes {
+        section = section.paragraph(note);
+    }
+    section
 }

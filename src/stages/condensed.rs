@@ -3,7 +3,7 @@
 use super::free_system::{of_housing, of_ring};
 use super::structure::ring_and_tie;
 use super::{HousingStage, StageError, Watch};
-use crate::assembly::{CoupledMatrices, SystemMatrices};
+use crate::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::case::{Case, FixedInterfaceModes, Interface};
 use crate::exchange::DofLabel;
 use crate::linalg::{DenseMatrix, transpose_times_dense};
@@ -47,8 +47,20 @@ impl CondensedStage {
     /// # Errors
     /// [`StageError`] of mesh, model, ring, tie and reduction.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+        Self::with_basis(case, basis_choice(case), watch)
+    }
+
+    /// The same with another basis than the case asks for.
+    ///
+    /// # Errors
+    /// As [`CondensedStage::build`].
+    pub(super) fn with_basis(
+        case: &Case,
+        choice: BasisChoice,
+        watch: &impl Watch,
+    ) -> Result<Option<Self>, StageError> {
         match HousingStage::build(case, watch)? {
-            Some(housing) => Self::of(case, housing, watch),
+            Some(housing) => Self::of(case, housing, choice, watch),
             None => Ok(None),
         }
     }
@@ -56,6 +68,7 @@ impl CondensedStage {
     fn of(
         case: &Case,
         housing: HousingStage,
+        choice: BasisChoice,
         watch: &impl Watch,
     ) -> Result<Option<Self>, StageError> {
         let boundary = match (&case.condense.interface, &case.ring) {
@@ -79,19 +92,42 @@ impl CondensedStage {
             }
         };
         watch.stage("condense");
-        let choice = basis_choice(case);
         let condensed = craig_bampton(
             &boundary.matrices(&housing),
             boundary.partition(),
             choice,
             boundary.attached(),
         )?;
-        Ok(Some(Self {
+        let stage = Self {
             housing,
             boundary,
             choice,
             condensed,
-        }))
+        };
+        stage.with_structural().map(Some)
+    }
+
+    /// The stage with the loss factors of the parts in its superelement.
+    fn with_structural(mut self) -> Result<Self, StageError> {
+        if let Some(structural) = StructuralStiffness::assemble(&self.housing.model)? {
+            let structural = match self.boundary.ring() {
+                Some((_, tie)) => structural.for_tie(tie),
+                None => structural,
+            };
+            self.condensed = self.condensed.with_structural(structural.matrix());
+        }
+        Ok(self)
+    }
+
+    /// The same with a basis that is exact in statics for loads on the housing's degrees of freedom [dof x k], in the
+    /// displacements that the partition uses.
+    ///
+    /// # Errors
+    /// [`StageError::Reduction`].
+    pub(super) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, StageError> {
+        let weight = self.matrices().weight.clone();
+        self.condensed = self.condensed.with_loads(loads, &weight)?;
+        self.with_structural()
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.
@@ -209,7 +245,7 @@ fn nodes_of(housing: &HousingStage, tags: &[u64]) -> Result<Vec<usize>, StageErr
 }
 
 /// The basis that a case asks for.
-fn basis_choice(case: &Case) -> BasisChoice {
+pub(super) fn basis_choice(case: &Case) -> BasisChoice {
     BasisChoice {
         size: match case.condense.fixed_interface_modes {
             FixedInterfaceModes::Count(count) => BasisSize::Count(count),

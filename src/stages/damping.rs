@@ -2,6 +2,8 @@
 
 use super::StageError;
 use crate::case::{self, Case};
+use crate::linalg::DenseMatrix;
+use crate::reduction::frf::{ModalBasis, ModalDamping, ReducedSystem};
 use crate::system::ModeDamping;
 
 /// The damping of a case; none without `[damping]`.
@@ -51,4 +53,34 @@ pub(super) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
         }
     }
     Ok(())
+}
+
+/// The same damping for frequency responses.
+///
+/// # Errors
+/// As [`damping`].
+pub(super) fn modal_damping(case: &Case) -> Result<ModalDamping, StageError> {
+    Ok(match damping(case)? {
+        ModeDamping::Rayleigh { alpha, beta } => ModalDamping::Rayleigh { alpha, beta },
+        ModeDamping::Modal(ratio) => ModalDamping::Uniform(ratio),
+    })
+}
+
+/// Viscous damping matrix [n x n] of matrices k and m with the case's damping, N s/m.
+///
+/// # Errors
+/// As [`damping`], and what the dense eigenvalue solver reports.
+pub(super) fn viscous_matrix(
+    case: &Case,
+    k: &DenseMatrix,
+    m: &DenseMatrix,
+) -> Result<DenseMatrix, StageError> {
+    Ok(match modal_damping(case)? {
+        ModalDamping::Rayleigh { alpha, beta } => m * faer::Scale(alpha) + k * faer::Scale(beta),
+        ModalDamping::Uniform(ratio) if ratio <= 0.0 => DenseMatrix::zeros(k.nrows(), k.ncols()),
+        ratios => {
+            let system = ReducedSystem::new(k.clone(), m.clone())?;
+            ModalBasis::new(&system)?.viscous_matrix(&system, &ratios)?
+        }
+    })
 }

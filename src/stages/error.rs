@@ -5,13 +5,15 @@ use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
 use crate::case::CaseError;
 use crate::element::ElementError;
-use crate::exchange::{CsvError, NpzError, ReadModesError};
+use crate::exchange::{CsvError, NpzError, ReadModesError, UffError};
+use crate::linalg::HarmonicError;
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
 use crate::mesh::MeshError;
 use crate::modal::ModalError;
 use crate::model::{ModelError, RingError};
 use crate::reduction::ReductionError;
+use crate::reduction::frf::FrfError;
 use crate::report::ReportError;
 use crate::series::SeriesError;
 use crate::signal::SignalError;
@@ -237,6 +239,12 @@ pub enum StageError {
     /// Craig-Bampton.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
+    /// Frequency responses.
+    #[error("frf: {0}")]
+    Frf(#[from] FrfError),
+    /// Harmonic response of the full model.
+    #[error("frf: {0}")]
+    Harmonic(#[from] HarmonicError),
     /// Coupling, equilibrium, linearisation.
     #[error(transparent)]
     System(#[from] SystemError),
@@ -252,6 +260,9 @@ pub enum StageError {
     /// Signal analysis.
     #[error("analysis: {0}")]
     Signal(#[from] SignalError),
+    /// Responses on disk.
+    #[error(transparent)]
+    Uff(#[from] UffError),
     /// Signals on disk.
     #[error(transparent)]
     Npz(#[from] NpzError),
@@ -293,7 +304,7 @@ impl StageError {
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
-            Self::Series(_) | Self::Npz(_) | Self::Report(_) => false,
+            Self::Series(_) | Self::Npz(_) | Self::Uff(_) | Self::Report(_) => false,
             _ => true,
         }
     }

@@ -63,6 +63,7 @@ impl ImportedHousing {
             stiffness: record.stiffness.clone(),
             mass: record.mass.clone(),
             weight: weight(&record, &frame),
+            structural: record.structural.clone(),
             interface_dof: record.interface.len(),
         };
         let imported = Self {

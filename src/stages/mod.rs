@@ -18,6 +18,8 @@ mod error;
 mod free_system;
 #[cfg(test)]
 mod free_system_tests;
+mod frf;
+mod frf_report;
 mod housing;
 mod import_error;
 mod imported;
@@ -53,6 +55,8 @@ pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use free_system::FreeSystem;
+pub use frf::{ComparedResponse, FrfResult, RankedPath, TransferPath, compute_frf};
+pub use frf_report::frf_report;
 pub use housing::HousingStage;
 pub use import_error::ImportError;
 pub use imported::ImportedHousing;

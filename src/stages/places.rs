@@ -1,7 +1,8 @@
 //! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
 
-use super::condensed::CondensedStage;
+use super::condensed::{Boundary, CondensedStage};
 use super::{HousingStage, StageError};
+use crate::assembly::CoupledMatrices;
 use crate::case::{self, SensorSpot};
 use crate::model::{Ring, RingFrame, RingTie};
 use crate::reduction::CraigBampton;
@@ -117,6 +118,47 @@ impl Place {
                 row
             }
         }
+    }
+
+    /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
+    pub fn on_housing(&self, dof: usize) -> Vec<f64> {
+        let mut row = vec![0.0; dof];
+        if let Self::Housing(entries) = self {
+            for &(at, factor) in entries {
+                row[at] += factor;
+            }
+        }
+        row
+    }
+
+    /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
+    pub fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
+        let mut row = vec![0.0; matrices.mass.rows()];
+        let ring = boundary.ring();
+        let first = row.len() - ring.map_or(0, |(ring, _)| ring.dof());
+        match self {
+            Self::Ring(entries) => {
+                for &(dof, factor) in entries {
+                    row[first + dof] += factor;
+                }
+            }
+            Self::Housing(entries) => {
+                let partition = boundary.partition();
+                for &(dof, factor) in entries {
+                    let driven = partition.driven.iter().position(|&at| at == dof);
+                    match (ring, driven) {
+                        (Some(_), Some(place)) => {
+                            for (column, entries) in partition.tie.outer_iterator().enumerate() {
+                                let share = entries.get(place).copied().unwrap_or(0.0);
+                                row[first + column] += factor * share;
+                            }
+                        }
+                        _ => row[dof] += factor,
+                    }
+                }
+            }
+        }
+        row
     }
 
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.

@@ -2,7 +2,7 @@
 
 use super::StageError;
 use super::condensed::CondensedStage;
-use super::damping::damping;
+use super::damping::viscous_matrix;
 use super::places::{Place, nodes_at};
 use crate::case::Case;
 use crate::exchange::{FieldRecovery, SensorRow, SuperelementRecord};
@@ -33,10 +33,10 @@ pub fn superelement_record(
             })
         })
         .collect::<Result<_, StageError>>()?;
-    let damping = damping(case)?.matrix(&element.stiffness, &element.mass)?;
+    let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
     Ok(SuperelementRecord {
         damping: Some(damping).filter(|c| c.norm_max() > 0.0),
-        structural: None,
+        structural: element.structural.clone(),
         interface: stage.interface_labels(),
         modal_hz: stage
             .condensed

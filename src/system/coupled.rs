@@ -10,7 +10,6 @@ use super::residual::ResidualFlexibility;
 use super::structure::{Structure, StructureModes};
 use crate::bearing::SpeedCursor;
 use crate::dynamics::{LinearCoordinate, State};
-use crate::linalg::{DenseMatrix, acting_generalised_eigen};
 use std::f64::consts::TAU;
 
 /// Which modes of the structure a run keeps.
@@ -47,36 +46,6 @@ impl ModeDamping {
         Self::Rayleigh {
             alpha: 2.0 * first.1 * w1 - beta * w1 * w1,
             beta,
-        }
-    }
-
-    /// Viscous damping matrix [n x n] of a structure with stiffness k and mass m, N s/m: `alpha m + beta k`, or
-    ///
-    /// ```text
-    /// m Phi diag(2 zeta omega) Phi^T m      with Phi^T m Phi = 1
-    /// ```
-    ///
-    /// # Errors
-    /// What the dense eigenvalue solver reports.
-    pub fn matrix(&self, k: &DenseMatrix, m: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
-        match *self {
-            Self::Rayleigh { alpha, beta } => Ok(m * faer::Scale(alpha) + k * faer::Scale(beta)),
-            Self::Modal(ratio) if ratio <= 0.0 => Ok(DenseMatrix::zeros(k.nrows(), k.ncols())),
-            Self::Modal(_) => {
-                let modes = acting_generalised_eigen(k, m)?;
-                let moved = m * &modes.vectors;
-                let scaled = DenseMatrix::from_fn(moved.nrows(), moved.ncols(), |row, mode| {
-                    let value = modes.values[mode];
-                    // a motion without mass has no frequency
-                    let factor = if value.is_finite() {
-                        self.coefficient(value)
-                    } else {
-                        0.0
-                    };
-                    factor * moved[(row, mode)]
-                });
-                Ok(scaled * moved.transpose())
-            }
         }
     }
 

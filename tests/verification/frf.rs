@@ -101,7 +101,8 @@ impl Pedestal {
     }
 }
 
-/// Measured: see the limit below. What remains is the assembly's rounding, amplified near resonances.
+/// Measured: receptance within 1.0e-11, drive receptance within 1.8e-12, the largest at 2.5 kHz and near the first
+/// resonance; what remains is the rounding of two assemblies and two solvers.
 #[test]
 fn full_response_of_the_pedestal() {
     let pedestal = Pedestal::new();
@@ -136,7 +137,8 @@ fn full_response_of_the_pedestal() {
         assert!(solution.residuals[0] < 1e-10);
         largest = errors.into_iter().fold(largest, f64::max);
     }
-    assert!(largest < 1e-6, "{largest:e}");
+    // two orders above what was measured: both residuals, times the condition of the pillow block
+    assert!(largest < 1e-9, "{largest:e}");
 }
 
 #[test]
@@ -170,8 +172,9 @@ fn reciprocity_and_balance_of_power() {
     }
 }
 
-/// The pedestal in its first 300 modes as a reduced system: direct solution, sum of modes with the modes left out as a
-/// residual, and the full model.
+/// The pedestal in its first 60 modes, and a coordinate without mass for the statics of all others, as a reduced system:
+/// direct solution, sum of 30 modes with a residual, and the full model. Measured: 2.7e-3, 3.0e-3 from the full model, 4e-4 from
+/// each other.
 #[test]
 fn reduced_response_of_the_pedestal() {
     let pedestal = Pedestal::new();
@@ -182,7 +185,7 @@ fn reduced_response_of_the_pedestal() {
         .unwrap()
         .lowest(kept)
         .unwrap();
-    // basis: the modes and the static response to the load, made orthogonal to them by their own statics
+    // static response to the load, and what of it the modes do not carry
     let full = pedestal.problem();
     let load = pedestal.forces(&[pedestal.force]);
     let rest = full.solve(0.0, &load).unwrap().displacements;

@@ -13,6 +13,7 @@ mod ring_element;
 mod ring_in_space;
 mod rings_of_solids;
 mod setup;
+mod superelement;
 mod tet10_integration;
 mod tie;
 mod tie_in_space;

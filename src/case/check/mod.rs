@@ -32,6 +32,7 @@ impl Case {
         time::sensors(self)?;
         time::modes(self)?;
         time::condense(self)?;
+        time::frf(self)?;
         time::accuracy(self)?;
         time::transient(self)?;
         time::analysis(self)
@@ -66,6 +67,11 @@ pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
     }
     if let Interface::Group(group) = &case.condense.interface {
         groups.push(("condense.interface.group".to_owned(), group.as_str()));
+    }
+    for (index, push) in case.frf.iter().flat_map(|frf| &frf.from).enumerate() {
+        if let SensorSpot::Group(group) = &push.spot {
+            groups.push((format!("frf.from[{index}].group"), group.as_str()));
+        }
     }
     for (index, sensor) in case.sensors.iter().enumerate() {
         if let SensorSpot::Group(group) = &sensor.spot {

@@ -154,6 +154,24 @@ pub(super) fn known_material(
     unknown_material(case, key, name)
 }
 
+/// A name of one of the case's sensors.
+pub(super) fn known_sensor(
+    case: &Case,
+    key: impl Into<String>,
+    name: &str,
+) -> Result<(), BrokenRule> {
+    let names = case.sensors.iter().map(|sensor| sensor.name.clone());
+    let names: Vec<String> = names.collect();
+    if names.iter().any(|known| known == name) {
+        return Ok(());
+    }
+    Err(Rule::UnknownSensor {
+        found: name.to_owned(),
+        names: Box::new(Choices::new(name, names)),
+    }
+    .at(key))
+}
+
 /// A material that rings and contacts can be made of.
 pub(super) fn known_isotropic(
     case: &Case,

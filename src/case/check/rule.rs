@@ -38,6 +38,14 @@ pub enum Rule {
         /// The materials' names.
         names: Box<Choices>,
     },
+    /// A name that no sensor has.
+    #[error("no sensor is called \"{found}\"")]
+    UnknownSensor {
+        /// The name as written.
+        found: String,
+        /// The sensors' names.
+        names: Box<Choices>,
+    },
     /// A material with directions where none can be followed.
     #[error(
         "\"{found}\" is orthotropic, expected an isotropic material: rings and contacts have no other"
@@ -164,6 +172,7 @@ impl Rule {
     pub(in super::super) fn help(&self) -> Option<String> {
         match self {
             Self::UnknownMaterial { names, .. } => Some(names.help("materials")),
+            Self::UnknownSensor { names, .. } => Some(names.help("sensors")),
             Self::Beyond { how: "at least", .. } => {
                 Some("raise the sampling rate or narrow `accuracy.band_hz`".to_owned())
             }

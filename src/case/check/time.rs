@@ -4,7 +4,8 @@ use super::super::{
     Case, Damping, FixedInterfaceModes, Interface, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, direction, each_once, fraction, not_empty, ratio, share, zero_or_more,
+    above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
+    share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 
@@ -183,6 +184,31 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
             above_zero("condense.fixed_interface_modes.up_to_hz", limit)
         }
     }
+}
+
+pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
+    let Some(frf) = &case.frf else {
+        return Ok(());
+    };
+    not_empty("frf.from", frf.from.len(), "at least one force")?;
+    for (index, push) in frf.from.iter().enumerate() {
+        direction(format!("frf.from[{index}].direction"), push.direction)?;
+    }
+    let names = frf.from.iter().map(|push| push.name.as_str());
+    each_once(names, |index| format!("frf.from[{index}].name"))?;
+    each_once(frf.to.iter().map(String::as_str), |index| {
+        format!("frf.to[{index}]")
+    })?;
+    for (index, name) in frf.to.iter().enumerate() {
+        known_sensor(case, format!("frf.to[{index}]"), name)?;
+    }
+    if let Some(band) = frf.band_hz {
+        band_of("frf.band_hz", band)?;
+    }
+    for (index, &hz) in frf.check_hz.iter().flatten().enumerate() {
+        zero_or_more(format!("frf.check_hz[{index}]"), hz)?;
+    }
+    Ok(())
 }
 
 pub(super) fn accuracy(case: &Case) -> Result<(), BrokenRule> {

@@ -19,8 +19,7 @@ pub struct FrequencyGrid {
     pub band_hz: [f64; 2],
     /// Equal intervals over the band, >= 1.
     pub intervals: usize,
-    /// Points in a half-power bandwidth, >= 1. With four, a peak lies within 0.1 % of what the points show where the
-    /// frequency of the resonance is known.
+    /// Points in a half-power bandwidth, >= 1; the resonance is one of them, an even number has both half-power points.
     pub points_a_bandwidth: usize,
     /// Bandwidths resolved on each side of a resonance, >= 0. At three the response is down to 1/6 of the peak.
     pub reach: f64,
@@ -95,7 +94,7 @@ fn around(grid: &FrequencyGrid, resonance: &Resonance) -> Result<Vec<f64>, FrfEr
     if step <= SAME * centre {
         return Ok(Vec::new());
     }
-    // half a bandwidth or more, or the half-power points themselves would be missed
+    // rounded up: the reach asked for is covered
     let steps = (grid.reach * grid.points_a_bandwidth as f64).ceil() as i64;
     Ok((-steps..=steps)
         .map(|place| centre + place as f64 * step)

@@ -1,0 +1,106 @@
+//! `[frf]`: transfer paths from where forces act to sensors.
+
+use serde::{Deserialize, Serialize};
+
+use super::modes::Variant;
+use super::sensor::{SensorSpot, one_spot};
+use super::union::{Mismatch, written_as};
+
+/// Transfer paths: from every force to every sensor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Frf {
+    /// Where unit forces act, one at a time; at least one.
+    pub from: Vec<Push>,
+    /// Names of sensors; empty: all of the case.
+    #[serde(default)]
+    pub to: Vec<String>,
+    /// Lowest and highest frequency in Hz, 0 <= lowest < highest; default: that of `[accuracy]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub band_hz: Option<[f64; 2]>,
+    /// Frequencies in Hz at which the reduced response is compared with that of the full model; default: a few of the
+    /// band and its highest peaks. An empty list compares nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub check_hz: Option<Vec<f64>>,
+    /// The same case with other keys set, ranked by what they transmit; may be empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<Variant>,
+}
+
+/// A unit force.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Push {
+    /// Its name in results.
+    pub name: String,
+    /// Where it acts; on a group it is shared evenly by the nodes.
+    pub spot: SensorSpot,
+    /// Direction in the mesh's frame, any length but zero.
+    pub direction: [f64; 3],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PushForm {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    group: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ring_deg: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    node: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    point: Option<[f64; 3]>,
+    direction: [f64; 3],
+}
+
+written_as!(Push, PushForm);
+
+impl TryFrom<PushForm> for Push {
+    type Error = Mismatch;
+
+    fn try_from(form: PushForm) -> Result<Self, Mismatch> {
+        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+        ];
+        let spot = one_spot(spots, ONE)?;
+        let name = form.name.unwrap_or_else(|| match &spot {
+            SensorSpot::Group(group) => group.clone(),
+            SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
+            SensorSpot::Node(tag) => format!("node {tag}"),
+            SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
+            SensorSpot::Recovered(row) => row.clone(),
+        });
+        Ok(Self {
+            name,
+            spot,
+            direction: form.direction,
+        })
+    }
+}
+
+impl From<Push> for PushForm {
+    fn from(push: Push) -> Self {
+        let mut form = Self {
+            name: Some(push.name),
+            group: None,
+            ring_deg: None,
+            node: None,
+            point: None,
+            direction: push.direction,
+        };
+        match push.spot {
+            SensorSpot::Group(group) => form.group = Some(group),
+            SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
+            SensorSpot::Node(tag) => form.node = Some(tag),
+            SensorSpot::Point(point) => form.point = Some(point),
+            // a force acts on a place, never on a row of a file: no form makes one
+            SensorSpot::Recovered(_) => {}
+        }
+        form
+    }
+}
