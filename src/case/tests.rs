@@ -398,7 +398,7 @@ fn values_of_the_wrong_kind_are_named() {
 fn keys_that_exclude_each_other_are_named() {
     const SUPPORT: &str = "exactly one of `fixed`, `spring`, `radial`";
     const DAMPING: &str = "exactly one of `ratios`, `alpha` with `beta`, `modal`";
-    const SENSOR: &str = "exactly one of `group`, `ring_deg`, `point`";
+    const SENSOR: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
     for (set, key, found, expected) in [
         (
             "housing.supports[0]={group='a'}",

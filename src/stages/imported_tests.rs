@@ -77,7 +77,9 @@ fn structure(case: &Case) -> StructureStage {
 fn small() -> (tempfile::TempDir, PathBuf, SuperelementRecord) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.npz");
-    let record = record_of(&original(PLANE, 8, ""));
+    let modes = "[condense]\nfixed_interface_modes = 4\n";
+    let record = record_of(&original(PLANE, 8, modes));
+    assert_eq!(record.order(), 28);
     (folder, path, record)
 }
 
@@ -103,12 +105,16 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
 /// move nothing of its coarse bore.
 #[test]
 fn a_superelement_takes_the_place_of_the_housing_that_it_came_from() {
-    let of_housing = "[[sensors]]\nname = \"foot\"\npoint = [0, 9e-3, 0]\ndirection = [1, 1, 0]\n";
+    let of_housing =
+        |place: &str| format!("[[sensors]]\nname = \"foot\"\n{place}\ndirection = [1, 1, 0]\n");
     let of_file = "[[sensors]]\nname = \"foot\"\nrecovered = \"foot\"\n";
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.npz");
-    for (housing, nodes) in [(PLANE, 24), (SOLID, 72)] {
-        let before = original(housing, nodes, &format!("{ON_RING}{of_housing}"));
+    for (housing, nodes, place) in [
+        (PLANE, 24, "group = \"lower\""),
+        (SOLID, 72, "point = [0, 10e-3, 0]"),
+    ] {
+        let before = original(housing, nodes, &format!("{ON_RING}{}", of_housing(place)));
         write_superelement_npz(&path, &record_of(&before)).unwrap();
         let after = imported(&path, nodes, REST, &format!("{ON_RING}{of_file}"));
         let (old, new) = (structure(&before), structure(&after));
