@@ -161,7 +161,9 @@ fn the_pedestal_vibrates() {
         "{unloaded:?}"
     );
     let condensed = result.structure.as_ref().unwrap().modes.frequency_hz(0);
-    assert!((condensed / 16160.88 - 1.0).abs() < 1e-6, "{condensed}");
+    // accuracy.target is 0.01, from above
+    let error = condensed / unloaded[0] - 1.0;
+    assert!((0.0..0.01).contains(&error), "{error:e}");
     let stage = result.structure.as_ref().unwrap();
     let differences = (0..unloaded.len()).map(|k| stage.modes.frequency_hz(k) / unloaded[k] - 1.0);
     let largest = differences.fold(0.0, f64::max);
@@ -181,6 +183,7 @@ fn variants_have_their_modes_in_full() {
         what: "twenty modes".to_owned(),
         set: vec![
             "condense.fixed_interface_modes=20".to_owned(),
+            "condense.enhanced=false".to_owned(),
             "modes.linearise=\"none\"".to_owned(),
         ],
     }];
@@ -192,9 +195,9 @@ fn variants_have_their_modes_in_full() {
         assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
     }
     let [fine, coarse] = [base, coarse].map(|reading| reading.condensation_difference.unwrap());
-    // found: 1.45e-2 and 2.34e-2, at the last of the twelve
+    // up to three times the band auto keeps what accuracy.target says; twenty plain modes: found 2.34e-2, at the last
     assert!(
-        fine > 1e-2 && fine < 1.6e-2 && coarse > 1.3 * fine,
+        fine < 1e-2 && coarse > 2e-2 && coarse < 2.6e-2,
         "{fine:e} {coarse:e}"
     );
 }

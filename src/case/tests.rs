@@ -152,7 +152,7 @@ fn defaults_are_those_of_the_format() {
     assert!(near(case.shaft.as_ref().unwrap().gravity[1], -9.81));
     assert_eq!(case.modes.extent, ModeExtent::Count(20));
     assert_eq!(case.modes.linearise, Linearise::None);
-    assert!(!case.condense.enhanced);
+    assert!(case.condense.enhanced);
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.method, Method::Auto);
     assert_eq!(transient.step, StepLength::Auto);

@@ -148,7 +148,7 @@ pub(super) fn modes_json(
         "energy_shares": survey.shares,
         "free_motions": survey.mechanisms,
         "condensation_difference": result.base.condensation_difference,
-        "superelement": result.structure.as_ref().and_then(|stage| imported(stage)),
+        "superelement": result.structure.as_ref().and_then(imported),
         "loaded": loaded(&result.base),
         "expected": result.base.expected,
         "comparisons": result.comparisons,

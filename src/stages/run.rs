@@ -1,6 +1,7 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
 use super::damping::{damping, refuse_structural_damping};
+use super::structure::MODELLED;
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use crate::case::{self, Case, ModesKept, StepLength};
 use crate::closed_form::race::DefectOrders;
@@ -11,10 +12,6 @@ use crate::system::{
 };
 use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
 use std::time::Instant;
-
-/// Modes kept by `auto`: those up to so many times the band. The static residual stands for the
-/// rest.
-const AUTO_MODES: f64 = 3.0;
 
 /// `auto` step of the exponential method: phase of the stiffest ball vibration in one step, rad.
 const AUTO_PHASE: f64 = 0.1;
@@ -244,7 +241,8 @@ fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection
         {
             ModeSelection::All
         }
-        ModesKept::Auto => ModeSelection::UpTo(AUTO_MODES * top),
+        // the static residual stands for the rest
+        ModesKept::Auto => ModeSelection::UpTo(MODELLED * top),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Ring and condensed housing of a case in one structure, with its sensors and modes.
 
-use super::condensed::{Boundary, CondensedStage};
+use super::condensed::{Boundary, CondensedStage, basis_choice};
 use super::housing::material;
 use super::imported::ImportedHousing;
 use super::places::{Place, PlaceBodies};
@@ -9,7 +9,11 @@ use crate::case::{self, Case, Interface};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
+use crate::reduction::BasisChoice;
 use crate::system::{Sensor, Structure, StructureModes};
+
+/// Frequencies up to so many times the band take part in a run: contact shakes ring and housing above the band too.
+pub(super) const MODELLED: f64 = 3.0;
 
 /// The linear model of a case.
 #[derive(Debug, Clone)]
@@ -53,7 +57,12 @@ impl StructureStage {
             add_sensors(&mut structure, &case.sensors, rows)?;
             return Self::solved(structure, Around::Imported(Box::new(imported)), watch).map(Some);
         }
-        let Some(stage) = CondensedStage::build(case, watch)? else {
+        let asked_basis = basis_choice(case);
+        let choice = BasisChoice {
+            band_hz: MODELLED * asked_basis.band_hz,
+            ..asked_basis
+        };
+        let Some(stage) = CondensedStage::with_basis(case, choice, watch)? else {
             let ring = ring(case, asked, false)?;
             let mut structure = Structure::ring_alone(ring, gravity);
             let bodies = PlaceBodies {

@@ -56,8 +56,11 @@ fn verdicts_do_not_depend_on_units() {
     assert_eq!(failing(&condensed, &matrices, BAND_HZ), none);
 }
 
+/// What spoils a superelement.
+type Break = fn(&mut CraigBampton);
+
 /// What breaks, and the check that must name it; others may fire beside it.
-const BREAKS: [(&str, fn(&mut CraigBampton)); 16] = [
+const BREAKS: [(&str, Break); 16] = [
     ("stiffness symmetry", |c| {
         c.superelement.stiffness[(0, 1)] *= 1.0 + 1e-9
     }),

@@ -325,7 +325,7 @@ fn what_mbdyn_cannot_have_is_told() {
     assert!(matches!(error, MbdynError::Write { .. }));
     let negative = SuperelementRecord::of_matrices(
         dense(&[[1.0, 0.0], [0.0, 1.0]]),
-        dense(&[[-1.0, 0.0], [0.0, 1.0]]),
+        dense(&[[-3.0, 0.0], [0.0, 1.0]]),
         vec![DofLabel::interface(0)],
     )
     .unwrap();
