@@ -26,9 +26,6 @@ const CHECKED: usize = 4;
 /// this much of the target is left to it.
 const FREQUENCY_SHARE: f64 = 0.25;
 
-/// Part of a path's level (-20 dB) below which its response is small because parts of it cancel: their errors do not.
-const FLOOR: f64 = 0.1;
-
 /// Shares of the frequency target where nothing damps: only far from resonances is such a response of use.
 const UNDAMPED: f64 = 1e-3;
 
@@ -41,8 +38,7 @@ pub struct ComparedResponse {
     pub reduced: Vec<c64>,
     /// The same of the full model.
     pub full: Vec<c64>,
-    /// Largest `|reduced - full|` of the paths, relative to `|full|` or, near a zero of the response, to a tenth of the
-    /// path's root mean square in the band.
+    /// Largest `|reduced - full| / |full|` of the paths.
     pub difference: f64,
     /// Relative residual of the full solution.
     pub residual: f64,
@@ -385,20 +381,13 @@ fn compare(
                 .map(|(row, &factor)| solution.displacements[(row, load)] * factor)
                 .sum();
             let found = own.receptance()[index][(sensor, load)];
-            let scale = full.norm().max(FLOOR * level(response, path.place));
-            at.difference = at.difference.max((found - full).norm() / scale);
+            at.difference = at.difference.max((found - full).norm() / full.norm());
             at.reduced.push(found);
             at.full.push(full);
         }
         compared.push(at);
     }
     Ok((compared, None))
-}
-
-/// Root mean square of a path's receptances at the computed frequencies, m/N.
-fn level(response: &FrequencyResponse, place: (usize, usize)) -> f64 {
-    let squares = response.receptance().iter().map(|at| at[place].norm_sqr());
-    (squares.sum::<f64>() / response.receptance().len().max(1) as f64).sqrt()
 }
 
 /// The highest peaks of the first path's accelerance, the band's top, and places between.

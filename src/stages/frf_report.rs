@@ -158,7 +158,7 @@ fn compared(result: &FrfResult) -> Section {
     let residual = result.compared.iter().map(|compared| compared.residual);
     Section::new("Against the full model")
         .paragraph(format!(
-            "Direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included, relative to the full one or, near its zeros, to a tenth of the path's root mean square; it passes up to {}.",
+            "Direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included; it passes up to {}.",
             significant(residual.fold(0.0, f64::max), 1),
             significant(result.target, 2)
         ))
