@@ -44,7 +44,7 @@ Files:
 
 const FRF_EXAMPLE: &str = "\
 Example: what a force on the raceway does at the sensors, against the full model at its peaks
-  plummer frf examples/scenes/pedestal_frf.toml
+  plummer frf examples/transfer/pedestal.toml
 
 Files:
   frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path

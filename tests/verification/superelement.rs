@@ -135,7 +135,7 @@ fn reduced_frequencies_of_the_reference() {
     }
     let sizes = [0, 5, 20, 40];
     let range = effectivity(substructure, None, &pairs, &full, &sizes, &[70e3, 100e3]);
-    // 0 and 5 modes leave out what lies in the bands; found 0.5 to 1.3 for all sizes
+    // 0 and 5 modes leave out what lies in the bands
     assert!(range[0] > 0.5 && range[1] < 2.0, "{range:?}");
 }
 
@@ -207,7 +207,7 @@ fn residual_vectors_on_the_tied_pedestal() {
         both.map(|(mode, hz)| mode.frequency_hz / hz - 1.0)
             .fold(0.0, f64::max)
     };
-    // found: 6.0e-3 against 1.6e-5 on twelve modes, 8.3e-3 against 1.7e-4 on twenty
+    // in NumPy, from the same matrices: 6.0e-3 against 1.6e-5 on twelve modes, 8.3e-3 against 1.7e-4 on twenty
     for (modes, gain) in [(12, 100.0), (20, 10.0)] {
         let (plain, enhanced) = (largest(false, modes), largest(true, modes));
         assert!(plain > gain * enhanced, "{modes}: {plain:e} {enhanced:e}");
@@ -215,6 +215,6 @@ fn residual_vectors_on_the_tied_pedestal() {
     let fixed = substructure.lowest_modes(41).unwrap();
     let sizes = [0, 5, 20, 40];
     let range = effectivity(substructure, attached, &fixed, &full, &sizes, &[40e3, 80e3]);
-    // found: 1.0 to 1.24
+    // the remainder that is extrapolated is below a quarter
     assert!(range[0] > 0.9 && range[1] < 2.0, "{range:?}");
 }
