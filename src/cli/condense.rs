@@ -38,7 +38,10 @@ pub fn condense(
     let result = compute_condense(case, comparison, progress)?;
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
-    let command = options.command_line("condense", case);
+    let mut command = options.command_line("condense", case);
+    if comparison == Comparison::Full {
+        command.push_str(" --compare-full");
+    }
     let report = condense_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "condense", case, report)?;
     let element = folder.path().join("superelement.npz");
