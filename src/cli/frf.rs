@@ -37,23 +37,30 @@ pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     })
 }
 
-fn largest_difference(result: &FrfResult) -> Option<f64> {
-    let differences = result.compared.iter().map(|compared| compared.difference);
-    differences.reduce(f64::max)
-}
-
 fn verdict(result: &FrfResult) -> Verdict {
     if result.passes() {
         return Verdict::Good;
     }
+    let found = |how: &str, (hz, error): (f64, f64)| {
+        (error > result.target).then(|| format!("{how} {error:.1e} at {hz:.0} Hz"))
+    };
+    let estimated = result.largest_estimate();
+    let compared = result.largest_difference();
+    let misses: Vec<String> = [
+        estimated.and_then(|at| found("estimated error", at)),
+        compared.and_then(|at| found("difference from the full model", at)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     Verdict::Bad {
         what: format!(
-            "the reduced response differs from the full model by up to {:.1e}, limit {:.1e}",
-            largest_difference(result).unwrap_or(0.0),
-            result.target
+            "the reduced responses miss the target {:.1e}: {}",
+            result.target,
+            misses.join(", ")
         ),
         help: Some(
-            "leave condense.fixed_interface_modes at \"auto\", or raise it; frf.check_hz says where it is compared (close to zeros of the response small differences are large)".to_owned(),
+            "leave condense.fixed_interface_modes at \"auto\", which chooses the basis by this estimate, or raise it; close to zeros of a response small differences are large".to_owned(),
         ),
     }
 }
@@ -90,9 +97,14 @@ fn summary(result: &FrfResult) -> String {
             modes.join(", ")
         ));
     }
-    if let Some(largest) = largest_difference(result) {
+    if let Some((hz, error)) = result.largest_estimate() {
         lines.push(format!(
-            "against the full model at {} frequencies: {largest:.1e}",
+            "estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"
+        ));
+    }
+    if let Some((hz, difference)) = result.largest_difference() {
+        lines.push(format!(
+            "against the full model at {} frequencies: up to {difference:.1e}, at {hz:.0} Hz",
             result.compared.len()
         ));
     }
@@ -150,6 +162,7 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
         "paths": paths,
         "full_frequency_hz": result.compared.iter().map(|at| at.frequency_hz).collect::<Vec<_>>(),
         "full_residual": result.compared.iter().map(|at| at.residual).collect::<Vec<_>>(),
+        "estimated_error": result.estimate.relative_errors,
         "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
         "target": result.target,
         "not_compared": result.not_compared,

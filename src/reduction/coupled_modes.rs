@@ -58,6 +58,19 @@ pub(super) fn coupled_modes(
     Ok(symmetric_generalised_eigen(&k, &m)?)
 }
 
+/// Inertia of the interior per unit of squared frequency, `A u_b + M_ii Q eta` [interior x k], of motions of the condensed
+/// housing [order x k].
+pub(super) fn interior_inertia(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    coordinates: &DenseMatrix,
+) -> DenseMatrix {
+    let interface = substructure.interface_dof();
+    let amplitudes = coordinates.subrows(interface, basis.count());
+    substructure.follow(&coordinates.subrows(0, interface).to_owned())
+        + substructure.mass_times(&(basis.vectors() * amplitudes))
+}
+
 /// What the interior's equations lack, for modes `chosen` of `modes` [interior x chosen]:
 ///
 /// ```text
@@ -72,15 +85,12 @@ pub(super) fn interior_residuals(
     modes: &SymmetricSpectrum,
     chosen: &[usize],
 ) -> DenseMatrix {
-    let interface = substructure.interface_dof();
-    let part = |first: usize, rows: usize| {
-        DenseMatrix::from_fn(rows, chosen.len(), |row, column| {
-            modes.vectors[(first + row, chosen[column])]
-        })
-    };
-    let moved = basis.vectors() * part(interface, basis.count());
-    let mut residual = substructure.follow(&part(0, interface)) + substructure.mass_times(&moved);
-    let stiff = substructure.stiffness_times(&moved);
+    let coordinates = DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| {
+        modes.vectors[(row, chosen[column])]
+    });
+    let mut residual = interior_inertia(substructure, basis, &coordinates);
+    let amplitudes = coordinates.subrows(substructure.interface_dof(), basis.count());
+    let stiff = substructure.stiffness_times(&(basis.vectors() * amplitudes));
     for (column, &mode) in chosen.iter().enumerate() {
         let lambda = modes.values[mode];
         let stiff = stiff.col_as_slice(column);

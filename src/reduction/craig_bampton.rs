@@ -129,7 +129,19 @@ impl CraigBampton {
         let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
             loads[(interior[row], column)]
         });
-        let static_response = self.substructure.solve_interior(inside)?;
+        self.with_forces(inside, weight)
+    }
+
+    /// The same for forces on the interior [interior x k].
+    ///
+    /// # Errors
+    /// As [`InteriorBasis::extended`].
+    pub fn with_forces(
+        self,
+        forces: DenseMatrix,
+        weight: &DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let static_response = self.substructure.solve_interior(forces)?;
         let basis = self.basis.extended(&self.substructure, static_response)?;
         Ok(Self::new(self.substructure, basis, weight))
     }

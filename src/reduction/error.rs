@@ -1,5 +1,6 @@
 //! Reductions that cannot be made.
 
+use super::frf::FrfError;
 use crate::linalg::LinalgError;
 use thiserror::Error;
 
@@ -37,4 +38,7 @@ pub enum ReductionError {
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
+    /// A response of the reduced model that does not exist.
+    #[error(transparent)]
+    Frf(#[from] FrfError),
 }

@@ -8,6 +8,8 @@ mod error;
 mod estimate;
 pub mod frf;
 mod interior_basis;
+mod residual_flexibility;
+mod response_estimate;
 #[cfg(test)]
 mod samples;
 mod selection;
@@ -21,6 +23,8 @@ pub use craig_bampton::{CraigBampton, craig_bampton};
 pub use error::ReductionError;
 pub use estimate::{ErrorEstimate, EstimatedMode};
 pub use interior_basis::InteriorBasis;
+pub use residual_flexibility::ResidualFlexibility;
+pub use response_estimate::ResponseEstimate;
 pub use selection::{BasisChoice, BasisSize, choose_basis};
 pub use substructure::Substructure;
 pub use superelement::Superelement;

@@ -6,7 +6,7 @@ use super::{HousingStage, StageError, Watch};
 use crate::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::case::{Case, FixedInterfaceModes, Interface};
 use crate::exchange::DofLabel;
-use crate::linalg::{DenseMatrix, transpose_times_dense};
+use crate::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
 use crate::modal::{rigid_motions, ring_motions};
 use crate::model::{HousingPartition, NodeInterface, Ring, RingTie};
 use crate::reduction::{
@@ -25,6 +25,9 @@ pub struct CondensedStage {
     pub housing: HousingStage,
     /// What the housing is attached by.
     pub boundary: Boundary,
+    /// Imaginary part of the stiffness of lossy parts over the housing's degrees of freedom, in the displacements that the
+    /// partition uses, N/m; none without such parts.
+    pub structural: Option<SparseMatrix>,
     /// What was asked of the basis.
     pub choice: BasisChoice,
     /// The condensed housing.
@@ -98,25 +101,26 @@ impl CondensedStage {
             choice,
             boundary.attached(),
         )?;
+        let structural = StructuralStiffness::assemble(&housing.model)?;
         let stage = Self {
+            structural: structural.map(|structural| match boundary.ring() {
+                Some((_, tie)) => structural.for_tie(tie).matrix().clone(),
+                None => structural.matrix().clone(),
+            }),
             housing,
             boundary,
             choice,
             condensed,
         };
-        stage.with_structural().map(Some)
+        Ok(Some(stage.with_structural()))
     }
 
     /// The stage with the loss factors of the parts in its superelement.
-    fn with_structural(mut self) -> Result<Self, StageError> {
-        if let Some(structural) = StructuralStiffness::assemble(&self.housing.model)? {
-            let structural = match self.boundary.ring() {
-                Some((_, tie)) => structural.for_tie(tie),
-                None => structural,
-            };
-            self.condensed = self.condensed.with_structural(structural.matrix());
+    fn with_structural(mut self) -> Self {
+        if let Some(structural) = &self.structural {
+            self.condensed = self.condensed.with_structural(structural);
         }
-        Ok(self)
+        self
     }
 
     /// The same with a basis that is exact in statics for loads on the housing's degrees of freedom [dof x k], in the
@@ -127,7 +131,17 @@ impl CondensedStage {
     pub(super) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, StageError> {
         let weight = self.matrices().weight.clone();
         self.condensed = self.condensed.with_loads(loads, &weight)?;
-        self.with_structural()
+        Ok(self.with_structural())
+    }
+
+    /// The same with the static response to forces on the interior [interior x k] in the basis.
+    ///
+    /// # Errors
+    /// [`StageError::Reduction`].
+    pub(super) fn with_forces(mut self, forces: DenseMatrix) -> Result<Self, StageError> {
+        let weight = self.matrices().weight.clone();
+        self.condensed = self.condensed.with_forces(forces, &weight)?;
+        Ok(self.with_structural())
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.

@@ -1,13 +1,14 @@
 //! The report of `plummer frf`.
 
 use super::StageError;
-use super::frf::{FrfResult, TransferPath};
+use super::frf::FrfResult;
 use crate::case::Case;
 use crate::reduction::frf::FrfQuantity;
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, Document, Fact, Plot, Report, Section, Table, Verdict,
-    significant,
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table,
+    Verdict, significant,
 };
+use faer::c64;
 
 /// Modes listed of those that carry a path.
 const LISTED: usize = 8;
@@ -24,12 +25,19 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Transfer paths")
         .document(document);
-    let largest = result.compared.iter().map(|compared| compared.difference);
-    report = match largest.reduce(f64::max) {
+    let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
+    report = report.headline(
+        "Largest estimated error of a response",
+        result
+            .largest_estimate()
+            .map_or_else(|| "0".to_owned(), |(_, error)| significant(error, 2)),
+        result.largest_estimate().map_or(Verdict::of(true), passes),
+    );
+    report = match result.largest_difference() {
         Some(largest) => report.headline(
             "Largest difference from the full model",
-            significant(largest, 2),
-            Verdict::of(result.passes()),
+            significant(largest.1, 2),
+            passes(largest),
         ),
         None => report.headline(
             "Difference from the full model",
@@ -38,12 +46,10 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
         ),
     };
     report = report.section(model(result));
-    for path in &result.paths {
+    for path in 0..result.paths.len() {
         report = report.section(of_path(result, path)?);
     }
-    if !result.compared.is_empty() {
-        report = report.section(compared(result));
-    }
+    report = report.section(errors(result));
     if !result.ranking.is_empty() {
         report = report.section(ranking(result));
     }
@@ -70,7 +76,7 @@ fn model(result: &FrfResult) -> Section {
             (basis.count() - basis.residual_vectors()).to_string(),
         ),
         Fact::new("Residual vectors", basis.residual_vectors().to_string())
-            .note("among them the static response to every force and to a force at every sensor"),
+            .note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
         Fact::new(
             "Frequencies",
             result.response.frequencies_hz().len().to_string(),
@@ -79,31 +85,54 @@ fn model(result: &FrfResult) -> Section {
     ])
 }
 
-fn of_path(result: &FrfResult, path: &TransferPath) -> Result<Section, StageError> {
+fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
+    let path = &result.paths[index];
     let (sensor, load) = path.place;
     let all = result.response.frequencies_hz();
     let accelerance = result
         .response
         .path(sensor, load, FrfQuantity::Accelerance)?;
-    // at rest there is no acceleration, and no logarithm of it
-    let moving = || {
-        let pairs = all.iter().zip(&accelerance);
-        pairs.filter(|(_, h)| h.norm() > 0.0)
-    };
-    let curve = |values: Vec<f64>| {
-        let hz = moving().map(|(hz, _)| *hz).collect();
-        Curve::new("reduced", Abscissa::Points(hz), values)
-    };
+    let full: Vec<(f64, c64)> = result
+        .compared
+        .iter()
+        .map(|at| {
+            (
+                at.frequency_hz,
+                accelerance_of(at.frequency_hz, at.full[index]),
+            )
+        })
+        .collect();
+    let reduced: Vec<(f64, c64)> = all.iter().copied().zip(accelerance).collect();
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
-    let magnitude = Plot::new(
-        "Accelerance, magnitude",
+    let size = || Axis::new("Acceleration over force", "1/kg").log();
+    let mut magnitude = Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve(
+        "reduced",
+        &reduced,
+        |h| h.norm(),
+    ));
+    let degrees = |h: c64| h.arg().to_degrees();
+    let mut phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
+        .curve(curve("reduced", &reduced, degrees));
+    if !full.is_empty() {
+        magnitude = magnitude.curve(curve("full", &full, |h| h.norm()).style(CurveStyle::Points));
+        phase = phase.curve(curve("full", &full, degrees).style(CurveStyle::Points));
+    }
+    let mut parts = Plot::new(
+        "Accelerance of the modes that carry most",
         frequency(),
-        Axis::new("Acceleration over force", "1/kg").log(),
+        size(),
     )
-    .curve(curve(moving().map(|(_, h)| h.norm()).collect()));
-    let phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
-        .curve(curve(moving().map(|(_, h)| h.arg().to_degrees()).collect()));
+    .curve(curve("all", &reduced, |h| h.norm()));
+    for part in &path.carried {
+        let values: Vec<(f64, c64)> = all
+            .iter()
+            .zip(&part.receptance)
+            .map(|(&hz, &receptance)| (hz, accelerance_of(hz, receptance)))
+            .collect();
+        let name = format!("{:.0} Hz", part.frequency_hz);
+        parts = parts.curve(curve(name, &values, |h| h.norm()));
+    }
     let mut table = Table::new(
         format!("What carries the path from {} to {}", path.from, path.to),
         [
@@ -128,21 +157,76 @@ fn of_path(result: &FrfResult, path: &TransferPath) -> Result<Section, StageErro
     Ok(Section::new(format!("From {} to {}", path.from, path.to))
         .plot(magnitude)
         .plot(phase)
+        .plot(parts)
         .table(table.footnote("Share: integral of Re(conj(H) H_r) over that of |H|^2, receptances over the band; the shares of all modes add up to 100 %, modes that work against each other are above it and below zero. Alone: what the mode would bring without the others.")))
 }
 
-fn compared(result: &FrfResult) -> Section {
+fn accelerance_of(hz: f64, receptance: c64) -> c64 {
+    FrfQuantity::Accelerance.factor(hz) * receptance
+}
+
+/// A curve of what is not zero: at rest there is no acceleration, and no logarithm of it.
+fn curve(name: impl Into<String>, values: &[(f64, c64)], of: impl Fn(c64) -> f64) -> Curve {
+    let moving = || values.iter().filter(|(_, h)| h.norm() > 0.0);
+    let hz = moving().map(|(hz, _)| *hz).collect();
+    Curve::new(
+        name,
+        Abscissa::Points(hz),
+        moving().map(|(_, h)| of(*h)).collect(),
+    )
+}
+
+fn errors(result: &FrfResult) -> Section {
+    let estimate = &result.estimate;
+    let estimated = estimate
+        .frequencies_hz
+        .iter()
+        .zip(&estimate.relative_errors);
+    let positive =
+        |(hz, error): (f64, f64)| (error > 0.0 && error.is_finite()).then_some((hz, error));
+    let (hz, error) = estimated
+        .filter_map(|(&hz, &error)| positive((hz, error)))
+        .unzip();
+    let [low, high] = result.band_hz;
+    let mut plot = Plot::new(
+        "Error of the reduced responses, the largest of the paths",
+        Axis::new("Frequency", "Hz").range(low, high),
+        Axis::new("Error over response", "").log(),
+    )
+    .curve(Curve::new("estimated", Abscissa::Points(hz), error));
+    let target = vec![result.target; 2];
+    plot = plot.curve(Curve::new(
+        "target",
+        Abscissa::Points(vec![low, high]),
+        target,
+    ));
+    if result.compared.is_empty() {
+        return Section::new("Error of the reduced responses").plot(plot);
+    }
+    let compared = result.compared.iter();
+    let (hz, difference) = compared
+        .filter_map(|at| positive((at.frequency_hz, at.difference)))
+        .unzip();
+    let points = Curve::new("against the full model", Abscissa::Points(hz), difference);
+    let residual = result.compared.iter().map(|compared| compared.residual);
+    Section::new("Error of the reduced responses")
+        .plot(plot.curve(points.style(CurveStyle::Points)))
+        .paragraph(format!(
+            "Full: direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included, relative to the response where it is read; it passes up to {}.",
+            significant(residual.fold(0.0, f64::max), 1),
+            significant(result.target, 2)
+        ))
+        .table(compared_table(result))
+}
+
+fn compared_table(result: &FrfResult) -> Table {
     let mut columns = vec![Column::number("Frequency", "Hz")];
     for path in &result.paths {
-        columns.push(Column::number(
-            format!("{} to {}, reduced", path.from, path.to),
-            "m/N",
-        ));
-        columns.push(Column::number(
-            format!("{} to {}, full", path.from, path.to),
-            "m/N",
-        ));
+        let name = |of| format!("{} to {}, {of}", path.from, path.to);
+        columns.push(Column::number(name("reduced"), "m/N"));
+        columns.push(Column::number(name("full"), "m/N"));
     }
+    columns.push(Column::number("Estimated error", ""));
     columns.push(Column::number("Largest difference", ""));
     let mut table = Table::new("Receptance, reduced and full", columns);
     for compared in &result.compared {
@@ -151,18 +235,17 @@ fn compared(result: &FrfResult) -> Section {
             cells.push(Cell::number(reduced.norm(), 6));
             cells.push(Cell::number(full.norm(), 6));
         }
+        let outside = || Cell::text("outside the band");
+        cells.push(
+            compared
+                .estimated
+                .map_or_else(outside, |error| Cell::number(error, 2)),
+        );
         let verdict = Verdict::of(compared.difference <= result.target);
         cells.push(Cell::number(compared.difference, 2).judged(verdict));
         table = table.row(cells);
     }
-    let residual = result.compared.iter().map(|compared| compared.residual);
-    Section::new("Against the full model")
-        .paragraph(format!(
-            "Direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included; it passes up to {}.",
-            significant(residual.fold(0.0, f64::max), 1),
-            significant(result.target, 2)
-        ))
-        .table(table)
+    table
 }
 
 fn ranking(result: &FrfResult) -> Section {

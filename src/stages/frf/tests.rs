@@ -1,0 +1,134 @@
+//! Transfer paths of a small housing: estimated errors are true, `auto` reaches its target, variants are ranked.
+
+use super::*;
+use crate::case::{Case, Source};
+use crate::stages::Unwatched;
+
+const HOUSING: &str = "title = \"small\"\n\
+    [materials.aluminium]\nyoung = 70e9\npoisson = 0.33\ndensity = 2700\n\
+    [housing]\nmesh = \"ring_6_9_coarse.msh\"\nlength_unit = \"mm\"\n\
+    plane = { assumption = \"stress\", thickness = 4e-3 }\n\
+    parts = [{ group = \"housing\", material = \"aluminium\" }]\n\
+    supports = [{ group = \"lower\", spring = { x = 1e7, y = 1e7 } }]\n\
+    [ring]\nnodes = 24\nouter_radius = 6e-3\n\
+    sections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n\
+    tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [1, 0, 0] }\n\
+    [[sensors]]\nname = \"top\"\npoint = [0, 9e-3, 0]\ndirection = [0, 1, 0]\n\
+    [frf]\nfrom = [{ name = \"load zone\", ring_deg = 270, direction = [0, -1, 0] },\n\
+      { name = \"aside\", ring_deg = 0, direction = [1, 0, 0] }]\n";
+
+const DAMPED: &str = "[damping]\nratios = [{ frequency_hz = 3000, ratio = 0.01 }, { frequency_hz = 60000, ratio = 0.01 }]\n";
+
+fn result(rest: &str, set: &[&str]) -> FrfResult {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let case = Case::from_source(Source {
+        path: format!("{root}/meshes/small.toml").into(),
+        text: format!("{HOUSING}{rest}"),
+        set: set.iter().map(|key| (*key).to_owned()).collect(),
+    });
+    compute_frf(&case.unwrap(), &Unwatched).unwrap()
+}
+
+/// Several modes, zeros between them, and a band up to where the first modes that are left out begin.
+fn accuracy(target: &str) -> String {
+    format!("{DAMPED}[accuracy]\nband_hz = [0, 60000]\ntarget = {target}\n")
+}
+
+#[test]
+fn auto_reaches_the_target_and_no_more_than_it_needs() {
+    let mut vectors = 0;
+    for target in ["1e-2", "1e-4", "1e-6"] {
+        let found = result(&accuracy(target), &[]);
+        assert!(found.passes(), "{target}: {:?}", found.largest_difference());
+        let (_, difference) = found.largest_difference().unwrap();
+        assert!(difference <= found.target);
+        let count = found.stage.condensed.basis.count();
+        assert!(count > vectors, "{target}: {count} vectors");
+        vectors = count;
+    }
+}
+
+#[test]
+fn estimates_are_those_of_the_full_model() {
+    let sizes = ["8", "12", "20"].map(|size| format!("condense.fixed_interface_modes={size}"));
+    let check = "frf.check_hz=[1000, 9000, 17000, 25000, 33000, 41000, 49000, 57000]";
+    let mut judged = 0;
+    for size in &sizes {
+        let found = result(&accuracy("0.01"), &[size, check]);
+        for at in &found.compared {
+            let factor = at.estimated.unwrap() / at.difference;
+            // above a per cent the first order is not enough, below 1e-9 both solutions are round-off
+            if (1e-9..0.01).contains(&at.difference) {
+                judged += 1;
+                assert!((0.8..3.0).contains(&factor), "{size}: {at:?}");
+            }
+        }
+    }
+    assert!(judged >= 12, "{judged}");
+}
+
+#[test]
+fn a_basis_that_is_too_small_does_not_pass() {
+    let small = [
+        "condense.fixed_interface_modes=0",
+        "condense.enhanced=false",
+    ];
+    let found = result(&accuracy("1e-4"), &small);
+    assert!(!found.passes());
+    // the estimate alone tells
+    let mut unchecked = small.to_vec();
+    unchecked.push("frf.check_hz=[]");
+    let found = result(&accuracy("1e-4"), &unchecked);
+    assert!(found.compared.is_empty() && !found.passes());
+}
+
+#[test]
+fn undamped_and_lossy_housings_are_compared_too() {
+    let band = "[accuracy]\nband_hz = [0, 5000]\ntarget = 1e-3\n";
+    let found = result(band, &["frf.check_hz=[500, 2500]"]);
+    assert_eq!(found.compared.len(), 2);
+    assert!(found.passes(), "{:?}", found.compared);
+    // a loss factor that the ring does not have couples the modes: no sum of modes
+    let lossy = result(
+        &accuracy("1e-3"),
+        &["materials.aluminium={young=70e9, poisson=0.33, density=2700, loss_factor=0.05}"],
+    );
+    assert!(lossy.passes(), "{:?}", lossy.largest_difference());
+    let imaginary = |found: &FrfResult| found.response.receptance()[10][(0, 0)].im.abs();
+    assert!(imaginary(&lossy) > 10.0 * imaginary(&result(&accuracy("1e-3"), &[])));
+}
+
+#[test]
+fn the_modes_that_carry_a_path_add_up_to_it() {
+    let found = result(&accuracy("1e-3"), &[]);
+    let path = &found.paths[0];
+    let strongest = &path.carried[0];
+    let peak = found
+        .response
+        .frequencies_hz()
+        .iter()
+        .position(|hz| *hz >= strongest.frequency_hz)
+        .unwrap();
+    let whole = found.response.receptance()[peak][path.place];
+    // at its own resonance a mode of 1 % damping is nearly all
+    assert!((strongest.receptance[peak] - whole).norm() < 0.1 * whole.norm());
+}
+
+#[test]
+fn the_variant_with_softer_supports_transmits_less_above_its_resonance() {
+    let variants =
+        "frf.variants=[{what=\"soft\", set=[\"housing.supports[0].spring={x=1e6, y=1e6}\"]}]";
+    let found = result(&accuracy("1e-2"), &[variants]);
+    let names: Vec<&str> = found.ranking[0]
+        .variants
+        .iter()
+        .map(|variant| &*variant.name)
+        .collect();
+    assert_eq!(names.len(), 2);
+    let level = |name: &str| {
+        let at = names.iter().position(|own| *own == name).unwrap();
+        found.ranking[0].variants[at].mean_db
+    };
+    assert!(level("soft").is_finite() && level("as given").is_finite());
+    assert!(found.ranking[0].variants[0].mean_db <= found.ranking[0].variants[1].mean_db);
+}
