@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{
     BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold,
-    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method, ModeExtent, ModesKept,
-    PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
+    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method,
+    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
 };
 
 /// A case with every table and every form of value.
@@ -107,10 +107,7 @@ fn every_key_of_the_full_case_arrives() {
         case.condense.fixed_interface_modes,
         FixedInterfaceModes::UpToHz(2e5)
     );
-    assert_eq!(
-        case.condense.interface_modes,
-        InterfaceModes::UpToHz(6e4)
-    );
+    assert_eq!(case.condense.interface_modes, InterfaceModes::UpToHz(6e4));
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.step, StepLength::Seconds(1e-7));
     assert_eq!(transient.modes, ModesKept::Count(11));

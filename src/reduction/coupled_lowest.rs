@@ -166,7 +166,8 @@ impl Bordered {
                 true => y_scale[i],
                 false => 0.0,
             });
-            let ritz = symmetric_generalised_eigen(&congruent(&k, &scaling), &congruent(&m, &scaling))?;
+            let ritz =
+                symmetric_generalised_eigen(&congruent(&k, &scaling), &congruent(&m, &scaling))?;
             x = y * (scaling * ritz.vectors);
             let wanted = count.min(width);
             let done = (0..wanted).all(|mode| {

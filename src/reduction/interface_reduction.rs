@@ -41,14 +41,15 @@ impl InterfaceReduction {
     ) -> Result<Self, ReductionError> {
         let whole = &condensed.superelement;
         let (interface, kept) = (whole.interface_dof, modes.kept(size)?);
-        let transform =
-            DenseMatrix::from_fn(whole.order(), kept + whole.modal_dof(), |row, column| {
-                match (row.checked_sub(interface), column.checked_sub(kept)) {
-                    (None, None) => modes.vectors[(row, column)],
-                    (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
-                    _ => 0.0,
-                }
-            });
+        let transform = DenseMatrix::from_fn(
+            whole.order(),
+            kept + whole.modal_dof(),
+            |row, column| match (row.checked_sub(interface), column.checked_sub(kept)) {
+                (None, None) => modes.vectors[(row, column)],
+                (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
+                _ => 0.0,
+            },
+        );
         let mut stiffness = congruent(&whole.stiffness, &transform);
         // rigid motions that nothing holds have no stiffness: what stands there is round-off of a sum of large terms
         for rigid in 0..modes.rigid() {

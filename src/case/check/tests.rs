@@ -77,7 +77,10 @@ fn what_must_exceed_zero_does() {
             full(&format!("{key}={value}"), &rule);
         }
     }
-    full("condense.interface_modes=0", "found 0, expected a number above 0");
+    full(
+        "condense.interface_modes=0",
+        "found 0, expected a number above 0",
+    );
     let text = FULL.replace("ball_mass = 3.29e-5\n", "");
     let (key, rule) = ("bearing.density", "found 0, expected a number above 0");
     breaks(&text, &["bearing.density=0"], key, rule);

@@ -1,7 +1,8 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, ModeExtent, ModesKept, SensorSpot, StepLength,
+    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, ModeExtent, ModesKept,
+    SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
