@@ -231,10 +231,11 @@ fn error_by_size(sizes: &[SizeErrors]) -> Vec<Value> {
             "size": row.size,
             "plain": row.plain,
             "enhanced": row.enhanced,
-            "interface_modes": row.reduced.map(|reduced| json!({
+            "interface_reduced": row.reduced.map(|reduced| json!({
                 "error": reduced.error,
                 "interface_modes": reduced.interface_modes,
-                "vectors": reduced.vectors,
+                "fixed_interface_modes": reduced.fixed_interface_modes,
+                "residual_vectors": reduced.residual_vectors,
             })),
         })
     };

@@ -20,7 +20,7 @@ pub struct InterfaceReduction {
     /// The reduced matrices; their interface coordinates are amplitudes of the modes.
     pub superelement: Superelement,
     /// diag(R, 1) [order x reduced order].
-    transform: DenseMatrix,
+    pub(super) transform: DenseMatrix,
     /// `(m_bb + m_a) R` [interface x kept], kg^(1/2).
     inertia: DenseMatrix,
     /// Squared frequencies of the kept modes, 1/s^2, ascending.

@@ -19,7 +19,7 @@ pub struct SizeErrors {
     pub plain: Option<f64>,
     /// With residual vectors among them.
     pub enhanced: Option<f64>,
-    /// With residual vectors and a reduced interface.
+    /// With a reduced interface.
     pub reduced: Option<ReducedSize>,
 }
 
@@ -30,13 +30,16 @@ pub struct ReducedSize {
     pub error: f64,
     /// Modes of the interface.
     pub interface_modes: usize,
-    /// Vectors of the interior.
-    pub vectors: usize,
+    /// Fixed-interface modes.
+    pub fixed_interface_modes: usize,
+    /// Residual vectors.
+    pub residual_vectors: usize,
 }
 
 /// Errors of reductions of some sizes against the frequencies of the full model, Hz, ascending, of which the first `rigid`
 /// are not judged; `interface` are the modes of the interface with what is attached. Half of the vectors of an enhanced
-/// basis are residual vectors. Splits tried have none or as many vectors of the interior as one of the smaller sizes.
+/// basis are residual vectors. Splits tried have none or as many vectors of the interior as one of the smaller sizes, plain
+/// or enhanced.
 ///
 /// # Errors
 /// What the eigenvalue solvers report.
@@ -74,7 +77,8 @@ pub fn size_study(
                 best = Some(ReducedSize {
                     error: found,
                     interface_modes: kept,
-                    vectors: basis.count(),
+                    fixed_interface_modes: basis.count() - basis.residual_vectors(),
+                    residual_vectors: basis.residual_vectors(),
                 });
             }
         }
@@ -84,7 +88,7 @@ pub fn size_study(
             enhanced: of_whole(&enhanced)?,
             reduced: best,
         });
-        bases.push(enhanced);
+        bases.extend([plain, enhanced]);
     }
     Ok(rows)
 }

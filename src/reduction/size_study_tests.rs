@@ -61,9 +61,10 @@ fn errors_are_those_of_the_reductions_themselves() {
             "{row:?} {enhanced:e}"
         );
         let Some(split) = row.reduced else { continue };
-        assert_eq!(split.interface_modes + split.vectors, row.size);
+        let vectors = split.fixed_interface_modes + split.residual_vectors;
+        assert_eq!(split.interface_modes + vectors, row.size);
         let reduction = InterfaceReduction::new(
-            &condensed(basis(split.vectors, true)),
+            &condensed(basis(vectors, split.residual_vectors > 0)),
             &interface,
             InterfaceSize::Count(split.interface_modes),
         );
