@@ -13,7 +13,7 @@ pub(super) fn section(full: &FullComparison, interface_dof: usize, target: f64) 
     Some(
         Section::new("Error against size")
             .paragraph(format!(
-                "The largest true error of the elastic frequencies in the band, by number of coordinates. Plain: fixed-interface modes. Enhanced: residual vectors in the place of half of them. Both have the {interface_dof} coordinates of the interface beside, which are not counted. Interface reduced: characteristic constraint modes in the place of these, counted, and plain or enhanced vectors; the best of some splits (no vectors, or as many as one of the smaller sizes). Errors below 1e-8 are those of the eigenvalues."
+                "The largest true error of the elastic frequencies in the band, by number of coordinates. Plain: fixed-interface modes. Enhanced: residual vectors in the place of half of them. Both have the {interface_dof} coordinates of the interface beside, which are not counted. Interface reduced: characteristic constraint modes in the place of these, counted, and plain or enhanced vectors; the best of some splits (no vectors, or as many as one of the smaller sizes). Errors below 1e-10 are those of the eigenvalues themselves."
             ))
             .plot(plot(sizes, target))
             .table(table(sizes)),
@@ -52,7 +52,7 @@ fn table(sizes: &[SizeErrors]) -> Table {
             Column::number("Plain", ""),
             Column::number("Enhanced", ""),
             Column::number("Interface reduced", ""),
-            Column::text("modes of the interface + fixed-interface modes + residual vectors"),
+            Column::text("Modes of the interface + fixed-interface modes + residual vectors"),
         ],
     );
     let number =
