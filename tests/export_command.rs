@@ -493,6 +493,97 @@ fn a_condensed_housing_is_exported() {
     }
 }
 
+/// Modes in the place of the ring's coordinates: what is written leads back to these, and what needs them says so.
+#[test]
+fn an_interface_is_reduced() {
+    let folder = scratch("interface");
+    // nothing holds ring and housing: three rigid motions, and two elastic modes below 100 kHz
+    let set = "--set housing.supports=[] --set condense.fixed_interface_modes=10 --set accuracy.band_hz=[0,100000]";
+    good(&folder, &format!("condense coupled.toml --quiet {set}"));
+    let out = folder.join("out/coupled");
+    let path = out.join("superelement.npz");
+    let whole = read_superelement_npz(&path).unwrap();
+    let shown = good(
+        &folder,
+        &format!(
+            "condense coupled.toml --force --compare-full {set} --set condense.interface_modes=20"
+        ),
+    );
+    assert!(
+        shown.contains("20 modes of the interface in place of its coordinates"),
+        "{shown}"
+    );
+    let reduced = read_superelement_npz(&path).unwrap();
+    assert_eq!((whole.order(), reduced.order()), (82, 30));
+    let back = reduced.interface_recovery.as_ref().unwrap();
+    assert_eq!(back.labels, whole.interface);
+    // k_cc = R^T k_bb R, but for the rigid motions' round-off
+    let bb = |a: &plummer::linalg::DenseMatrix, n: usize| a.submatrix(0, 0, n, n).to_owned();
+    for (own, of_whole) in [
+        (&reduced.stiffness, &whole.stiffness),
+        (&reduced.mass, &whole.mass),
+    ] {
+        let product = back.modes.transpose() * bb(of_whole, 72) * &back.modes;
+        let difference = (product - bb(own, 20)).norm_max();
+        assert!(difference < 1e-9 * own.norm_max(), "{difference:e}");
+    }
+    let result = json(out.join("condense.json"));
+    let of_interface = &result["interface_reduction"];
+    assert_eq!(of_interface["modes"], 20);
+    assert_eq!(numbers(&of_interface["frequencies_hz"])[..3], [0.0; 3]);
+    let checks = result["checks"].as_array().unwrap();
+    let named = |name: &str| checks.iter().any(|check| check["name"] == name);
+    assert!(named("rigid motions carried") && !named("static interface"));
+    let rises = numbers(&of_interface["relative_rise"]);
+    assert_eq!((rises.len(), &rises[..3]), (5, &[0.0; 3][..]));
+    // found 3.1e-8; round-off of a frequency is below 1e-11
+    assert!(
+        rises[3..].iter().all(|rise| (1e-9..1e-6).contains(rise)),
+        "{rises:?}"
+    );
+    let sizes = result["error_by_size"].as_array().unwrap();
+    let errors =
+        |key: &str| -> Vec<f64> { sizes.iter().filter_map(|row| row[key].as_f64()).collect() };
+    let reduced_errors: Vec<f64> = (sizes.iter())
+        .filter_map(|row| row["interface_reduced"]["error"].as_f64())
+        .collect();
+    for errors in [errors("plain"), errors("enhanced"), reduced_errors] {
+        assert!(errors.len() > 5, "{errors:?}");
+        assert!(errors.last() < errors.first(), "{errors:?}");
+    }
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    for title in ["The reduced interface", "Error against size"] {
+        assert!(report.contains(title), "{title}");
+    }
+    // neither Nastran nor a ring can take modes
+    assert_eq!(
+        refused(
+            &folder,
+            "export coupled.toml --to op4 --set condense.interface_modes=20"
+        ),
+        "error: --to op4 writes the displacements of an interface, by which others attach it: expected \
+         condense.interface_modes = \"none\", found modes in their place\n\
+         help: --set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes\n"
+    );
+    let text = format!("[housing]\nsuperelement = \"out/coupled/superelement.npz\"\n{RING}{MODES}");
+    fs::write(folder.join("npz.toml"), text).unwrap();
+    let error = refused(&folder, "modes npz.toml");
+    assert!(
+        error.contains("found 20 modes of an interface of 72 coordinates"),
+        "{error}"
+    );
+    // three rigid motions in the plane
+    let few = plummer(
+        &folder,
+        &format!("condense coupled.toml --force {set} --set condense.interface_modes=2"),
+    );
+    let error = String::from_utf8(few.stderr).unwrap();
+    assert!(
+        error.contains("2 modes of the interface are kept, expected at least 3"),
+        "{error}"
+    );
+}
+
 /// A superelement written by `condense`, or its OUTPUT4 file, in the housing's place.
 #[test]
 fn a_superelement_takes_the_housing_s_place() {

@@ -17,6 +17,9 @@ pub struct Condense {
     /// Whether residual vectors stand beside the fixed-interface modes; false: plain Craig-Bampton.
     #[serde(default = "super::yes")]
     pub enhanced: bool,
+    /// Whether modes of the interface replace its coordinates; for `plummer condense` alone.
+    #[serde(default)]
+    pub interface_modes: InterfaceModes,
 }
 
 impl Default for Condense {
@@ -25,6 +28,7 @@ impl Default for Condense {
             interface: Interface::default(),
             fixed_interface_modes: FixedInterfaceModes::default(),
             enhanced: true,
+            interface_modes: InterfaceModes::default(),
         }
     }
 }
@@ -92,6 +96,47 @@ impl From<Interface> for Loose<InterfaceForm> {
                 group: None,
                 nodes: Some(nodes),
             }),
+        }
+    }
+}
+
+/// How many characteristic constraint modes replace the coordinates of an interface.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum InterfaceModes {
+    /// None: the interface keeps its coordinates.
+    #[default]
+    None,
+    /// So many, > 0.
+    Count(usize),
+    /// All up to this frequency in Hz, > 0.
+    UpToHz(f64),
+}
+
+written_as!(InterfaceModes, Loose<UpToForm>);
+
+impl TryFrom<Loose<UpToForm>> for InterfaceModes {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "none" => Ok(Self::None),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["none"],
+            }),
+            Loose::Whole(count) => Ok(Self::Count(count)),
+            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
+            other => Err(other.mismatch("\"none\", a whole number or { up_to_hz = NUMBER }")),
+        }
+    }
+}
+
+impl From<InterfaceModes> for Loose<UpToForm> {
+    fn from(modes: InterfaceModes) -> Self {
+        match modes {
+            InterfaceModes::None => Self::Word("none".to_owned()),
+            InterfaceModes::Count(count) => Self::Whole(count),
+            InterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
         }
     }
 }

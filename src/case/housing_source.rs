@@ -226,6 +226,11 @@ mod tests {
                  one of the two",
             ),
             (
+                "condense.interface_modes=9",
+                "--set condense.interface_modes=9: `condense.interface_modes`: found beside `housing.superelement`, expected \
+                 one of the two",
+            ),
+            (
                 "sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]",
                 "--set sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]: `sensors[0].point`: needs `housing.mesh`, \
                  which the case lacks",

@@ -54,7 +54,7 @@ pub use bearing::{
     BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial,
 };
 pub use check::{BrokenRule, Rule};
-pub use condense::{Condense, FixedInterfaceModes, Interface};
+pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
 pub use defect::{Defect, DefectCurvature, DefectPlace, DefectProfile};
 pub use document::Source;
 pub use error::{CaseError, Place};

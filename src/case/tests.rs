@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{
     BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold,
-    Integration, Joint, LinearElements, Linearise, Link, Material, Method, ModeExtent, ModesKept,
-    PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
+    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method,
+    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
 };
 
 /// A case with every table and every form of value.
@@ -107,6 +107,7 @@ fn every_key_of_the_full_case_arrives() {
         case.condense.fixed_interface_modes,
         FixedInterfaceModes::UpToHz(2e5)
     );
+    assert_eq!(case.condense.interface_modes, InterfaceModes::UpToHz(6e4));
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.step, StepLength::Seconds(1e-7));
     assert_eq!(transient.modes, ModesKept::Count(11));
@@ -153,6 +154,7 @@ fn defaults_are_those_of_the_format() {
     assert_eq!(case.modes.extent, ModeExtent::Count(20));
     assert_eq!(case.modes.linearise, Linearise::None);
     assert!(case.condense.enhanced);
+    assert_eq!(case.condense.interface_modes, InterfaceModes::None);
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.method, Method::Auto);
     assert_eq!(transient.step, StepLength::Auto);
@@ -220,6 +222,7 @@ fn the_echo_reads_back_as_the_same_case() {
         ][..],
         &[
             "condense.fixed_interface_modes=40",
+            "condense.interface_modes=30",
             "bearing.race_material=steel",
         ][..],
     ] {
@@ -388,6 +391,10 @@ fn values_of_the_wrong_kind_are_named() {
         (
             "condense.fixed_interface_modes=1.5",
             "`condense.fixed_interface_modes`: found 1.5, expected \"auto\", a whole number or { up_to_hz = NUMBER }",
+        ),
+        (
+            "condense.interface_modes=1.5",
+            "`condense.interface_modes`: found 1.5, expected \"none\", a whole number or { up_to_hz = NUMBER }",
         ),
     ] {
         assert_eq!(refusal(&[set]).0, format!("--set {set}: {rest}"));

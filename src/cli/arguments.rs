@@ -40,7 +40,10 @@ Example: a housing on the nodes of its bore, its frequencies against those of th
 Files:
   superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mbdyn;
                     in another case it takes the housing's place: [housing] superelement = \"superelement.npz\"
-  condense.json     checks with limits and verdicts, estimated errors";
+  condense.json     checks with limits and verdicts, estimated errors
+
+Large interfaces: condense.interface_modes = 30 in the case puts modes of the interface in the place of its coordinates. This
+belongs to this command alone: run, modes and frf keep the whole interface, export --to op4 and mbdyn refuse it.";
 
 const FRF_EXAMPLE: &str = "\
 Example: what a force on the raceway does at the sensors, against the full model at its peaks
@@ -109,7 +112,7 @@ pub enum Command {
     Condense {
         /// Case file (TOML)
         case: PathBuf,
-        /// Compute the full model too, and compare
+        /// Compute the full model too, and compare; error against size
         #[arg(long)]
         compare_full: bool,
     },

@@ -8,7 +8,7 @@ use crate::exchange::write_superelement_npz;
 use crate::reduction::Check;
 use crate::stages::{
     Comparison, CondenseResult, ImportedHousing, StageError, compute_condense, condense_report,
-    imported_report, superelement_record,
+    imported_report, reduced_superelement_record, superelement_record,
 };
 use serde_json::Value;
 
@@ -45,7 +45,10 @@ pub fn condense(
     let report = condense_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "condense", case, report)?;
     let element = folder.path().join("superelement.npz");
-    let record = superelement_record(case, &result.stage)?;
+    let record = match &result.interface {
+        Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
+        None => superelement_record(case, &result.stage)?,
+    };
     write_superelement_npz(&element, &record).map_err(StageError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("condense", case, progress, wall_s, &files.meshes);
@@ -59,7 +62,14 @@ pub fn condense(
         written: [vec![path, element], files.paths].concat(),
         verdict: verdict(
             &result.checks,
-            "the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz",
+            match result.interface {
+                None => {
+                    "the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz"
+                }
+                Some(_) => {
+                    "the report says what each check is; more coordinates: condense.interface_modes, condense.fixed_interface_modes; a narrower band: accuracy.band_hz"
+                }
+            },
         ),
     })
 }
@@ -122,6 +132,15 @@ fn summary(result: &CondenseResult) -> String {
         &result.stage.condensed.superelement,
         &result.stage.condensed.basis,
     );
+    let of_modes = result.interface.as_ref().map(|interface| {
+        format!(
+            "{} modes of the interface in place of its coordinates: frequencies up to {:.1e} higher, on average {:.0} % of \
+             the interface's static flexibility lost",
+            interface.reduction.kept(),
+            interface.largest_rise(),
+            100.0 * interface.lost.mean
+        )
+    });
     let mut lines = vec![
         format!(
             "{} interface coordinates, {} fixed-interface modes, {} residual vectors, for {} interior degrees of freedom",
@@ -137,6 +156,7 @@ fn summary(result: &CondenseResult) -> String {
             result.estimate.largest()
         ),
     ];
+    lines.splice(1..1, of_modes);
     if let Some(full) = &result.full {
         let errors = full.relative_errors.iter().flatten();
         let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));

@@ -5,10 +5,10 @@ use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
 use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
-use crate::reduction::{Bound, Check};
+use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
-    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, RunEnd, RunResult,
-    StageError, StructureStage,
+    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, ReducedInterface, RunEnd,
+    RunResult, StageError, StructureStage,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -180,6 +180,8 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
         &mut map,
         json!({
             "interface_dof": element.interface_dof,
+            "coordinates": result.superelement().order(),
+            "interface_reduction": result.interface.as_ref().map(interface_reduction),
             "interior_dof": result.stage.condensed.substructure.interior_dof(),
             "fixed_interface_modes": basis.count() - basis.residual_vectors(),
             "residual_vectors": basis.residual_vectors(),
@@ -199,10 +201,45 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
             "full_frequencies_hz": result.full.as_ref().map(|full| &full.frequencies_hz),
             "relative_error": result.full.as_ref().map(|full| &full.relative_errors),
             "effectivity": result.full.as_ref().and_then(|full| full.effectivity),
+            "error_by_size": result.full.as_ref().map(|full| error_by_size(&full.sizes)),
             "tie_price": result.tie_price,
         }),
     );
     map
+}
+
+/// What modes in place of an interface are, and what they cost.
+fn interface_reduction(interface: &ReducedInterface) -> Value {
+    let reduction = &interface.reduction;
+    let hz = |value: &f64| value.max(0.0).sqrt() / std::f64::consts::TAU;
+    json!({
+        "modes": reduction.kept(),
+        "frequencies_hz": reduction.values().iter().map(hz).collect::<Vec<_>>(),
+        "first_left_out_hz": reduction.next().as_ref().map(hz),
+        "relative_rise": interface.rises,
+        "static_flexibility_lost": {
+            "largest": interface.lost.largest,
+            "mean": interface.lost.mean,
+        },
+    })
+}
+
+/// Largest relative errors of reductions by their size.
+fn error_by_size(sizes: &[SizeErrors]) -> Vec<Value> {
+    let row = |row: &SizeErrors| {
+        json!({
+            "size": row.size,
+            "plain": row.plain,
+            "enhanced": row.enhanced,
+            "interface_reduced": row.reduced.map(|reduced| json!({
+                "error": reduced.error,
+                "interface_modes": reduced.interface_modes,
+                "fixed_interface_modes": reduced.fixed_interface_modes,
+                "residual_vectors": reduced.residual_vectors,
+            })),
+        })
+    };
+    sizes.iter().map(row).collect()
 }
 
 /// What `condense.json` says of a superelement from a file.

@@ -41,9 +41,9 @@ pub use npz::{
 pub use op4::{Op4Error, Op4Format, Op4Matrix, Op4Place, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::{ReadModesError, read_mode_shapes};
 pub use superelement::{
-    FieldRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow, SuperelementError,
-    SuperelementRecord, read_superelement_npz, read_superelement_op4, write_mbdyn_fem,
-    write_superelement_npz, write_superelement_op4,
+    FieldRecovery, InterfaceRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow,
+    SuperelementError, SuperelementRecord, read_superelement_npz, read_superelement_op4,
+    write_mbdyn_fem, write_superelement_npz, write_superelement_op4,
 };
 pub use uff::{
     FrequencyResponse, ResponseFault, ResponseKind, ResponsePoint, UffError, read_modes_uff,

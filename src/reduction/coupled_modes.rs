@@ -12,6 +12,24 @@ pub struct Attached<'a> {
     pub mass: &'a DenseMatrix,
 }
 
+/// k_bb and m_bb of a housing with what is attached [interface x interface].
+pub(super) fn interface_matrices(
+    substructure: &Substructure,
+    attached: Option<Attached<'_>>,
+) -> [DenseMatrix; 2] {
+    let with = |own: &DenseMatrix, more: Option<&DenseMatrix>| match more {
+        Some(more) => own + more,
+        None => own.clone(),
+    };
+    [
+        with(
+            substructure.stiffness(),
+            attached.map(|part| part.stiffness),
+        ),
+        with(substructure.mass(), attached.map(|part| part.mass)),
+    ]
+}
+
 /// Matrices k, m [order x order] of a basis: the interface first, then the amplitudes of the interior's vectors.
 pub(super) fn reduced_matrices(
     substructure: &Substructure,
@@ -20,15 +38,7 @@ pub(super) fn reduced_matrices(
 ) -> [DenseMatrix; 2] {
     let interface = substructure.interface_dof();
     let order = interface + basis.count();
-    let with = |own: &DenseMatrix, more: Option<&DenseMatrix>| match more {
-        Some(more) => own + more,
-        None => own.clone(),
-    };
-    let k_bb = with(
-        substructure.stiffness(),
-        attached.map(|part| part.stiffness),
-    );
-    let m_bb = with(substructure.mass(), attached.map(|part| part.mass));
+    let [k_bb, m_bb] = interface_matrices(substructure, attached);
     let (values, m_qb) = (basis.values(), basis.participation());
     let stiffness = DenseMatrix::from_fn(order, order, |row, column| {
         match (row.checked_sub(interface), column.checked_sub(interface)) {

@@ -35,6 +35,18 @@ pub enum ReductionError {
         /// Error of the last basis.
         reached: f64,
     },
+    /// Too few modes of an interface.
+    #[error(
+        "{found} modes of the interface are kept, expected at least {least}: rigid motions that nothing holds, or else one (the first has {first_hz:.0} Hz)"
+    )]
+    FewInterfaceModes {
+        /// How many are kept.
+        found: usize,
+        /// How many it takes.
+        least: usize,
+        /// Frequency of the first mode, Hz.
+        first_hz: f64,
+    },
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),

@@ -80,7 +80,7 @@ impl ErrorEstimate {
     ) -> Result<Self, ReductionError> {
         let top = (TAU * band_hz).powi(2);
         let reduced = coupled_modes(substructure, basis, attached)?;
-        let quasi_static = QUASI_STATIC * lowest_value(basis);
+        let quasi_static = QUASI_STATIC * basis.lowest_value();
         let (mut refined, mut modes) = (basis.clone(), reduced.clone());
         let mut last_fall = Vec::new();
         let mut estimate = Self {
@@ -130,6 +130,36 @@ impl ErrorEstimate {
     }
 }
 
+impl ErrorEstimate {
+    /// The same of a model with further restraints, of which the squared frequencies `values` are known (1/s^2, ascending):
+    /// its frequencies, each with both errors, and what each rises by, relative.
+    pub(super) fn raised(&self, basis: &InteriorBasis, values: &[f64]) -> (Self, Vec<f64>) {
+        let quasi_static = QUASI_STATIC * basis.lowest_value();
+        let rise = |(place, mode): (usize, &EstimatedMode)| {
+            let before = (TAU * mode.frequency_hz).powi(2);
+            match before > quasi_static {
+                true => fall(at(values, place), before),
+                false => 0.0,
+            }
+        };
+        let rises: Vec<f64> = self.modes.iter().enumerate().map(rise).collect();
+        let top = (TAU * self.band_hz).powi(2);
+        let both = self.modes.iter().zip(&rises).enumerate();
+        let modes = both.map(|(place, (mode, rise))| EstimatedMode {
+            frequency_hz: at(values, place).abs().sqrt() / TAU,
+            relative_error: (1.0 + mode.relative_error) * (1.0 + rise) - 1.0,
+        });
+        let raised = Self {
+            modes: modes.collect(),
+            out_of_band: (0..self.modes.len())
+                .filter(|&place| at(values, place) > top)
+                .count(),
+            ..*self
+        };
+        (raised, rises)
+    }
+}
+
 /// An eigenvalue, or infinity where a basis has too few vectors for it.
 fn at(values: &[f64], mode: usize) -> f64 {
     values.get(mode).copied().unwrap_or(f64::INFINITY)
@@ -148,16 +178,6 @@ fn fall(before: f64, after: f64) -> f64 {
 fn remainder(value: f64, basis: &InteriorBasis) -> f64 {
     let ratio = (value / basis.complete_below()).powi(2).min(SLOWEST);
     ratio / (1.0 - ratio)
-}
-
-/// The lowest fixed-interface eigenvalue, kept or left out.
-fn lowest_value(basis: &InteriorBasis) -> f64 {
-    basis
-        .values()
-        .first()
-        .map_or(basis.complete_below(), |&first| {
-            first.min(basis.complete_below())
-        })
 }
 
 #[cfg(test)]

@@ -73,6 +73,12 @@ impl InteriorBasis {
         self.complete_below
     }
 
+    /// The lowest fixed-interface eigenvalue, kept or left out, 1/s^2.
+    pub(super) fn lowest_value(&self) -> f64 {
+        let first = self.values.first().copied();
+        first.map_or(self.complete_below, |first| first.min(self.complete_below))
+    }
+
     /// The basis with further vectors `z` [interior x k], made orthogonal to it and to each other. Vectors that it
     /// contains add nothing.
     ///

@@ -1,30 +1,39 @@
 //! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
 //! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
+mod characteristic_modes;
 mod checks;
+mod coupled_lowest;
 mod coupled_modes;
 mod craig_bampton;
 mod error;
 mod estimate;
 pub mod frf;
+mod interface_reduction;
 mod interior_basis;
 mod residual_flexibility;
 mod response_estimate;
 #[cfg(test)]
 mod samples;
 mod selection;
+mod size_study;
 mod smallest_basis;
 mod substructure;
 mod superelement;
 
-pub use checks::{Bound, Check, RigidMotions, check_craig_bampton, check_matrices};
+pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
+pub use checks::{
+    Bound, Check, RigidMotions, check_craig_bampton, check_interface_reduction, check_matrices,
+};
 pub use coupled_modes::Attached;
 pub use craig_bampton::{CraigBampton, craig_bampton};
 pub use error::ReductionError;
 pub use estimate::{ErrorEstimate, EstimatedMode};
+pub use interface_reduction::InterfaceReduction;
 pub use interior_basis::InteriorBasis;
 pub use residual_flexibility::ResidualFlexibility;
 pub use response_estimate::ResponseEstimate;
 pub use selection::{BasisChoice, BasisSize, choose_basis};
+pub use size_study::{ReducedSize, SizeErrors, size_study};
 pub use substructure::Substructure;
 pub use superelement::Superelement;

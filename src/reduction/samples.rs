@@ -57,3 +57,36 @@ pub(super) fn grounded_rod(nodes: usize, spring: f64) -> SystemMatrices {
     rod.stiffness = &rod.stiffness + &ground.build();
     rod
 }
+
+/// The rod held by every third node.
+pub(super) fn every_third(nodes: usize) -> HousingPartition {
+    let driven: Vec<usize> = (0..nodes).step_by(3).collect();
+    let mut tie = TripletBuilder::new(driven.len(), driven.len());
+    (0..driven.len()).for_each(|place| tie.add(place, place, 1.0));
+    HousingPartition {
+        interior: (0..nodes).filter(|node| node % 3 != 0).collect(),
+        tie: tie.build(),
+        driven,
+    }
+}
+
+/// Stiffness and mass of masses that are attached to an interface, neighbours joined by springs; `ground` holds the first.
+pub(super) fn train(interface: usize, mass: f64, spring: f64, ground: f64) -> [DenseMatrix; 2] {
+    let stiffness = DenseMatrix::from_fn(interface, interface, |row, column| {
+        let ends = f64::from(u8::from(row > 0) + u8::from(row + 1 < interface));
+        match row.abs_diff(column) {
+            0 => spring * ends + if row == 0 { ground } else { 0.0 },
+            1 => -spring,
+            _ => 0.0,
+        }
+    });
+    // every fifth one is heavy
+    let mass = DenseMatrix::from_fn(interface, interface, |row, column| {
+        match (row == column, row % 5) {
+            (true, 0) => mass,
+            (true, _) => 0.1 * mass,
+            _ => 0.0,
+        }
+    });
+    [stiffness, mass]
+}

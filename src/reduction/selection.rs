@@ -55,21 +55,15 @@ pub fn choose_basis(
     match choice.size {
         BasisSize::Count(count) => {
             let count = count.min(substructure.interior_dof());
-            let residual = if choice.enhanced { count / 2 } else { 0 };
             let pairs = modes(substructure, count)?;
-            let mut basis = InteriorBasis::of_modes(substructure, &pairs, count - residual);
-            // an interface of few coordinates has few residual vectors; those of the basis with them are further ones
-            while basis.count() < count {
-                let missing = count - basis.count();
-                let more = with_residuals(substructure, &basis, attached, |_, elastic| {
-                    (elastic..elastic + missing).collect()
-                })?;
-                if more.count() == basis.count() {
-                    break;
-                }
-                basis = more;
-            }
-            Ok(basis)
+            let basis = match choice.enhanced {
+                true => count - count / 2,
+                false => count,
+            };
+            let basis = InteriorBasis::of_modes(substructure, &pairs, basis);
+            filled(substructure, basis, count, |basis, _| {
+                coupled_modes(substructure, basis, attached)
+            })
         }
         BasisSize::UpTo(hz) => {
             let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0)?;
@@ -85,6 +79,29 @@ pub fn choose_basis(
         }
         BasisSize::Auto(target) => smallest_basis(substructure, choice, target, attached),
     }
+}
+
+/// A basis with residual vectors up to `count`; `modes_of` gives at least as many modes of the coupled structure beyond the
+/// quasi-static ones as its second argument says, if there are.
+pub(super) fn filled(
+    substructure: &Substructure,
+    mut basis: InteriorBasis,
+    count: usize,
+    modes_of: impl Fn(&InteriorBasis, usize) -> Result<SymmetricSpectrum, ReductionError>,
+) -> Result<InteriorBasis, ReductionError> {
+    // an interface of few coordinates has few residual vectors; those of the basis with them are further ones
+    while basis.count() < count {
+        let missing = count - basis.count();
+        let spectrum = modes_of(&basis, missing)?;
+        let more = corrected(substructure, &basis, &spectrum, |elastic| {
+            (elastic..elastic + missing).collect()
+        })?;
+        if more.count() == basis.count() {
+            break;
+        }
+        basis = more;
+    }
+    Ok(basis)
 }
 
 /// The lowest modes, and one more to say up to where they are complete.
@@ -122,15 +139,25 @@ pub(super) fn with_residuals(
     choose: impl FnOnce(&SymmetricSpectrum, usize) -> Vec<usize>,
 ) -> Result<InteriorBasis, ReductionError> {
     let spectrum = coupled_modes(substructure, basis, attached)?;
-    let lowest = basis.values().first().copied();
-    let limit = QUASI_STATIC * lowest.unwrap_or(basis.complete_below());
+    corrected(substructure, basis, &spectrum, |elastic| {
+        choose(&spectrum, elastic)
+    })
+}
+
+fn corrected(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    spectrum: &SymmetricSpectrum,
+    choose: impl FnOnce(usize) -> Vec<usize>,
+) -> Result<InteriorBasis, ReductionError> {
+    let limit = QUASI_STATIC * basis.lowest_value();
     let elastic = spectrum.values.partition_point(|&value| value <= limit);
     let available = spectrum.values.len();
-    let mut chosen = choose(&spectrum, elastic);
+    let mut chosen = choose(elastic);
     chosen.retain(|&mode| mode < available && spectrum.values[mode].is_finite());
     if chosen.is_empty() {
         return Ok(basis.clone());
     }
-    let residual = interior_residuals(substructure, basis, &spectrum, &chosen);
+    let residual = interior_residuals(substructure, basis, spectrum, &chosen);
     basis.extended(substructure, substructure.solve_interior(residual)?)
 }

@@ -2,10 +2,14 @@
 
 use super::condensed::CondensedStage;
 use super::modal_system::FullModes;
+use super::reduced_interface::{ReducedInterface, characteristic_modes};
 use super::{StageError, TIE_PRICE_MODES, TiePrice, Watch, tie_price};
-use crate::case::{Case, ModeExtent};
+use crate::case::{Case, InterfaceModes, ModeExtent};
 use crate::linalg::EigenProblem;
-use crate::reduction::{Check, ErrorEstimate, check_craig_bampton};
+use crate::reduction::{
+    Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
+    size_study,
+};
 use std::f64::consts::TAU;
 
 /// Agreement of two computations of one eigenvalue, relative, as frequencies: residuals below 1e-5 leave errors of the
@@ -33,6 +37,8 @@ pub struct FullComparison {
     pub relative_errors: Vec<Option<f64>>,
     /// Smallest and largest of estimated / true error; `None` if no error is above round-off.
     pub effectivity: Option<[f64; 2]>,
+    /// Errors of reductions of other sizes; none without an elastic mode in the band.
+    pub sizes: Vec<SizeErrors>,
 }
 
 /// Result of the command.
@@ -40,7 +46,9 @@ pub struct FullComparison {
 pub struct CondenseResult {
     /// The condensed housing.
     pub stage: CondensedStage,
-    /// Errors in the band.
+    /// Its interface on modes, if the case asks for it.
+    pub interface: Option<ReducedInterface>,
+    /// Errors in the band, of the interface's reduction too.
     pub estimate: ErrorEstimate,
     /// Its certificate.
     pub checks: Vec<Check>,
@@ -54,6 +62,14 @@ impl CondenseResult {
     /// Whether every check passes.
     pub fn passes(&self) -> bool {
         self.checks.iter().all(Check::ok)
+    }
+
+    /// The superelement that is handed on.
+    pub fn superelement(&self) -> &Superelement {
+        match &self.interface {
+            Some(interface) => &interface.reduction.superelement,
+            None => &self.stage.condensed.superelement,
+        }
     }
 }
 
@@ -70,20 +86,45 @@ pub fn compute_condense(
     let stage = CondensedStage::build(case, watch)?.ok_or(StageError::NothingToCondense)?;
     watch.stage("estimate");
     let band_hz = stage.choice.band_hz;
-    let estimate = stage
+    let mut estimate = stage
         .condensed
         .estimate(stage.boundary.attached(), band_hz)?;
-    watch.stage("check");
     let matrices = stage.matrices();
-    let mut checks =
-        check_craig_bampton(&stage.condensed, &matrices, &stage.rigid_motions(), band_hz)?;
+    let (mut modes, mut interface) = (None, None);
+    if comparison == Comparison::Full || case.condense.interface_modes != InterfaceModes::None {
+        watch.stage("interface");
+        let all = characteristic_modes(&stage, &matrices)?;
+        if let Some((reduced, of_both)) = ReducedInterface::of(case, &stage, &all, &estimate)? {
+            (interface, estimate) = (Some(reduced), of_both);
+        }
+        modes = Some(all);
+    }
+    watch.stage("check");
+    let rigid = stage.rigid_motions();
+    let mut checks = match &interface {
+        Some(ReducedInterface { reduction, .. }) => {
+            check_interface_reduction(&stage.condensed, reduction, &matrices, &rigid, band_hz)?
+        }
+        None => check_craig_bampton(&stage.condensed, &matrices, &rigid, band_hz)?,
+    };
     checks.push(estimated_error(&estimate, case.target()));
     let (mut full, mut price) = (None, None);
     if comparison == Comparison::Full {
         watch.stage("full model");
-        let found = compare(&stage, &estimate, watch)?;
+        let mut found = compare(&stage, &estimate, watch)?;
         checks.push(fixed_interface(&stage)?);
         checks.push(free_frequencies(&found, case.target()));
+        let elastic = found.relative_errors.iter().any(Option::is_some);
+        if let Some(modes) = modes.as_ref().filter(|_| elastic) {
+            watch.stage("sizes");
+            let rigid = found.relative_errors.iter().take_while(|e| e.is_none());
+            found.sizes = size_study(
+                &stage.condensed.substructure,
+                modes,
+                &found.frequencies_hz,
+                rigid.count(),
+            )?;
+        }
         full = Some(found);
         if stage.boundary.ring().is_some() {
             price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
@@ -92,6 +133,7 @@ pub fn compute_condense(
     drop(matrices);
     Ok(CondenseResult {
         stage,
+        interface,
         estimate,
         checks,
         full,
@@ -140,6 +182,7 @@ fn compare(
         frequencies_hz: full.clone(),
         relative_errors,
         effectivity,
+        sizes: Vec::new(),
     })
 }
 

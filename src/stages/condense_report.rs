@@ -1,7 +1,7 @@
 //! The report of `plummer condense`: the certificate of a superelement.
 
 use super::condense::{CondenseResult, FullComparison};
-use super::{BeamAndSolid, Boundary, StageError, TiePrice};
+use super::{BeamAndSolid, Boundary, StageError, TiePrice, reduced_interface_report, size_chart};
 use crate::case::Case;
 use crate::reduction::{BasisSize, Bound, Check};
 use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant};
@@ -42,7 +42,7 @@ pub fn condense_report(
             "Coordinates",
             format!(
                 "{} + {}",
-                result.stage.condensed.superelement.interface_dof,
+                result.superelement().interface_dof,
                 result.stage.condensed.basis.count()
             ),
             Verdict::None,
@@ -54,8 +54,16 @@ pub fn condense_report(
                 .paragraph("Every limit is relative: it holds in any units and for any size. A check that fails says which property the superelement lacks.")
                 .table(check_table(&result.checks)),
         )
-        .section(errors(result))
-        .section(vectors(result));
+        .section(errors(result));
+    if let Some(interface) = &result.interface {
+        report = report.section(reduced_interface_report::section(result, interface));
+    }
+    report = report.section(vectors(result));
+    let interface_dof = result.stage.condensed.superelement.interface_dof;
+    let full = result.full.as_ref();
+    if let Some(chart) = full.and_then(|f| size_chart::section(f, interface_dof, case.target())) {
+        report = report.section(chart);
+    }
     if let Some(price) = &result.tie_price {
         report = report.section(tie(price));
     }

@@ -17,6 +17,17 @@ pub enum ImportError {
     /// An OUTPUT4 file that is none of a superelement.
     #[error("{0}")]
     Op4(#[from] Op4Error),
+    /// Modes of an interface in its place.
+    #[error(
+        "expected the ring's own coordinates, found {modes} modes of an interface of {coordinates} coordinates (array \
+         \"interface_modes\"): condense without condense.interface_modes"
+    )]
+    InterfaceModes {
+        /// How many modes.
+        modes: usize,
+        /// Of how many coordinates.
+        coordinates: usize,
+    },
     /// An interface that is not the ring's.
     #[error(
         "expected {} interface coordinates (x, y, about_z of each of the ring's {nodes} nodes) or {} (in a solid housing \

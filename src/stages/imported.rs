@@ -160,6 +160,12 @@ fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> 
         Some("npz") => {
             let record = read_superelement_npz(path)?;
             let found = record.interface.len();
+            if let Some(recovery) = &record.interface_recovery {
+                return Err(ImportError::InterfaceModes {
+                    modes: found,
+                    coordinates: recovery.labels.len(),
+                });
+            }
             match fits(found) {
                 true => Ok(record),
                 false => Err(ImportError::Count { nodes, found }),

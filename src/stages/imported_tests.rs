@@ -363,3 +363,20 @@ fn the_field_of_a_record_moves_the_nodes() {
         }
     }
 }
+
+/// Eight modes of an interface are no coordinates of a ring, whatever their number.
+#[test]
+fn modes_of_an_interface_are_not_taken_for_its_coordinates() {
+    let (_folder, path, mut record) = small();
+    let interface = record.interface.len();
+    record.interface_recovery = Some(crate::exchange::InterfaceRecovery {
+        labels: record.interface.clone(),
+        modes: DenseMatrix::identity(interface, interface),
+    });
+    record.interface = (0..interface as u64).map(DofLabel::interface).collect();
+    assert_eq!(
+        refusal(&path, &record, ""),
+        "expected the ring's own coordinates, found 24 modes of an interface of 24 coordinates (array \
+         \"interface_modes\"): condense without condense.interface_modes"
+    );
+}

@@ -37,9 +37,12 @@ mod mode_shapes;
 mod modes;
 mod modes_report;
 mod places;
+mod reduced_interface;
+mod reduced_interface_report;
 mod run;
 mod run_report;
 mod shape_view;
+mod size_chart;
 mod structure;
 mod superelement_record;
 mod survey;
@@ -68,10 +71,11 @@ pub use mode_checks_report::{error_text, misses_text, mode_numbers, plain, signe
 pub use mode_shapes::compute_mode_shapes;
 pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
 pub use modes_report::modes_report;
+pub use reduced_interface::ReducedInterface;
 pub use run::{RunEnd, RunResult, compute_run};
 pub use run_report::run_report;
 pub use structure::StructureStage;
-pub use superelement_record::superelement_record;
+pub use superelement_record::{reduced_superelement_record, superelement_record};
 pub use survey::{ModalSurvey, RingShapes};
 pub use tie_price::{
     BeamAndSolid, NoTiePrice, TIE_PRICE_MODES, TieComparison, TiePrice, tie_price,

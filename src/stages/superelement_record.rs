@@ -5,8 +5,9 @@ use super::condensed::CondensedStage;
 use super::damping::viscous_matrix;
 use super::places::{Place, nodes_at};
 use crate::case::Case;
-use crate::exchange::{FieldRecovery, SensorRow, SuperelementRecord};
+use crate::exchange::{DofLabel, FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
 use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
+use crate::reduction::{InterfaceReduction, Superelement};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
@@ -21,87 +22,151 @@ pub fn superelement_record(
     case: &Case,
     stage: &CondensedStage,
 ) -> Result<SuperelementRecord, StageError> {
-    let element = &stage.condensed.superelement;
-    let sensors = case
-        .sensors
-        .iter()
-        .map(|sensor| {
-            let place = Place::of_sensor(stage, sensor)?;
-            Ok(SensorRow {
-                name: sensor.name.clone(),
-                row: place.reduced(&stage.condensed),
-            })
-        })
-        .collect::<Result<_, StageError>>()?;
-    let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
-    Ok(SuperelementRecord {
-        damping: Some(damping).filter(|c| c.norm_max() > 0.0),
-        structural: element.structural.clone(),
-        interface: stage.interface_labels(),
-        modal_hz: stage
-            .condensed
-            .basis
-            .values()
-            .iter()
-            .map(|value| value.sqrt() / TAU)
-            .collect(),
-        weight: Some(weight(stage)),
-        sensors,
-        field: field(case, stage)?,
-        stiffness: element.stiffness.clone(),
-        mass: element.mass.clone(),
-    })
+    let coordinates = Coordinates {
+        stage,
+        reduction: None,
+    };
+    coordinates.record(case)
 }
 
-/// The way back to nodes of the mesh: all of them, else those of the sensors and of the bore, else those of the sensors;
-/// the first whose recovery has at most [`FIELD`] numbers.
-fn field(case: &Case, stage: &CondensedStage) -> Result<Option<FieldRecovery>, StageError> {
-    let housing = &stage.housing;
-    let d = housing.model.dimension();
-    let used = |node: &usize| housing.model.is_used(*node);
-    let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
-    let mut of_sensors = BTreeSet::new();
-    for sensor in &case.sensors {
-        of_sensors.extend(nodes_at(housing, &sensor.name, &sensor.spot)?);
-    }
-    let driven = stage.boundary.partition().driven.iter();
-    let with_bore: BTreeSet<usize> = driven
-        .map(|dof| dof / d)
-        .chain(of_sensors.clone())
-        .collect();
-    let order = stage.condensed.superelement.order();
-    let fits = |nodes: &Vec<usize>| !nodes.is_empty() && 3 * nodes.len() * order <= FIELD;
-    let choices = [
-        all,
-        with_bore.into_iter().collect(),
-        of_sensors.into_iter().collect(),
-    ];
-    let Some(nodes) = choices.into_iter().find(fits) else {
-        return Ok(None);
+/// The same on modes of its interface, with the way back to that.
+///
+/// # Errors
+/// As [`superelement_record`].
+pub fn reduced_superelement_record(
+    case: &Case,
+    stage: &CondensedStage,
+    reduction: &InterfaceReduction,
+) -> Result<SuperelementRecord, StageError> {
+    let coordinates = Coordinates {
+        stage,
+        reduction: Some(reduction),
     };
-    let mut recovery = DenseMatrix::zeros(3 * nodes.len(), order);
-    for (place, &node) in nodes.iter().enumerate() {
-        for axis in 0..d {
-            let mut direction = [0.0; 3];
-            direction[axis] = 1.0;
-            let entries = match stage.boundary.ring() {
-                Some((_, tie)) => tie.displacement_row(&housing.model, node, direction),
-                None => housing.model.displacement_row(node, direction),
-            };
-            let row = Place::Housing(entries).reduced(&stage.condensed);
-            for (column, value) in row.into_iter().enumerate() {
-                recovery[(3 * place + axis, column)] = value;
-            }
+    coordinates.record(case)
+}
+
+/// What the coordinates of a record are.
+struct Coordinates<'a> {
+    stage: &'a CondensedStage,
+    reduction: Option<&'a InterfaceReduction>,
+}
+
+impl Coordinates<'_> {
+    fn element(&self) -> &Superelement {
+        match self.reduction {
+            Some(reduced) => &reduced.superelement,
+            None => &self.stage.condensed.superelement,
         }
     }
-    Ok(Some(FieldRecovery {
-        node_tags: nodes.iter().map(|&n| housing.model.node_tags[n]).collect(),
-        positions: nodes
+
+    /// Columns over the coordinates of the whole interface, over these.
+    fn columns(&self, columns: DenseMatrix) -> DenseMatrix {
+        match self.reduction {
+            Some(reduced) => reduced.rows(&columns),
+            None => columns,
+        }
+    }
+
+    /// The row of a place.
+    fn row(&self, place: &Place) -> Vec<f64> {
+        let row = place.reduced(&self.stage.condensed);
+        let column = DenseMatrix::from_fn(row.len(), 1, |entry, _| row[entry]);
+        self.columns(column).col_as_slice(0).to_vec()
+    }
+
+    fn record(&self, case: &Case) -> Result<SuperelementRecord, StageError> {
+        let (stage, element) = (self.stage, self.element());
+        let sensors = case
+            .sensors
             .iter()
-            .map(|&n| housing.model.coordinates()[n])
-            .collect(),
-        recovery,
-    }))
+            .map(|sensor| {
+                let place = Place::of_sensor(stage, sensor)?;
+                Ok(SensorRow {
+                    name: sensor.name.clone(),
+                    row: self.row(&place),
+                })
+            })
+            .collect::<Result<_, StageError>>()?;
+        let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
+        let values = stage.condensed.basis.values();
+        let labels = stage.interface_labels();
+        let (interface, interface_recovery) = match self.reduction {
+            None => (labels, None),
+            Some(reduced) => (
+                (0..reduced.kept() as u64)
+                    .map(DofLabel::interface)
+                    .collect(),
+                Some(InterfaceRecovery {
+                    labels,
+                    modes: reduced.modes(),
+                }),
+            ),
+        };
+        Ok(SuperelementRecord {
+            damping: Some(damping).filter(|c| c.norm_max() > 0.0),
+            structural: element.structural.clone(),
+            interface,
+            interface_recovery,
+            modal_hz: values.iter().map(|value| value.sqrt() / TAU).collect(),
+            weight: Some(self.columns(weight(stage))),
+            sensors,
+            field: self.field(case)?,
+            stiffness: element.stiffness.clone(),
+            mass: element.mass.clone(),
+        })
+    }
+
+    /// The way back to nodes of the mesh: all of them, else those of the sensors and of the bore, else those of the sensors;
+    /// the first whose recovery has at most [`FIELD`] numbers.
+    fn field(&self, case: &Case) -> Result<Option<FieldRecovery>, StageError> {
+        let stage = self.stage;
+        let housing = &stage.housing;
+        let d = housing.model.dimension();
+        let used = |node: &usize| housing.model.is_used(*node);
+        let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
+        let mut of_sensors = BTreeSet::new();
+        for sensor in &case.sensors {
+            of_sensors.extend(nodes_at(housing, &sensor.name, &sensor.spot)?);
+        }
+        let driven = stage.boundary.partition().driven.iter();
+        let with_bore: BTreeSet<usize> = driven
+            .map(|dof| dof / d)
+            .chain(of_sensors.clone())
+            .collect();
+        let order = self.element().order();
+        let fits = |nodes: &Vec<usize>| !nodes.is_empty() && 3 * nodes.len() * order <= FIELD;
+        let choices = [
+            all,
+            with_bore.into_iter().collect(),
+            of_sensors.into_iter().collect(),
+        ];
+        let Some(nodes) = choices.into_iter().find(fits) else {
+            return Ok(None);
+        };
+        let mut recovery = DenseMatrix::zeros(3 * nodes.len(), order);
+        for (place, &node) in nodes.iter().enumerate() {
+            for axis in 0..d {
+                let mut direction = [0.0; 3];
+                direction[axis] = 1.0;
+                let entries = match stage.boundary.ring() {
+                    Some((_, tie)) => tie.displacement_row(&housing.model, node, direction),
+                    None => housing.model.displacement_row(node, direction),
+                };
+                let row = self.row(&Place::Housing(entries));
+                for (column, value) in row.into_iter().enumerate() {
+                    recovery[(3 * place + axis, column)] = value;
+                }
+            }
+        }
+        Ok(Some(FieldRecovery {
+            node_tags: nodes.iter().map(|&n| housing.model.node_tags[n]).collect(),
+            positions: nodes
+                .iter()
+                .map(|&n| housing.model.coordinates()[n])
+                .collect(),
+            recovery,
+        }))
+    }
 }
 
 /// Mass times unit accelerations along the mesh's axes, on the coordinates [order x 3].

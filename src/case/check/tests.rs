@@ -31,7 +31,7 @@ fn holds(text: &str, set: &[&str]) {
     }
 }
 
-const ABOVE_ZERO: [&str; 34] = [
+const ABOVE_ZERO: [&str; 35] = [
     "materials.\"my alloy\".young",
     "materials.\"my alloy\".density",
     "materials.printed.young[1]",
@@ -63,6 +63,7 @@ const ABOVE_ZERO: [&str; 34] = [
     "modes.compare[0].points_within",
     "modes.convergence.order",
     "condense.fixed_interface_modes.up_to_hz",
+    "condense.interface_modes.up_to_hz",
     "transient.step",
     "transient.output_hz",
     "analysis.high_pass_hz",
@@ -76,6 +77,10 @@ fn what_must_exceed_zero_does() {
             full(&format!("{key}={value}"), &rule);
         }
     }
+    full(
+        "condense.interface_modes=0",
+        "found 0, expected a number above 0",
+    );
     let text = FULL.replace("ball_mass = 3.29e-5\n", "");
     let (key, rule) = ("bearing.density", "found 0, expected a number above 0");
     breaks(&text, &["bearing.density=0"], key, rule);

@@ -1,7 +1,8 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, ModeExtent, ModesKept, SensorSpot, StepLength,
+    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, ModeExtent, ModesKept,
+    SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
@@ -170,6 +171,15 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
     if case.superelement().is_some() && case.condense.interface != Interface::Ring {
         let other = "housing.superelement";
         return Err(Rule::Beside { other }.at("condense.interface"));
+    }
+    if case.superelement().is_some() && case.condense.interface_modes != InterfaceModes::None {
+        let other = "housing.superelement";
+        return Err(Rule::Beside { other }.at("condense.interface_modes"));
+    }
+    match case.condense.interface_modes {
+        InterfaceModes::None => {}
+        InterfaceModes::Count(count) => above_zero("condense.interface_modes", count as f64)?,
+        InterfaceModes::UpToHz(limit) => above_zero("condense.interface_modes.up_to_hz", limit)?,
     }
     if let Interface::Nodes(nodes) = &case.condense.interface {
         not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;

@@ -2,7 +2,7 @@
 
 use super::record::WrittenFile;
 use super::{CliError, Export, ExportError};
-use crate::case::{Case, Interface};
+use crate::case::{Case, Interface, InterfaceModes};
 use crate::cli::{ExportFormat, OutputFolder, Progress};
 use crate::exchange::{
     DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
@@ -10,10 +10,10 @@ use crate::exchange::{
 };
 use crate::stages::{CondensedStage, StageError, superelement_record};
 
-/// Whether a case has a housing and something that it is condensed on.
+/// Whether a case has a housing and something that it is condensed on, coordinates and not modes of an interface.
 ///
 /// # Errors
-/// [`ExportError::NothingCondensed`].
+/// [`ExportError::NothingCondensed`], [`ExportError::InterfaceModes`].
 pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportError> {
     let tied = case.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
     let found = if case.superelement().is_some() {
@@ -22,6 +22,8 @@ pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportEr
         "a ring alone"
     } else if !tied && case.condense.interface == Interface::Ring {
         "a housing that nothing is attached to"
+    } else if case.condense.interface_modes != InterfaceModes::None {
+        return Err(ExportError::InterfaceModes { format: to.name() });
     } else {
         return Ok(());
     };

@@ -24,6 +24,15 @@ pub enum ExportError {
         /// What the case has instead.
         found: &'static str,
     },
+    /// A case that puts modes in the place of an interface.
+    #[error(
+        "--to {format} writes the displacements of an interface, by which others attach it: expected \
+         condense.interface_modes = \"none\", found modes in their place"
+    )]
+    InterfaceModes {
+        /// The format.
+        format: &'static str,
+    },
     /// A folder without results of `plummer modes`.
     #[error("{} has no modes.json: expected a case file or a folder with results of `plummer modes`", folder.display())]
     NoResults {
@@ -127,6 +136,10 @@ impl ExportError {
             }
             Self::NothingCondensed { .. } => {
                 "--to mtx and --to npz write matrices that are not condensed".to_owned()
+            }
+            Self::InterfaceModes { .. } => {
+                "--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"
+                    .to_owned()
             }
             Self::Mbdyn(MbdynError::RigidMotions { .. }) => {
                 "MBDyn's bodies are solid: a housing that is free in space, or held by its supports"

@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::labels::{INTERFACE, LabelArrays, RECOVERED};
 use super::{SuperelementError, SuperelementRecord};
 use crate::exchange::{DofDirection, DofLabel};
 use crate::linalg::DenseMatrix;
@@ -33,6 +34,7 @@ impl SuperelementRecord {
             shape("weight", [order, 3], weight)?;
             finite("weight", weight)?;
         }
+        self.check_interface_recovery()?;
         self.check_sensors()?;
         self.check_field()
     }
@@ -62,7 +64,17 @@ impl SuperelementRecord {
                 symmetric(name, matrix)?;
             }
         }
-        check_labels(&self.interface)
+        check_labels(&self.interface, &INTERFACE)
+    }
+
+    fn check_interface_recovery(&self) -> Result<(), SuperelementError> {
+        let Some(recovery) = &self.interface_recovery else {
+            return Ok(());
+        };
+        let expected = [recovery.labels.len(), self.interface.len()];
+        shape("interface_modes", expected, &recovery.modes)?;
+        finite("interface_modes", &recovery.modes)?;
+        check_labels(&recovery.labels, &RECOVERED)
     }
 
     fn check_frequencies(&self) -> Result<(), SuperelementError> {
@@ -134,7 +146,7 @@ impl SuperelementRecord {
     }
 }
 
-fn check_labels(labels: &[DofLabel]) -> Result<(), SuperelementError> {
+fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), SuperelementError> {
     let mut seen = HashMap::new();
     for (row, label) in labels.iter().enumerate() {
         let (DofDirection::Along(axis) | DofDirection::Polar(axis) | DofDirection::About(axis)) =
@@ -143,17 +155,19 @@ fn check_labels(labels: &[DofLabel]) -> Result<(), SuperelementError> {
             continue;
         };
         if axis > 2 {
-            return Err(SuperelementError::Axis { row, axis });
+            let array = names.dofs;
+            return Err(SuperelementError::Axis { array, row, axis });
         }
         if let Some(first) = seen.insert((label.body, label.node, label.direction), row) {
-            return Err(SuperelementError::Repeated { first, second: row });
+            return Err(SuperelementError::Repeated {
+                array: names.dofs,
+                first,
+                second: row,
+            });
         }
     }
     for (row, label) in labels.iter().enumerate() {
-        for (array, found) in [
-            ("interface_positions", label.position),
-            ("interface_axes", label.axis),
-        ] {
+        for (array, found) in [(names.positions, label.position), (names.axes, label.axis)] {
             let known = found.iter().all(|value| value.is_finite());
             if !known && !found.iter().all(|value| value.is_nan()) {
                 return Err(SuperelementError::Place { array, row, found });

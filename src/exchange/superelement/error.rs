@@ -97,16 +97,20 @@ pub enum SuperelementError {
         found: f64,
     },
     /// An interface coordinate twice.
-    #[error("array \"interface_dofs\": expected each once, found rows {first} and {second} alike")]
+    #[error("array \"{array}\": expected each once, found rows {first} and {second} alike")]
     Repeated {
+        /// Name of the array.
+        array: &'static str,
         /// The first row, counted from 0.
         first: usize,
         /// The second row.
         second: usize,
     },
     /// A direction along no axis.
-    #[error("array \"interface_dofs\": expected an axis 0, 1 or 2 in row {row}, found {axis}")]
+    #[error("array \"{array}\": expected an axis 0, 1 or 2 in row {row}, found {axis}")]
     Axis {
+        /// Name of the array.
+        array: &'static str,
         /// The row, counted from 0.
         row: usize,
         /// The axis.

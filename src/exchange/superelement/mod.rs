@@ -14,6 +14,7 @@
 
 mod check;
 mod error;
+mod labels;
 mod mbdyn;
 mod npz_read;
 #[cfg(test)]
@@ -49,6 +50,8 @@ pub struct SuperelementRecord {
     pub structural: Option<DenseMatrix>,
     /// What the interface coordinates are \[b\], b <= n; those after them are amplitudes of modes.
     pub interface: Vec<DofLabel>,
+    /// The way back to the interface, where modes of it are the coordinates.
+    pub interface_recovery: Option<InterfaceRecovery>,
     /// `sqrt(k_jj / m_jj) / 2 pi` of the modes \[n - b\], Hz: with a fixed interface, their eigenfrequencies.
     pub modal_hz: Vec<f64>,
     /// Mass times unit accelerations along the mesh's x, y, z \[n x 3\], kg for a displacement.
@@ -57,6 +60,15 @@ pub struct SuperelementRecord {
     pub sensors: Vec<SensorRow>,
     /// The way back to the nodes.
     pub field: Option<FieldRecovery>,
+}
+
+/// Displacements of an interface from amplitudes of its modes, `d = modes p`; the p are the first b coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InterfaceRecovery {
+    /// What the displacements are \[d\].
+    pub labels: Vec<DofLabel>,
+    /// \[d x b\], kg^(-1/2) for displacements.
+    pub modes: DenseMatrix,
 }
 
 /// A measured quantity, `row q`.
@@ -95,6 +107,7 @@ impl SuperelementRecord {
             damping: None,
             structural: None,
             interface,
+            interface_recovery: None,
             modal_hz: Vec::new(),
             weight: None,
             sensors: Vec::new(),

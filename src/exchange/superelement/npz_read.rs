@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{FieldRecovery, SensorRow, SuperelementError, SuperelementRecord};
+use super::labels::{INTERFACE, LabelArrays, RECOVERED};
+use super::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementError, SuperelementRecord};
 use crate::exchange::{DofBody, DofDirection, DofLabel, NpzReadError, NpzReader};
 use crate::linalg::DenseMatrix;
 
@@ -42,6 +43,7 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
     if file.npz.has("modal_hz") {
         record.modal_hz = file.list("modal_hz")?;
     }
+    record.interface_recovery = file.interface_recovery(record.interface.len())?;
     record.sensors = file.sensors(order)?;
     record.field = file.field(order)?;
     record.check().map_err(fault)?;
@@ -138,28 +140,33 @@ impl Source<'_> {
         if !self.npz.has("interface_dofs") {
             return self.numbered(order);
         }
-        const NAME: &str = "interface_dofs";
-        let dofs = self.npz.whole(NAME)?;
+        self.labels(&INTERFACE, order)
+    }
+
+    /// What the rows of `names` are, at most so many.
+    fn labels(&mut self, names: &LabelArrays, most: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+        let dofs = self.npz.whole(names.dofs)?;
         let count = match dofs.shape.as_slice() {
             &[count, 2] => count,
             // NumPy's empty list
             &[0] => 0,
             found => {
                 let found = format!("shape {found:?}");
-                return Err(self.wrong(NAME, "a shape [interface, 2]", found));
+                return Err(self.wrong(names.dofs, "a shape [interface, 2]", found));
             }
         };
         // labels take more memory than the numbers that they come from
-        if count > order {
-            let found = format!("{count} rows, where \"k\" has {order}");
-            return Err(self.wrong(NAME, "at most as many rows as \"k\"", found));
+        if count > most {
+            let found = format!("{count} rows, where \"{}\" has {most}", names.matrix);
+            return Err(self.wrong(names.dofs, names.expected, found));
         }
         let mut labels = Vec::with_capacity(count);
         for &[node, component] in dofs.values.as_chunks::<2>().0 {
             let node = u64::try_from(node)
-                .map_err(|_| self.wrong(NAME, "nodes >= 0", node.to_string()))?;
-            let direction = DofDirection::of_component(component)
-                .ok_or_else(|| self.wrong(NAME, "components 0 to 9", component.to_string()))?;
+                .map_err(|_| self.wrong(names.dofs, "nodes >= 0", node.to_string()))?;
+            let direction = DofDirection::of_component(component).ok_or_else(|| {
+                self.wrong(names.dofs, "components 0 to 9", component.to_string())
+            })?;
             labels.push(DofLabel {
                 body: DofBody::Housing,
                 node,
@@ -168,28 +175,39 @@ impl Source<'_> {
                 axis: unit_vector(direction),
             });
         }
-        if self.npz.has("interface_bodies") {
-            const BODIES: &str = "interface_bodies";
-            for (label, name) in labels.iter_mut().zip(self.texts(BODIES, count)?) {
+        if self.npz.has(names.bodies) {
+            for (label, name) in labels.iter_mut().zip(self.texts(names.bodies, count)?) {
                 label.body = DofBody::of_name(&name).ok_or_else(|| {
                     let expected = "\"housing\", \"ring\", \"interface\" or \"modal\"";
-                    self.wrong(BODIES, expected, format!("\"{name}\""))
+                    self.wrong(names.bodies, expected, format!("\"{name}\""))
                 })?;
             }
         }
-        if self.npz.has("interface_positions") {
-            let positions = self.vectors("interface_positions", count)?;
+        if self.npz.has(names.positions) {
+            let positions = self.vectors(names.positions, count)?;
             for (label, position) in labels.iter_mut().zip(positions) {
                 label.position = position;
             }
         }
-        if self.npz.has("interface_axes") {
-            let axes = self.vectors("interface_axes", count)?;
+        if self.npz.has(names.axes) {
+            let axes = self.vectors(names.axes, count)?;
             for (label, axis) in labels.iter_mut().zip(axes) {
                 label.axis = axis;
             }
         }
         Ok(labels)
+    }
+
+    /// The way back to an interface of which the first `interface` coordinates are modes.
+    fn interface_recovery(
+        &mut self,
+        interface: usize,
+    ) -> Result<Option<InterfaceRecovery>, NpzReadError> {
+        let Some(modes) = self.optional("interface_modes", interface)? else {
+            return Ok(None);
+        };
+        let labels = self.labels(&RECOVERED, modes.nrows())?;
+        Ok(Some(InterfaceRecovery { labels, modes }))
     }
 
     /// Labels of an interface of which the number is all that is known.

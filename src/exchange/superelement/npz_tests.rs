@@ -319,3 +319,65 @@ fn a_record_that_contradicts_itself_is_not_written() {
     let error = read_superelement_npz(&path).unwrap_err();
     assert!(matches!(error, NpzReadError::Io { .. }));
 }
+
+/// A superelement on modes of an interface of three coordinates.
+fn on_modes() -> SuperelementRecord {
+    let whole = record();
+    let third = DofLabel {
+        direction: DofDirection::About(1),
+        ..whole.interface[0]
+    };
+    SuperelementRecord {
+        interface_recovery: Some(InterfaceRecovery {
+            labels: [whole.interface.clone(), vec![third]].concat(),
+            modes: dense(&[[0.5, 0.1], [0.25, -1.0], [3.0, 1.0 / 3.0]]),
+        }),
+        interface: vec![DofLabel::interface(0), DofLabel::interface(1)],
+        ..whole
+    }
+}
+
+#[test]
+fn the_way_back_to_an_interface_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("superelement.npz");
+    let whole = on_modes();
+    write_superelement_npz(&path, &whole).unwrap();
+    let found = read_superelement_npz(&path).unwrap();
+    assert_eq!(found.interface_recovery, whole.interface_recovery);
+    let mut npz = NpzReader::open(&path).unwrap();
+    let modes = npz.f64("interface_modes").unwrap();
+    assert_eq!(modes.shape, [3, 2]);
+    assert_eq!(modes.values[..2], [0.5, 0.1]);
+    let dofs = npz.i64("recovered_dofs").unwrap();
+    assert_eq!(dofs.values, [7, 1, 7, 3, 7, 5]);
+    assert_eq!(npz.i64("interface_dofs").unwrap().values, [0, 0, 1, 0]);
+}
+
+#[test]
+fn a_way_back_that_does_not_fit_is_named() {
+    let fault = |change: Change| {
+        let mut whole = on_modes();
+        change(&mut whole);
+        whole.check().unwrap_err().to_string()
+    };
+    fn recovery(record: &mut SuperelementRecord) -> &mut InterfaceRecovery {
+        record.interface_recovery.as_mut().unwrap()
+    }
+    for (change, message) in [
+        (
+            &(|r: &mut SuperelementRecord| recovery(r).labels.truncate(2)) as Change,
+            "array \"interface_modes\": expected 2 x 2, found 3 x 2",
+        ),
+        (
+            &|r| recovery(r).labels[2] = recovery(r).labels[0],
+            "array \"recovered_dofs\": expected each once, found rows 0 and 2 alike",
+        ),
+        (
+            &|r| recovery(r).modes[(2, 1)] = f64::INFINITY,
+            "array \"interface_modes\": expected finite numbers, found inf at [2, 1]",
+        ),
+    ] {
+        assert_eq!(fault(change), message);
+    }
+}

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::SuperelementRecord;
-use crate::exchange::{NpzError, NpzWriter};
+use super::labels::{INTERFACE, LabelArrays, RECOVERED};
+use crate::exchange::{DofLabel, NpzError, NpzWriter};
 use crate::linalg::DenseMatrix;
 
 /// Writes everything of a superelement, whole or not at all. n coordinates, b of them of the interface; arrays of what
@@ -15,6 +16,8 @@ use crate::linalg::DenseMatrix;
 /// | `interface_dofs` | \[b x 2\] | node and component: 1, 2, 3 along x, y, z; 4, 5, 6 about them; 7, 8, 9 radial, tangential, axial; 0 generalised |
 /// | `interface_bodies` | \[b\] | `housing`, `ring`, `interface` |
 /// | `interface_positions`, `interface_axes` | \[b x 3\] | m and unit vector, mesh axes, NaN where not known |
+/// | `interface_modes` | \[d x b\] | displacements of the interface from the first b coordinates, where these are amplitudes of modes |
+/// | `recovered_dofs`, `_bodies`, `_positions`, `_axes` | as above for d | what these displacements are |
 /// | `modal_hz` | \[n - b\] | Hz |
 /// | `weight` | \[n x 3\] | mass times unit accelerations along x, y, z |
 /// | `sensors`, `sensor_names` | \[s x n\], \[s\] | displacement a unit of each coordinate |
@@ -27,12 +30,6 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
     record
         .check()
         .map_err(|fault| NpzError::Superelement { fault })?;
-    let label = |label: u64| i64::try_from(label).map_err(|_| NpzError::Label { label });
-    let interface = &record.interface;
-    let mut dofs = Vec::with_capacity(interface.len());
-    for dof in interface {
-        dofs.push([label(dof.node)?, dof.direction.component()]);
-    }
     let mut npz = NpzWriter::create(path)?;
     matrix(&mut npz, "k", &record.stiffness)?;
     matrix(&mut npz, "m", &record.mass)?;
@@ -45,13 +42,10 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
             matrix(&mut npz, name, values)?;
         }
     }
-    npz.matrix("interface_dofs", dofs.len(), 2, dofs.as_flattened())?;
-    let bodies: Vec<&str> = interface.iter().map(|dof| dof.body.name()).collect();
-    npz.texts("interface_bodies", &bodies)?;
-    let positions: Vec<[f64; 3]> = interface.iter().map(|dof| dof.position).collect();
-    let axes: Vec<[f64; 3]> = interface.iter().map(|dof| dof.axis).collect();
-    for (name, vectors) in [("interface_positions", positions), ("interface_axes", axes)] {
-        npz.matrix(name, vectors.len(), 3, vectors.as_flattened())?;
+    labels(&mut npz, &record.interface, &INTERFACE)?;
+    if let Some(recovery) = &record.interface_recovery {
+        matrix(&mut npz, "interface_modes", &recovery.modes)?;
+        labels(&mut npz, &recovery.labels, &RECOVERED)?;
     }
     npz.array("modal_hz", &record.modal_hz)?;
     if !record.sensors.is_empty() {
@@ -64,7 +58,7 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         npz.texts("sensor_names", &names.collect::<Vec<_>>())?;
     }
     if let Some(field) = &record.field {
-        let tags: Result<Vec<i64>, NpzError> = field.node_tags.iter().copied().map(label).collect();
+        let tags: Result<Vec<i64>, NpzError> = field.node_tags.iter().copied().map(tag).collect();
         npz.array("field_node_tags", &tags?)?;
         let positions = &field.positions;
         npz.matrix(
@@ -76,6 +70,27 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         matrix(&mut npz, "field_recovery", &field.recovery)?;
     }
     npz.finish()
+}
+
+fn tag(label: u64) -> Result<i64, NpzError> {
+    i64::try_from(label).map_err(|_| NpzError::Label { label })
+}
+
+/// What coordinates are.
+fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Result<(), NpzError> {
+    let mut dofs = Vec::with_capacity(labels.len());
+    for dof in labels {
+        dofs.push([tag(dof.node)?, dof.direction.component()]);
+    }
+    npz.matrix(names.dofs, dofs.len(), 2, dofs.as_flattened())?;
+    let bodies: Vec<&str> = labels.iter().map(|dof| dof.body.name()).collect();
+    npz.texts(names.bodies, &bodies)?;
+    let positions: Vec<[f64; 3]> = labels.iter().map(|dof| dof.position).collect();
+    let axes: Vec<[f64; 3]> = labels.iter().map(|dof| dof.axis).collect();
+    for (name, vectors) in [(names.positions, positions), (names.axes, axes)] {
+        npz.matrix(name, vectors.len(), 3, vectors.as_flattened())?;
+    }
+    Ok(())
 }
 
 /// Row by row, as NumPy has it.

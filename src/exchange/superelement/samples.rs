@@ -37,6 +37,7 @@ pub(crate) fn record() -> SuperelementRecord {
         stiffness,
         mass,
         interface: vec![label(0), label(2)],
+        interface_recovery: None,
         modal_hz: vec![2e3 / TAU, 3e3 / TAU],
         weight: Some(dense(&[
             [1.5, 0.0, 0.25],

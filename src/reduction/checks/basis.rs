@@ -15,6 +15,9 @@ const STATIC: f64 = 1e-8;
 /// Products of vectors against what the superelement holds: orthogonality of computed modes.
 const PRODUCTS: f64 = 1e-8;
 
+/// Name of the check that modes of the interface do not keep.
+pub(super) const STATIC_INTERFACE: &str = "static interface";
+
 /// Interface motions with which static response is tried.
 const TRIALS: usize = 3;
 
@@ -63,7 +66,7 @@ pub(super) fn checks(
             STATIC,
         ),
         Check::at_most(
-            "static interface",
+            STATIC_INTERFACE,
             "|reaction of the full matrices - k_bb u| / |T^T K_bb T u| for the same motions",
             reaction,
             STATIC,

@@ -7,7 +7,7 @@ mod rigid;
 
 pub use rigid::RigidMotions;
 
-use super::{CraigBampton, ReductionError, Superelement};
+use super::{CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::assembly::SystemMatrices;
 
 /// Which side of its limit a value should be on.
@@ -83,7 +83,26 @@ pub fn check_craig_bampton(
 ) -> Result<Vec<Check>, ReductionError> {
     let mut checks = check_matrices(&condensed.superelement)?;
     checks.extend(basis::checks(condensed, matrices, band_hz));
-    checks.extend(rigid.checks(condensed, matrices)?);
+    checks.extend(rigid.checks(condensed, None, matrices)?);
+    Ok(checks)
+}
+
+/// Checks of a condensed housing on modes of its interface: all of [`check_craig_bampton`] that still hold. Static
+/// response of the interface does not, and is not among them.
+///
+/// # Errors
+/// What the dense eigenvalue solver reports.
+pub fn check_interface_reduction(
+    condensed: &CraigBampton,
+    reduction: &InterfaceReduction,
+    matrices: &SystemMatrices,
+    rigid: &RigidMotions,
+    band_hz: f64,
+) -> Result<Vec<Check>, ReductionError> {
+    let mut checks = check_matrices(&reduction.superelement)?;
+    let of_basis = basis::checks(condensed, matrices, band_hz).into_iter();
+    checks.extend(of_basis.filter(|check| check.name != basis::STATIC_INTERFACE));
+    checks.extend(rigid.checks(condensed, Some(reduction), matrices)?);
     Ok(checks)
 }
 

@@ -1,7 +1,7 @@
 //! Rigid-body motions of a superelement, and its mass properties, against those of the mesh.
 
 use super::matrices::largest;
-use super::{Check, CraigBampton, ReductionError};
+use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::assembly::SystemMatrices;
 use crate::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
 
@@ -29,13 +29,27 @@ pub struct RigidMotions {
 }
 
 impl RigidMotions {
-    pub(super) fn checks(
+    /// The motions of the interface that nothing holds [interface x free].
+    ///
+    /// # Errors
+    /// What the dense eigenvalue solver reports.
+    pub fn free_interface(
         &self,
         condensed: &CraigBampton,
         matrices: &SystemMatrices,
+    ) -> Result<DenseMatrix, ReductionError> {
+        Ok(&self.interface * self.free(condensed, matrices)?)
+    }
+
+    pub(super) fn checks(
+        &self,
+        condensed: &CraigBampton,
+        reduction: Option<&InterfaceReduction>,
+        matrices: &SystemMatrices,
     ) -> Result<Vec<Check>, ReductionError> {
         let free = self.free(condensed, matrices)?;
-        let mut checks = vec![zero_modes(condensed, free.ncols())];
+        let element = reduction.map_or(&condensed.superelement, |reduced| &reduced.superelement);
+        let mut checks = vec![zero_modes(condensed, element, free.ncols())];
         checks.extend(self.effective_mass(condensed));
         if free.ncols() == 0 {
             return Ok(checks);
@@ -43,18 +57,23 @@ impl RigidMotions {
         let interface = &self.interface * &free;
         let housing = self.moving(condensed) * &free;
         let order = condensed.superelement.order();
-        let coordinates = DenseMatrix::from_fn(order, interface.ncols(), |row, column| {
+        let whole = DenseMatrix::from_fn(order, interface.ncols(), |row, column| {
             if row < interface.nrows() {
                 interface[(row, column)]
             } else {
                 0.0
             }
         });
-        let (k, m) = (
-            &condensed.superelement.stiffness,
-            &condensed.superelement.mass,
+        // round-off of k is that of the large terms that it was summed from, on the interface itself
+        let scale = magnitude(&whole, &condensed.superelement.stiffness);
+        let own = reduction.map(|reduced| reduced.nearest(&interface));
+        let carried = own.as_ref().zip(reduction);
+        let field = condensed.field(
+            &carried.map_or_else(|| whole.clone(), |(own, reduced)| reduced.expanded(own)),
+            housing.nrows(),
         );
-        let field = condensed.field(&coordinates, housing.nrows());
+        let coordinates = own.unwrap_or(whole);
+        let (k, m) = (&element.stiffness, &element.mass);
         let partition = condensed.substructure.partition();
         let dofs = || partition.interior.iter().chain(&partition.driven);
         let difference = largest(dofs().flat_map(|&dof| {
@@ -62,7 +81,6 @@ impl RigidMotions {
             (0..field.ncols()).map(move |column| field[(dof, column)] - housing[(dof, column)])
         }));
         let energy = coordinates.transpose() * (k * &coordinates);
-        let scale = magnitude(&coordinates, k);
         let reduced = coordinates.transpose() * (m * &coordinates);
         let full = housing.transpose() * sparse_times_dense(&matrices.mass, &housing);
         let pairs = || {
@@ -178,8 +196,7 @@ impl RigidMotions {
 }
 
 /// The modes that should be rigid, and that there is none more.
-fn zero_modes(condensed: &CraigBampton, expected: usize) -> Check {
-    let element = &condensed.superelement;
+fn zero_modes(condensed: &CraigBampton, element: &Superelement, expected: usize) -> Check {
     // matrices that have no modes fail here too, and say why among the checks of the matrices
     let values = acting_generalised_eigen(&element.stiffness, &element.mass)
         .map_or(vec![f64::NAN; expected + 1], |modes| modes.values);

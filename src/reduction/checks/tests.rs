@@ -1,10 +1,13 @@
 //! A healthy superelement passes; every check fires on one that is broken in its way.
 
-use super::{Check, RigidMotions, check_craig_bampton};
+use super::{Check, RigidMotions, check_craig_bampton, check_interface_reduction};
 use crate::assembly::SystemMatrices;
 use crate::linalg::DenseMatrix;
-use crate::reduction::samples::{both_ends, grounded_rod, rod};
-use crate::reduction::{BasisChoice, BasisSize, CraigBampton, craig_bampton};
+use crate::reduction::samples::{both_ends, every_third, grounded_rod, rod};
+use crate::reduction::{
+    BasisChoice, BasisSize, CharacteristicModes, CraigBampton, InterfaceReduction, InterfaceSize,
+    craig_bampton,
+};
 
 const NODES: usize = 30;
 
@@ -163,4 +166,83 @@ fn a_value_that_is_no_number_fails() {
         assert!(!check.ok());
     }
     assert!(Check::at_most("a", "", 1.0, 1.0).ok() && Check::at_least("a", "", 1.0, 1.0).ok());
+}
+
+/// Names of the checks of the rod on five modes of its ten interface nodes, and whether they pass, after something was
+/// done to it.
+fn on_modes(
+    matrices: &SystemMatrices,
+    change: impl FnOnce(&mut InterfaceReduction),
+) -> Vec<(&'static str, bool)> {
+    let choice = BasisChoice {
+        size: BasisSize::Count(14),
+        enhanced: false,
+        band_hz: BAND_HZ,
+    };
+    let condensed = craig_bampton(matrices, &every_third(NODES), choice, None).expect("connected");
+    let rigid = RigidMotions {
+        interface: DenseMatrix::from_fn(10, 1, |_, _| 1.0),
+        ..translation()
+    };
+    let free = rigid.free_interface(&condensed, matrices).expect("finite");
+    let modes = CharacteristicModes::of(&condensed.substructure, None, &free).expect("finite");
+    let reduction = InterfaceReduction::new(&condensed, &modes, InterfaceSize::Count(5));
+    let mut reduction = reduction.expect("enough");
+    change(&mut reduction);
+    let checks = check_interface_reduction(&condensed, &reduction, matrices, &rigid, BAND_HZ);
+    let checks = checks.expect("finite");
+    checks
+        .iter()
+        .map(|check| (check.name, check.ok()))
+        .collect()
+}
+
+#[test]
+fn a_reduced_interface_keeps_all_checks_but_statics() {
+    for matrices in [rod(NODES), grounded_rod(NODES, 1e-3)] {
+        let found = on_modes(&matrices, |_| {});
+        let bad: Vec<_> = found.iter().filter(|(_, ok)| !ok).collect();
+        assert!(bad.is_empty(), "{bad:?}");
+        let names = |(name, _): &(&'static str, bool)| *name;
+        let condensed = condensed(&matrices, false);
+        let all = check_craig_bampton(&condensed, &matrices, &translation(), BAND_HZ);
+        let expected = all.expect("finite");
+        let expected = expected.iter().map(|check| check.name);
+        assert_eq!(
+            found.iter().map(names).collect::<Vec<_>>(),
+            expected
+                .filter(|name| *name != "static interface")
+                .collect::<Vec<_>>()
+        );
+    }
+}
+
+#[test]
+fn checks_of_a_reduced_interface_fire() {
+    type Break = fn(&mut InterfaceReduction);
+    let breaks: [(&str, Break); 10] = [
+        ("stiffness symmetry", |r| {
+            r.superelement.stiffness[(1, 2)] += 1e-6
+        }),
+        ("mass symmetry", |r| r.superelement.mass[(0, 6)] += 1e-6),
+        ("stiffness semidefinite", |r| {
+            r.superelement.stiffness[(2, 2)] *= -1.0
+        }),
+        ("mass definite", |r| r.superelement.mass[(1, 1)] = 1e-20),
+        ("k_bq = 0", |r| {
+            r.superelement.stiffness[(1, 7)] += 1e-6;
+            r.superelement.stiffness[(7, 1)] += 1e-6;
+        }),
+        ("m_qq = 1", |r| r.superelement.mass[(6, 6)] += 1e-7),
+        ("rigid modes", |r| r.superelement.stiffness[(0, 0)] += 1e-6),
+        ("rigid motions carried", |r| r.transform[(4, 0)] += 1e-5),
+        ("rigid energy", |r| r.superelement.stiffness[(0, 0)] += 1e-3),
+        ("mass properties", |r| {
+            r.superelement.mass[(0, 0)] *= 1.0 + 1e-6
+        }),
+    ];
+    for (name, break_it) in breaks {
+        let found = on_modes(&rod(NODES), break_it);
+        assert!(found.contains(&(name, false)), "{name}: {found:?}");
+    }
 }
