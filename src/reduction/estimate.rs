@@ -30,10 +30,6 @@ const REACH: f64 = 1.5;
 /// Errors below this are round-off of the reduced matrices' eigenvalues, relative.
 const ROUND_OFF: f64 = 1e-11;
 
-/// A mode is quasi-static up to this share of the first fixed-interface eigenvalue: its relative error is below that
-/// share. Among them are the rigid modes.
-const QUASI_STATIC: f64 = 1e-10;
-
 /// A mode of the reduced model in the band, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EstimatedMode {
@@ -80,7 +76,7 @@ impl ErrorEstimate {
     ) -> Result<Self, ReductionError> {
         let top = (TAU * band_hz).powi(2);
         let reduced = coupled_modes(substructure, basis, attached)?;
-        let quasi_static = QUASI_STATIC * lowest_value(basis);
+        let quasi_static = basis.quasi_static();
         let (mut refined, mut modes) = (basis.clone(), reduced.clone());
         let mut last_fall = Vec::new();
         let mut estimate = Self {
@@ -148,16 +144,6 @@ fn fall(before: f64, after: f64) -> f64 {
 fn remainder(value: f64, basis: &InteriorBasis) -> f64 {
     let ratio = (value / basis.complete_below()).powi(2).min(SLOWEST);
     ratio / (1.0 - ratio)
-}
-
-/// The lowest fixed-interface eigenvalue, kept or left out.
-fn lowest_value(basis: &InteriorBasis) -> f64 {
-    basis
-        .values()
-        .first()
-        .map_or(basis.complete_below(), |&first| {
-            first.min(basis.complete_below())
-        })
 }
 
 #[cfg(test)]
