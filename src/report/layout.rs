@@ -405,4 +405,23 @@ mod tests {
         let layout = Layout::of(&plot).expect("a valid plot");
         assert!(layout.x.low < layout.x.high && layout.y.low < 5.0 && layout.y.high > 5.0);
     }
+
+    /// Where quotients and differences of the values are no numbers.
+    #[test]
+    fn the_widest_ranges_keep_their_places() {
+        let of = |y: Axis, values: &[f64]| {
+            let plot = plot(Axis::new("f", "Hz"), y, values);
+            let y = Layout::of(&plot).expect("a valid plot").y;
+            (y.low, y.high, y.part(0.0))
+        };
+        let axis = || Axis::new("a", "Hz");
+        let (low, high, _) = of(axis().log(), &[1e-160, 1e160]);
+        assert!(low > 1e-200 && high < 1e200, "{low:e} {high:e}");
+        let (_, high, _) = of(axis().log(), &[1.0, f64::MAX]);
+        assert!(high.is_finite());
+        let (.., middle) = of(axis(), &[-f64::MAX, f64::MAX]);
+        assert!((middle - 0.5).abs() < 1e-12, "{middle}");
+        let (low, high, _) = of(axis(), &[f64::MAX]);
+        assert!(low < high && high.is_finite());
+    }
 }
