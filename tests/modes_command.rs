@@ -271,3 +271,24 @@ fn what_is_not_extrapolated_is_told() {
         page.contains("shown only") && page.contains("No other mesh has the elements of this case")
     );
 }
+
+/// A band in which nothing vibrates: no empty files, and what was asked for by name.
+#[test]
+fn a_band_without_modes_is_refused() {
+    let folder = scratch("empty_band");
+    for low in [100, 1000] {
+        let high = low + 1;
+        let band = format!("modes={{band_hz=[{low},{high}]}}");
+        let within = format!("from {low} to {high} Hz (band_hz)");
+        let output = modes(&folder, &[&band]);
+        assert_eq!(
+            text(&output.stderr),
+            format!(
+                "error: modes: expected at least one mode {within}, a count of eigenvalues finds none\n\
+                 help: another band, or `modes.count = 1`, which finds the lowest wherever it is\n"
+            )
+        );
+        assert_eq!(output.status.code(), Some(2));
+        assert!(!folder.join("out/ring/modes.json").exists());
+    }
+}

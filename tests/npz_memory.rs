@@ -8,10 +8,13 @@
 //! Parameters: 8 times the file where stored, 4200 times where deflated, and 1 MiB for buffers; twice that for numbers of
 //!   4 bytes, 20 and 20000 times for text.
 
+mod memory;
+
 use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
+use memory::{Random, peak};
 use peak_alloc::PeakAlloc;
 use plummer::exchange::{NpzReader, read_modes_npz, read_superelement_npz};
 use zip::write::SimpleFileOptions;
@@ -51,17 +54,9 @@ fn archive_of(
     zip.finish().unwrap().into_inner()
 }
 
-/// Bytes that were allocated meanwhile, at most.
-fn peak_of(read: impl FnOnce()) -> usize {
-    let before = ALLOCATOR.current_usage();
-    ALLOCATOR.reset_peak_usage();
-    read();
-    ALLOCATOR.peak_usage().saturating_sub(before)
-}
-
 /// Reads everything that can be read.
-fn peak(path: &Path) -> usize {
-    peak_of(|| {
+fn peak_of_all(path: &Path) -> usize {
+    peak(&ALLOCATOR, || {
         let _ = read_modes_npz(path);
         if let Ok(mut npz) = NpzReader::open(path) {
             for name in npz.names() {
@@ -77,7 +72,7 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
     let path = folder.join("other.npz");
     let read = |bytes: &[u8], factor: usize, read: &dyn Fn(&mut NpzReader)| {
         fs::write(&path, bytes).unwrap();
-        let found = peak_of(|| {
+        let found = peak(&ALLOCATOR, || {
             if let Ok(mut npz) = NpzReader::open(&path) {
                 read(&mut npz);
             }
@@ -119,26 +114,18 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
     }
 }
 
-/// Next number of a linear congruential sequence (Knuth's MMIX), so that failures repeat.
-fn next(state: &mut u64) -> usize {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 33) as usize
-}
-
 #[test]
 fn memory_is_bounded_by_the_size_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.npz");
-    let mut state = 7;
+    let mut random = Random(7);
     for (method, factor) in [
         (CompressionMethod::Stored, 8),
         (CompressionMethod::Deflated, 4200),
     ] {
         let check = |bytes: &[u8], what: &str| {
             fs::write(&path, bytes).unwrap();
-            let (found, limit) = (peak(&path), factor * bytes.len() + (1 << 20));
+            let (found, limit) = (peak_of_all(&path), factor * bytes.len() + (1 << 20));
             assert!(
                 found <= limit,
                 "{what}: {found} B for a file of {} B",
@@ -159,13 +146,11 @@ fn memory_is_bounded_by_the_size_of_the_file() {
         }
         let whole = archive("(10, 20, 3)", 600, method);
         for round in 0..400 {
-            let mut bytes = whole.clone();
-            for _ in 0..1 + next(&mut state) % 4 {
+            let bytes = random.damaged(&whole, [0xff, 0], |random| {
                 // headers of entries and the directory at the end are where sizes stand
-                let range = [128, bytes.len()][next(&mut state) % 2];
-                let place = bytes.len() - 1 - next(&mut state) % range;
-                bytes[place] = [0xff, 0, next(&mut state) as u8][next(&mut state) % 3];
-            }
+                let range = [128, whole.len()][random.next() % 2];
+                whole.len() - 1 - random.next() % range
+            });
             check(&bytes, &format!("round {round}"));
         }
     }

@@ -7,9 +7,12 @@
 //! Conditions: one test in this file, so that nothing else allocates.
 //! Parameters: 16 times the file and 1 MiB for buffers; a dense matrix may take 8 MiB more, or 8000 bytes a number.
 
+mod memory;
+
 use std::fs;
 use std::path::Path;
 
+use memory::{Random, peak};
 use peak_alloc::PeakAlloc;
 use plummer::exchange::uff::responses_from_bytes;
 use plummer::exchange::{Op4Format, op4_from_bytes, write_op4};
@@ -18,24 +21,16 @@ use plummer::linalg::DenseMatrix;
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// Bytes that were allocated meanwhile, at most.
-fn peak(read: impl FnOnce()) -> usize {
-    let before = ALLOCATOR.current_usage();
-    ALLOCATOR.reset_peak_usage();
-    read();
-    ALLOCATOR.peak_usage().saturating_sub(before)
-}
-
 fn check(bytes: &[u8], what: &str) -> usize {
     let path = Path::new("a.op4");
     let limit = 16 * bytes.len() + (1 << 20);
-    let found = peak(|| drop(op4_from_bytes(bytes, path)));
+    let found = peak(&ALLOCATOR, || drop(op4_from_bytes(bytes, path)));
     assert!(
         found <= limit,
         "{what}: {found} B for a file of {} B",
         bytes.len()
     );
-    let dense = peak(|| {
+    let dense = peak(&ALLOCATOR, || {
         for matrix in op4_from_bytes(bytes, path).unwrap_or_default() {
             let _ = matrix.dense();
         }
@@ -46,21 +41,13 @@ fn check(bytes: &[u8], what: &str) -> usize {
         "{what}, dense: {dense} B for a file of {} B",
         bytes.len()
     );
-    let functions = peak(|| drop(responses_from_bytes(bytes, path)));
+    let functions = peak(&ALLOCATOR, || drop(responses_from_bytes(bytes, path)));
     assert!(
         functions <= limit,
         "{what}: {functions} B for a file of {} B",
         bytes.len()
     );
     found
-}
-
-/// Next number of a linear congruential sequence (Knuth's MMIX), so that failures repeat.
-fn next(state: &mut u64) -> usize {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 33) as usize
 }
 
 #[test]
@@ -89,7 +76,7 @@ fn memory_is_bounded_by_the_size_of_the_file() {
     for claim in claims {
         check(claim.as_bytes(), claim);
     }
-    let mut state = 7;
+    let mut random = Random(7);
     for folder in ["op4", "uff"] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("tests/data")
@@ -98,11 +85,8 @@ fn memory_is_bounded_by_the_size_of_the_file() {
             let path = entry.unwrap().path();
             let whole = fs::read(&path).unwrap();
             for round in 0..300 {
-                let mut bytes = whole.clone();
-                for _ in 0..1 + next(&mut state) % 4 {
-                    let place = next(&mut state) % bytes.len();
-                    bytes[place] = [0x7f, b'9', next(&mut state) as u8][next(&mut state) % 3];
-                }
+                let bytes =
+                    random.damaged(&whole, [0x7f, b'9'], |random| random.next() % whole.len());
                 check(&bytes, &format!("{}, round {round}", path.display()));
             }
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
-use super::sensor::{SensorSpot, one_spot};
+use super::sensor::{SensorSpot, SpotKeys};
 use super::union::{Mismatch, written_as};
 
 /// Transfer paths: from every force to every sensor.
@@ -61,13 +61,14 @@ impl TryFrom<PushForm> for Push {
 
     fn try_from(form: PushForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
-        let spots = [
-            form.group.map(SensorSpot::Group),
-            form.ring_deg.map(SensorSpot::RingDeg),
-            form.node.map(SensorSpot::Node),
-            form.point.map(SensorSpot::Point),
-        ];
-        let spot = one_spot(spots, ONE)?;
+        let keys = SpotKeys {
+            group: form.group,
+            ring_deg: form.ring_deg,
+            node: form.node,
+            point: form.point,
+            recovered: None,
+        };
+        let spot = keys.spot(ONE)?;
         let name = form.name.unwrap_or_else(|| match &spot {
             SensorSpot::Group(group) => group.clone(),
             SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
@@ -85,22 +86,15 @@ impl TryFrom<PushForm> for Push {
 
 impl From<Push> for PushForm {
     fn from(push: Push) -> Self {
-        let mut form = Self {
+        // a force acts on a place, never on a row of a file: no form makes one
+        let keys = SpotKeys::from(push.spot);
+        Self {
             name: Some(push.name),
-            group: None,
-            ring_deg: None,
-            node: None,
-            point: None,
+            group: keys.group,
+            ring_deg: keys.ring_deg,
+            node: keys.node,
+            point: keys.point,
             direction: push.direction,
-        };
-        match push.spot {
-            SensorSpot::Group(group) => form.group = Some(group),
-            SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
-            SensorSpot::Node(tag) => form.node = Some(tag),
-            SensorSpot::Point(point) => form.point = Some(point),
-            // a force acts on a place, never on a row of a file: no form makes one
-            SensorSpot::Recovered(_) => {}
         }
-        form
     }
 }

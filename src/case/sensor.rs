@@ -56,16 +56,14 @@ impl TryFrom<SensorForm> for Sensor {
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
-        let spot = one_spot(
-            [
-                form.group.map(SensorSpot::Group),
-                form.ring_deg.map(SensorSpot::RingDeg),
-                form.node.map(SensorSpot::Node),
-                form.point.map(SensorSpot::Point),
-                form.recovered.map(SensorSpot::Recovered),
-            ],
-            ONE,
-        )?;
+        let keys = SpotKeys {
+            group: form.group,
+            ring_deg: form.ring_deg,
+            node: form.node,
+            point: form.point,
+            recovered: form.recovered,
+        };
+        let spot = keys.spot(ONE)?;
         let direction = match (&spot, form.direction) {
             (SensorSpot::Recovered(_), None) => [0.0; 3],
             (SensorSpot::Recovered(_), Some(_)) => {
@@ -87,37 +85,62 @@ impl TryFrom<SensorForm> for Sensor {
 
 impl From<Sensor> for SensorForm {
     fn from(sensor: Sensor) -> Self {
-        let mut form = Self {
-            name: sensor.name,
-            group: None,
-            ring_deg: None,
-            node: None,
-            point: None,
-            recovered: None,
-            direction: Some(sensor.direction),
+        let direction = match sensor.spot {
+            SensorSpot::Recovered(_) => None,
+            _ => Some(sensor.direction),
         };
-        match sensor.spot {
-            SensorSpot::Group(group) => form.group = Some(group),
-            SensorSpot::RingDeg(angle) => form.ring_deg = Some(angle),
-            SensorSpot::Node(tag) => form.node = Some(tag),
-            SensorSpot::Point(point) => form.point = Some(point),
-            SensorSpot::Recovered(row) => {
-                (form.recovered, form.direction) = (Some(row), None);
-            }
+        let keys = SpotKeys::from(sensor.spot);
+        Self {
+            name: sensor.name,
+            group: keys.group,
+            ring_deg: keys.ring_deg,
+            node: keys.node,
+            point: keys.point,
+            recovered: keys.recovered,
+            direction,
         }
-        form
     }
 }
 
-/// The one place that was given.
-pub(super) fn one_spot<const N: usize>(
-    spots: [Option<SensorSpot>; N],
-    expected: &'static str,
-) -> Result<SensorSpot, Mismatch> {
-    let mut given = spots.into_iter().flatten();
-    match (given.next(), given.next()) {
-        (Some(spot), None) => Ok(spot),
-        (None, _) => Err(Mismatch::form("none of them", expected)),
-        _ => Err(Mismatch::form("several", expected)),
+/// A place by the key that it is written with: one of them has a value.
+#[derive(Default)]
+pub(super) struct SpotKeys {
+    pub group: Option<String>,
+    pub ring_deg: Option<f64>,
+    pub node: Option<u64>,
+    pub point: Option<[f64; 3]>,
+    pub recovered: Option<String>,
+}
+
+impl SpotKeys {
+    /// The one place that was given; `expected` says which keys there are.
+    pub(super) fn spot(self, expected: &'static str) -> Result<SensorSpot, Mismatch> {
+        let spots = [
+            self.group.map(SensorSpot::Group),
+            self.ring_deg.map(SensorSpot::RingDeg),
+            self.node.map(SensorSpot::Node),
+            self.point.map(SensorSpot::Point),
+            self.recovered.map(SensorSpot::Recovered),
+        ];
+        let mut given = spots.into_iter().flatten();
+        match (given.next(), given.next()) {
+            (Some(spot), None) => Ok(spot),
+            (None, _) => Err(Mismatch::form("none of them", expected)),
+            _ => Err(Mismatch::form("several", expected)),
+        }
+    }
+}
+
+impl From<SensorSpot> for SpotKeys {
+    fn from(spot: SensorSpot) -> Self {
+        let mut keys = Self::default();
+        match spot {
+            SensorSpot::Group(group) => keys.group = Some(group),
+            SensorSpot::RingDeg(angle) => keys.ring_deg = Some(angle),
+            SensorSpot::Node(tag) => keys.node = Some(tag),
+            SensorSpot::Point(point) => keys.point = Some(point),
+            SensorSpot::Recovered(row) => keys.recovered = Some(row),
+        }
+        keys
     }
 }

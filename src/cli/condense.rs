@@ -5,10 +5,10 @@ use super::results::{common, condense_fields, imported_fields};
 use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::exchange::write_superelement_npz;
-use crate::reduction::Check;
+use crate::reduction::{Bound, Check};
 use crate::stages::{
-    Comparison, CondenseResult, ImportedHousing, StageError, compute_condense, condense_report,
-    imported_report, reduced_superelement_record, superelement_record,
+    Boundary, Comparison, CondenseResult, ImportedHousing, StageError, compute_condense,
+    condense_report, imported_report, reduced_superelement_record, superelement_record,
 };
 use serde_json::Value;
 
@@ -64,10 +64,10 @@ pub fn condense(
             &result.checks,
             match result.interface {
                 None => {
-                    "the report says what each check is; more vectors: condense.fixed_interface_modes, a narrower band: accuracy.band_hz"
+                    "more vectors (condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
                 }
                 Some(_) => {
-                    "the report says what each check is; more coordinates: condense.interface_modes, condense.fixed_interface_modes; a narrower band: accuracy.band_hz"
+                    "more coordinates (condense.interface_modes, condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
                 }
             },
         ),
@@ -99,10 +99,7 @@ fn check_imported(
         summary: lines.join("\n"),
         result: json,
         written: [vec![path], files.paths].concat(),
-        verdict: verdict(
-            &imported.checks,
-            "the report says what each check is; `modes` and `run` refuse these matrices",
-        ),
+        verdict: verdict(&imported.checks, "`modes` and `run` refuse these matrices"),
     })
 }
 
@@ -111,9 +108,13 @@ fn verdict(checks: &[Check], help: &str) -> Verdict {
         .iter()
         .filter(|check| !check.ok())
         .map(|check| {
+            let bound = match check.bound {
+                Bound::AtMost => "at most",
+                Bound::AtLeast => "at least",
+            };
             format!(
-                "{}: found {:.3e}, limit {:.3e}",
-                check.name, check.value, check.limit
+                "{}: found {:.3e}, expected {bound} {:.3e} ({})",
+                check.name, check.value, check.limit, check.what
             )
         })
         .collect();
@@ -157,6 +158,15 @@ fn summary(result: &CondenseResult) -> String {
         ),
     ];
     lines.splice(1..1, of_modes);
+    if let Boundary::Nodes(nodes) = &result.stage.boundary
+        && !nodes.held.is_empty()
+    {
+        lines.push(format!(
+            "{} displacements of the interface's nodes are no coordinates: held by {}",
+            nodes.held.len(),
+            nodes.holders(&result.stage.housing.model)
+        ));
+    }
     if let Some(full) = &result.full {
         let errors = full.relative_errors.iter().flatten();
         let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));

@@ -1,12 +1,16 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
-use super::factor::Factor;
+use super::factor::{Factor, FactorMemory};
 use super::numeric::Kind;
 use super::ordering::Ordering;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SparseMatrix};
 use std::sync::Arc;
+
+/// Contraction above which a matrix is refused to be solved with. Solutions, and the lowest eigenvalues, are then right to
+/// so much; frequencies, which go with the root, to half of it.
+const LARGEST_CONTRACTION: f64 = 1e-4;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
 #[derive(Debug, Clone)]
@@ -19,8 +23,8 @@ impl SparseCholesky {
     /// Factorises `a` [n x n], symmetric, both triangles stored.
     ///
     /// # Errors
-    /// [`LinalgError::NotPositiveDefinite`] with the pivot at which it stopped, [`LinalgError::NearlySingular`] for a matrix
-    /// of which round-off leaves nothing to solve with, or [`LinalgError::Factorisation`].
+    /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
+    /// matrix of which round-off leaves too little to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
         if a.cols() != a.rows() || !a.is_csc() {
             return Err(LinalgError::Shape {
@@ -32,8 +36,26 @@ impl SparseCholesky {
         let ordering = Ordering::of(a)?;
         let permuted = SymmetricMatrix::permuted(a, &ordering);
         let symbolic = Arc::new(Symbolic::new(&permuted)?);
+        let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
+        let memory = FactorMemory::default();
+        let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);
+        let factor = factor.map_err(|error| match error {
+            LinalgError::NotPositiveDefinite { order, pivot } => LinalgError::NotPositiveDefinite {
+                order,
+                pivot: row(pivot),
+            },
+            other => other,
+        })?;
+        if factor.contraction > LARGEST_CONTRACTION {
+            return Err(LinalgError::IllConditioned {
+                order: a.rows(),
+                row: row(factor.weakest),
+                contraction: factor.contraction,
+                limit: LARGEST_CONTRACTION,
+            });
+        }
         Ok(Self {
-            factor: Arc::new(Factor::double(&symbolic, &permuted, Kind::Definite)?),
+            factor: Arc::new(factor),
             ordering: Arc::new(ordering),
         })
     }

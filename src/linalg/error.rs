@@ -12,7 +12,7 @@ pub enum LinalgError {
     NotPositiveDefinite {
         /// Number of rows of the matrix.
         order: usize,
-        /// Index of the pivot, in the factorisation's own order.
+        /// Row of the matrix; in an eigenvalue computation, of its factor.
         pivot: usize,
     },
     /// A matrix that should be positive definite has negative eigenvalues.
@@ -42,6 +42,20 @@ pub enum LinalgError {
         order: usize,
         /// Factor by which refinement changes an error.
         contraction: f64,
+    },
+    /// A factor that solves its system, but to few digits.
+    #[error(
+        "the {order} x {order} matrix is ill-conditioned: solutions are right to {contraction:.0e} (row {row}), expected {limit:.0e}"
+    )]
+    IllConditioned {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Row in which the error is largest.
+        row: usize,
+        /// Relative error of solutions.
+        contraction: f64,
+        /// Largest one accepted.
+        limit: f64,
     },
     /// Eigenvalues in such a crowd that there is no place to count.
     #[error(

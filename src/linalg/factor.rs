@@ -41,6 +41,8 @@ pub(super) struct Factor {
     numbers: Numbers,
     /// Estimate of the spectral radius of `I - F^-1 A`.
     pub contraction: f64,
+    /// Row in which round-off is felt most: the largest entry of the error that refinement reduces least.
+    pub weakest: usize,
 }
 
 /// Memory of a factor that is no longer needed, or none. A large one that is used again saves a page fault for each
@@ -169,6 +171,7 @@ impl Factor {
             symbolic: Arc::clone(symbolic),
             numbers,
             contraction: f64::INFINITY,
+            weakest: 0,
         };
         let mut error = pseudo_random(a.order(), PROBES.0, 0);
         for _ in 0..PROBES.1 {
@@ -180,6 +183,9 @@ impl Factor {
             // a factor that is no number must not pass for one without error
             factor.contraction = if before == 0.0 { 0.0 } else { after / before };
         }
+        let rows = (0..a.order()).map(|row| (row, error.row(row).norm_max()));
+        let weakest = rows.max_by(|a, b| a.1.total_cmp(&b.1));
+        factor.weakest = weakest.map_or(0, |(row, _)| row);
         if !factor.contraction.is_finite() {
             factor.contraction = f64::INFINITY;
         }

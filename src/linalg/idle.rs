@@ -5,12 +5,13 @@ use super::{
     DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen,
 };
 
-/// Eigenvalues of `k + s m`, scaled to a unit diagonal, up to which a motion is idle. Round-off of a condensed stiffness
-/// is 1e-13 to 1e-12 of its diagonal.
+/// Eigenvalues of `k + s m` and singular values of `k`, scaled to a unit diagonal, up to which a motion is idle. Round-off
+/// of a condensed stiffness is 1e-13 to 1e-12 of its diagonal.
 const IDLE: f64 = 1e-11;
 
 /// A basis [n x r] of the motions that `k` or `m` [n x n] act on, orthonormal in coordinates that are scaled to a unit
-/// diagonal of `k + s m`; `None` if that is all motions. Negative eigenvalues beyond round-off count as acting.
+/// diagonal of `|k| + s |m|`; `None` if that is all motions. Negative eigenvalues beyond round-off count as acting, also
+/// where stiffness and mass cancel.
 ///
 /// # Errors
 /// [`LinalgError::DenseEigen`] for values that are not finite.
@@ -20,28 +21,57 @@ pub fn acting_motions(
 ) -> Result<Option<DenseMatrix>, LinalgError> {
     let order = k.nrows();
     let shift = balance(k, m);
-    let sum = k + m * faer::Scale(shift);
     let scale: Vec<f64> = (0..order)
-        .map(|row| match sum[(row, row)] {
-            diagonal if diagonal > 0.0 => diagonal.sqrt().recip(),
-            _ => 1.0,
+        .map(
+            |row| match k[(row, row)].abs() + shift * m[(row, row)].abs() {
+                diagonal if diagonal > 0.0 => diagonal.sqrt().recip(),
+                _ => 1.0,
+            },
+        )
+        .collect();
+    let scaled = |a: &DenseMatrix| {
+        DenseMatrix::from_fn(order, order, |row, column| {
+            0.5 * scale[row] * (a[(row, column)] + a[(column, row)]) * scale[column]
         })
-        .collect();
-    let scaled = DenseMatrix::from_fn(order, order, |row, column| {
-        0.5 * scale[row] * (sum[(row, column)] + sum[(column, row)]) * scale[column]
-    });
-    let spectrum = symmetric_eigen(&scaled)?;
-    let acting: Vec<usize> = (0..order)
-        .filter(|&place| spectrum.values[place].abs() > IDLE)
-        .collect();
-    if acting.len() == order {
+    };
+    let spectrum = symmetric_eigen(&scaled(&(k + m * faer::Scale(shift))))?;
+    let (acting, silent): (Vec<usize>, Vec<usize>) =
+        (0..order).partition(|&place| spectrum.values[place].abs() > IDLE);
+    let columns = |places: &[usize]| {
+        DenseMatrix::from_fn(order, places.len(), |row, column| {
+            spectrum.vectors[(row, places[column])]
+        })
+    };
+    let (acting, silent) = (columns(&acting), columns(&silent));
+    let cancelling = cancelling(&scaled(k), &silent)?;
+    let first = acting.ncols();
+    if first + cancelling.ncols() == order {
         return Ok(None);
     }
     Ok(Some(DenseMatrix::from_fn(
         order,
-        acting.len(),
-        |row, column| scale[row] * spectrum.vectors[(row, acting[column])],
+        first + cancelling.ncols(),
+        |row, column| {
+            scale[row]
+                * match column.checked_sub(first) {
+                    None => acting[(row, column)],
+                    Some(further) => cancelling[(row, further)],
+                }
+        },
     )))
+}
+
+/// Of motions that `k + s m` does not act on [n x c] those that `k` acts on: there the two cancel.
+fn cancelling(k: &DenseMatrix, silent: &DenseMatrix) -> Result<DenseMatrix, LinalgError> {
+    if silent.ncols() == 0 {
+        return Ok(silent.clone());
+    }
+    let failed = |_| LinalgError::DenseEigen { order: k.nrows() };
+    let of_k = (k * silent).thin_svd().map_err(failed)?;
+    let values = of_k.S().column_vector().iter();
+    let count = values.filter(|value| **value > IDLE).count();
+    // singular values descend
+    Ok(silent * of_k.V().subcols(0, count))
 }
 
 /// [`symmetric_generalised_eigen`] for `k` and `m` that may both be singular in the same directions: there are as many
@@ -74,7 +104,7 @@ pub fn congruent(a: &DenseMatrix, basis: &DenseMatrix) -> DenseMatrix {
 /// Factor of the mass that makes it as large as the stiffness: the geometric mean of the diagonals' ratios.
 fn balance(k: &DenseMatrix, m: &DenseMatrix) -> f64 {
     let logarithms = (0..k.nrows())
-        .map(|i| (k[(i, i)] / m[(i, i)]).ln())
+        .map(|i| (k[(i, i)] / m[(i, i)]).abs().ln())
         .filter(|logarithm| logarithm.is_finite());
     let (count, sum) = logarithms.fold((0_u32, 0.0), |(n, sum), value| (n + 1, sum + value));
     match count {
@@ -117,5 +147,31 @@ mod tests {
             let unit = f64::from(u8::from(i == j));
             assert!((gram[(i, j)] - unit).abs() < 1e-12, "{i} {j}");
         }
+    }
+    /// Stiffness and mass of which the sum vanishes are not nothing.
+    #[test]
+    fn what_cancels_acts() {
+        let one = |value: f64| DenseMatrix::from_fn(1, 1, |_, _| value);
+        for value in [1.0, -1.0, 1e9] {
+            assert!(acting_motions(&one(value), &one(-value)).unwrap().is_none());
+        }
+        assert_eq!(
+            acting_motions(&one(0.0), &one(0.0))
+                .unwrap()
+                .unwrap()
+                .ncols(),
+            0
+        );
+        // a pair that pushes and pulls, and beside it a motion of nothing
+        let with = |a: [[f64; 2]; 2]| {
+            DenseMatrix::from_fn(3, 3, |i, j| if i < 2 && j < 2 { a[i][j] } else { 0.0 })
+        };
+        let (k, m) = (
+            with([[1.0, 1.0], [1.0, 1.0]]),
+            with([[-1.0, -1.0], [-1.0, 3.0]]),
+        );
+        let basis = acting_motions(&k, &m).unwrap().unwrap();
+        assert_eq!(basis.ncols(), 2);
+        assert!((0..2).all(|column| basis[(2, column)].abs() < 1e-15));
     }
 }

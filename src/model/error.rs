@@ -99,6 +99,24 @@ pub enum ModelError {
         /// Where the ring sits.
         frame: Box<RingFrame>,
     },
+    /// A ring beside its bore.
+    #[error(
+        "the ring's plane, through ({x:e}, {y:e}, {z:e}) m across ({a}, {b}, {c}), does not cut the group \"{group}\" ({path}) that it is tied to: its nodes lie {lowest:.6e} to {highest:.6e} m from there along the axis, expected on both sides; check length_unit and tie.centre",
+        x = frame.centre()[0], y = frame.centre()[1], z = frame.centre()[2],
+        a = frame.axis()[0], b = frame.axis()[1], c = frame.axis()[2]
+    )]
+    TieAxial {
+        /// The mesh file.
+        path: String,
+        /// The group.
+        group: String,
+        /// Least place of its nodes along the axis, m from the ring's plane.
+        lowest: f64,
+        /// Largest.
+        highest: f64,
+        /// Where the ring sits.
+        frame: Box<RingFrame>,
+    },
     /// A bore node that a link ties elsewhere.
     #[error(
         "{path}: node {tag} of the bore \"{bore}\" is tied to the ring and, by a link, to another part: keep the bore out of the linked surfaces"
@@ -209,7 +227,7 @@ pub enum ModelError {
     },
     /// A tied node that is also fixed.
     #[error(
-        "{path}: node {tag} is tied by group \"{tied}\" and fixed by group \"{fixed}\": a node can be one or the other"
+        "{path}: node {tag} is tied by group \"{tied}\" and fixed by group \"{fixed}\": a node can be one or the other; take it out of one of the groups in gmsh, or support the housing elsewhere"
     )]
     TiedAndFixed {
         /// The mesh file.

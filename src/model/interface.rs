@@ -2,6 +2,7 @@
 
 use super::{HousingModel, HousingPartition};
 use crate::linalg::TripletBuilder;
+use std::collections::BTreeSet;
 
 /// Nodes as an interface, and what could not be part of it.
 #[derive(Debug, Clone)]
@@ -15,6 +16,24 @@ pub struct NodeInterface {
 }
 
 impl NodeInterface {
+    /// What holds or ties the displacements that are left out, in words.
+    pub fn holders(&self, model: &HousingModel) -> String {
+        let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
+        let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
+        let groups = supports.iter().map(|&place| &model.supports[place].group);
+        let mut words: Vec<String> = groups
+            .map(|group| format!("the support \"{group}\""))
+            .collect();
+        if self
+            .held
+            .iter()
+            .any(|held| model.tied.contains_key(&held.0))
+        {
+            words.push("a link".to_owned());
+        }
+        words.join(" and ")
+    }
+
     /// Makes `nodes` (indices, each once) the interface of a housing.
     pub fn new(model: &HousingModel, nodes: &[usize]) -> Self {
         let d = model.dimension();

@@ -21,7 +21,8 @@ use super::{HousingModel, HousingPartition, ModelError, Ring};
 use crate::linalg::{SparseMatrix, TripletBuilder};
 use crate::mesh::Mesh;
 
-/// Deviation of a bore node from the ring's outer radius that a tie accepts, relative. Chords of a
+/// Deviation of a bore node from the ring's outer radius, and of the ring's plane from the bore, that a tie accepts,
+/// relative to that radius. Chords of a
 /// coarse first-order mesh keep their nodes on the circle; a wrong unit or centre does not.
 const RADIUS_TOLERANCE: f64 = 0.01;
 
@@ -48,7 +49,7 @@ impl RingTie {
     /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m).
     ///
     /// # Errors
-    /// [`ModelError::TieRadius`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
+    /// [`ModelError::TieRadius`] or [`ModelError::TieAxial`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
     /// [`ModelError::TiedTwice`], [`ModelError::RingDimension`] for a plane ring in a solid housing or the
     /// other way round, and what finding the group reports.
     pub fn new(
@@ -68,6 +69,7 @@ impl RingTie {
         let on_housing = |node: &usize| housing.used[*node];
         let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
         check_radius(housing, group, &nodes, outer_radius)?;
+        check_axial(housing, group, &nodes, outer_radius)?;
         check_free(housing, group, &nodes)?;
         let d = housing.dimension;
         let components = match fit {
@@ -188,6 +190,29 @@ fn check_radius(
             expected: outer_radius,
             nearest,
             farthest,
+            frame: Box::new(housing.frame),
+        });
+    }
+    Ok(())
+}
+
+/// In space the ring's plane cuts the bore: a section that reached beyond it as a rigid arm would be stiffer than any bore.
+fn check_axial(
+    housing: &HousingModel,
+    group: &str,
+    nodes: &[usize],
+    outer_radius: f64,
+) -> Result<(), ModelError> {
+    let along = |&node: &usize| housing.frame.point(housing.coordinates[node])[2];
+    let lowest = nodes.iter().map(along).fold(f64::INFINITY, f64::min);
+    let highest = nodes.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+    let tolerance = RADIUS_TOLERANCE * outer_radius;
+    if housing.dimension == 3 && (lowest > tolerance || highest < -tolerance) {
+        return Err(ModelError::TieAxial {
+            path: housing.path.clone(),
+            group: group.to_owned(),
+            lowest,
+            highest,
             frame: Box::new(housing.frame),
         });
     }

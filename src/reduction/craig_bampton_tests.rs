@@ -74,7 +74,13 @@ fn a_loose_piece_is_named() {
     };
     let error = craig_bampton(&nothing, &partition(10), plain(BasisSize::Count(1)), None)
         .expect_err("no stiffness");
-    assert_eq!(error, ReductionError::FloatingInterior { interior: 9 });
+    assert_eq!(
+        error,
+        ReductionError::FloatingInterior {
+            interior: 9,
+            dof: 1
+        }
+    );
 }
 
 #[test]

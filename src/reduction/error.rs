@@ -9,14 +9,30 @@ use thiserror::Error;
 pub enum ReductionError {
     /// The interior can move while the interface is held.
     #[error(
-        "part of the housing is not connected to the interface: with the interface held it can still move ({interior} interior degrees of freedom); check that the mesh is in one piece and its nodes are merged"
+        "with the interface held, part of the housing can still move: its stiffness is zero but for round-off ({interior} interior degrees of freedom); expected every part to hang on the interface or on a support"
     )]
     FloatingInterior {
         /// Number of interior degrees of freedom.
         interior: usize,
+        /// One of the housing that can.
+        dof: usize,
+    },
+    /// The interior is held too softly for the digits that there are.
+    #[error(
+        "with the interface held, part of the housing is held so softly, or has elements so flat, that its displacements under given forces are right to {error:.0e} only, expected {limit:.0e}"
+    )]
+    SoftInterior {
+        /// Degree of freedom of the housing with the largest error.
+        dof: usize,
+        /// Relative error of solutions.
+        error: f64,
+        /// Largest one accepted.
+        limit: f64,
     },
     /// Nothing left to reduce.
-    #[error("the housing has no node besides those of the interface")]
+    #[error(
+        "the interface takes every free displacement of the housing, so that nothing is left to condense: expected an interface of fewer nodes, or a finer mesh"
+    )]
     NoInterior,
     /// Nothing to attach it by.
     #[error("the interface has no free degree of freedom: every one of its nodes is fixed or tied")]

@@ -30,10 +30,6 @@ const REACH: f64 = 1.5;
 /// Errors below this are round-off of the reduced matrices' eigenvalues, relative.
 const ROUND_OFF: f64 = 1e-11;
 
-/// A mode is quasi-static up to this share of the first fixed-interface eigenvalue: its relative error is below that
-/// share. Among them are the rigid modes.
-const QUASI_STATIC: f64 = 1e-10;
-
 /// A mode of the reduced model in the band, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EstimatedMode {
@@ -80,7 +76,7 @@ impl ErrorEstimate {
     ) -> Result<Self, ReductionError> {
         let top = (TAU * band_hz).powi(2);
         let reduced = coupled_modes(substructure, basis, attached)?;
-        let quasi_static = QUASI_STATIC * basis.lowest_value();
+        let quasi_static = basis.quasi_static();
         let (mut refined, mut modes) = (basis.clone(), reduced.clone());
         let mut last_fall = Vec::new();
         let mut estimate = Self {
@@ -134,7 +130,7 @@ impl ErrorEstimate {
     /// The same of a model with further restraints, of which the squared frequencies `values` are known (1/s^2, ascending):
     /// its frequencies, each with both errors, and what each rises by, relative.
     pub(super) fn raised(&self, basis: &InteriorBasis, values: &[f64]) -> (Self, Vec<f64>) {
-        let quasi_static = QUASI_STATIC * basis.lowest_value();
+        let quasi_static = basis.quasi_static();
         let rise = |(place, mode): (usize, &EstimatedMode)| {
             let before = (TAU * mode.frequency_hz).powi(2);
             match before > quasi_static {

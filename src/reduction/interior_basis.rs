@@ -19,6 +19,10 @@ const DEPENDENT: f64 = 1e-12;
 /// Length of a vector beside what it was before the projection, below which it is round-off: it lay in the basis.
 const CONTAINED: f64 = 1e-9;
 
+/// A mode is quasi-static up to this share of the first fixed-interface eigenvalue: what the interior's inertia does in it
+/// is below that share, and so are its residual and its relative error. Among them are the rigid modes.
+const QUASI_STATIC: f64 = 1e-10;
+
 /// Vectors of the interior with their Ritz values.
 #[derive(Debug, Clone)]
 pub struct InteriorBasis {
@@ -73,10 +77,15 @@ impl InteriorBasis {
         self.complete_below
     }
 
+    /// Eigenvalue up to which a mode of the coupled structure is quasi-static, 1/s^2.
+    pub(super) fn quasi_static(&self) -> f64 {
+        QUASI_STATIC * self.lowest_value()
+    }
+
     /// The lowest fixed-interface eigenvalue, kept or left out, 1/s^2.
     pub(super) fn lowest_value(&self) -> f64 {
-        let first = self.values.first().copied();
-        first.map_or(self.complete_below, |first| first.min(self.complete_below))
+        let kept = self.values.first().copied().unwrap_or(f64::INFINITY);
+        kept.min(self.complete_below)
     }
 
     /// The basis with further vectors `z` [interior x k], made orthogonal to it and to each other. Vectors that it
@@ -89,12 +98,23 @@ impl InteriorBasis {
         substructure: &Substructure,
         mut z: DenseMatrix,
     ) -> Result<Self, ReductionError> {
-        let before = lengths(&substructure.mass_times(&z), &z);
-        // twice is enough (Parlett, The Symmetric Eigenvalue Problem, section 6.9)
+        // what is left of vectors that lie almost in the basis is made long again, and with it what round-off left in
+        // the basis; twice is enough (Parlett, The Symmetric Eigenvalue Problem, section 6.9)
         for _ in 0..2 {
-            let inside = self.vectors.transpose() * substructure.mass_times(&z);
-            z -= &self.vectors * inside;
+            z = self.independent(substructure, z)?;
         }
+        self.joined(substructure, &z)
+    }
+
+    /// Of vectors `z` [interior x k] what is orthogonal to the basis, orthonormal.
+    fn independent(
+        &self,
+        substructure: &Substructure,
+        mut z: DenseMatrix,
+    ) -> Result<DenseMatrix, ReductionError> {
+        let before = lengths(&substructure.mass_times(&z), &z);
+        let inside = self.vectors.transpose() * substructure.mass_times(&z);
+        z -= &self.vectors * inside;
         let after = lengths(&substructure.mass_times(&z), &z);
         let new: Vec<usize> = (0..z.ncols())
             .filter(|&column| after[column] > CONTAINED * before[column])
@@ -110,7 +130,7 @@ impl InteriorBasis {
         let normal = DenseMatrix::from_fn(z.ncols(), kept.len(), |row, column| {
             gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
         });
-        self.joined(substructure, &(z * normal))
+        Ok(z * normal)
     }
 
     /// The basis with orthonormal vectors that are orthogonal to it, turned to its Ritz vectors.

@@ -36,9 +36,6 @@ pub struct BasisChoice {
     pub band_hz: f64,
 }
 
-/// A mode of which the squared frequency is below this share of the first fixed-interface one has no residual to speak of.
-const QUASI_STATIC: f64 = 1e-10;
-
 /// Modes computed at first when nobody says how many.
 const FIRST_MODES: usize = 8;
 
@@ -150,7 +147,7 @@ fn corrected(
     spectrum: &SymmetricSpectrum,
     choose: impl FnOnce(usize) -> Vec<usize>,
 ) -> Result<InteriorBasis, ReductionError> {
-    let limit = QUASI_STATIC * basis.lowest_value();
+    let limit = basis.quasi_static();
     let elastic = spectrum.values.partition_point(|&value| value <= limit);
     let available = spectrum.values.len();
     let mut chosen = choose(elastic);

@@ -41,7 +41,7 @@ impl Substructure {
     ///
     /// # Errors
     /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
-    /// is singular.
+    /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
     pub fn new(
         matrices: &SystemMatrices,
         partition: &HousingPartition,
@@ -55,10 +55,22 @@ impl Substructure {
             return Err(ReductionError::NoInterface);
         }
         let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
+        let dof = |row: usize| i.get(row).copied().unwrap_or(0);
         let floating = |error| match error {
-            LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. } => {
-                ReductionError::FloatingInterior { interior: i.len() }
-            }
+            LinalgError::NotPositiveDefinite { pivot, .. } => ReductionError::FloatingInterior {
+                interior: i.len(),
+                dof: dof(pivot),
+            },
+            LinalgError::IllConditioned {
+                row,
+                contraction,
+                limit,
+                ..
+            } => ReductionError::SoftInterior {
+                dof: dof(row),
+                error: contraction,
+                limit,
+            },
             other => other.into(),
         };
         let factor = SparseCholesky::new(&k_ii).map_err(floating)?;

@@ -63,9 +63,10 @@ impl AxisView {
     /// Position of a shown value between low (0) and high (1); not finite for what a logarithmic axis cannot show.
     pub(super) fn part(&self, shown: f64) -> f64 {
         if self.log {
-            (shown / self.low).log10() / (self.high / self.low).log10()
+            (shown.log10() - self.low.log10()) / (self.high.log10() - self.low.log10())
         } else {
-            (shown - self.low) / (self.high - self.low)
+            // halves: the difference of the largest numbers is none
+            (0.5 * shown - 0.5 * self.low) / (0.5 * self.high - 0.5 * self.low)
         }
     }
 
@@ -196,24 +197,29 @@ fn extent(
 fn widened(axis: &Axis, [low, high]: [f64; 2], headroom: f64) -> [f64; 2] {
     if axis.scale == Scale::Log {
         let room = if high > low * (1.0 + 1e-9) {
-            (high / low).powf(headroom)
+            // the quotient of the largest number and the least is none
+            10_f64.powf(headroom * (high.log10() - low.log10()))
         } else {
             2.0
         };
-        return [low / room, high * room];
+        return [
+            (low / room).max(f64::MIN_POSITIVE),
+            (high * room).min(f64::MAX),
+        ];
     }
-    let width = high - low;
+    let width = (high - low).min(f64::MAX);
     if width <= 1e-9 * low.abs().max(high.abs()) {
         let half = if high.abs() > 0.0 {
             0.1 * high.abs()
         } else {
             1.0
         };
-        return [low - half, high + half];
+        return [(low - half).max(-f64::MAX), (high + half).min(f64::MAX)];
     }
     let room = headroom * width;
     let from_zero = headroom > 0.0 && low >= 0.0 && low < 0.3 * high;
-    [if from_zero { 0.0 } else { low - room }, high + room]
+    let low = if from_zero { 0.0 } else { low - room };
+    [low.max(-f64::MAX), (high + room).min(f64::MAX)]
 }
 
 /// A range whose end misses a round number by less than half a percent, as the last sample of a signal does, taken up
@@ -398,5 +404,24 @@ mod tests {
         let plot = plot(x, y, &[5.0]);
         let layout = Layout::of(&plot).expect("a valid plot");
         assert!(layout.x.low < layout.x.high && layout.y.low < 5.0 && layout.y.high > 5.0);
+    }
+
+    /// Where quotients and differences of the values are no numbers.
+    #[test]
+    fn the_widest_ranges_keep_their_places() {
+        let of = |y: Axis, values: &[f64]| {
+            let plot = plot(Axis::new("f", "Hz"), y, values);
+            let y = Layout::of(&plot).expect("a valid plot").y;
+            (y.low, y.high, y.part(0.0))
+        };
+        let axis = || Axis::new("a", "Hz");
+        let (low, high, _) = of(axis().log(), &[1e-160, 1e160]);
+        assert!(low > 1e-200 && high < 1e200, "{low:e} {high:e}");
+        let (_, high, _) = of(axis().log(), &[1.0, f64::MAX]);
+        assert!(high.is_finite());
+        let (.., middle) = of(axis(), &[-f64::MAX, f64::MAX]);
+        assert!((middle - 0.5).abs() < 1e-12, "{middle}");
+        let (low, high, _) = of(axis(), &[f64::MAX]);
+        assert!(low < high && high.is_finite());
     }
 }

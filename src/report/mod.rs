@@ -35,7 +35,7 @@ pub use document::{Document, MeshFile};
 pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub use error::ReportError;
 pub use matrix::Matrix;
-pub use number::{pretty_unit, significant};
+pub use number::{fixed, pretty_unit, significant};
 pub use plot::{Abscissa, Axis, Curve, CurveStyle, Marker, Plot, Scale};
 pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,

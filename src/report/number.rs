@@ -32,7 +32,13 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// The number with so many decimals, in groups of three digits from 10 000 on, with a true minus sign; never "−0".
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
+///
+/// ```
+/// use plummer::report::fixed;
+/// assert_eq!(fixed(-1.2345, 2), "−1.23");
+/// assert_eq!(fixed(-1e-9, 4), "0.0000");
+/// ```
+pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());
     let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
     let mut out = String::with_capacity(text.len() + 8);
@@ -128,7 +134,8 @@ pub(super) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
     if !(largest.is_finite() && largest > 0.0) {
         return plain;
     }
-    let exponent = 3 * (largest.log10() / 3.0 + 1e-9).floor() as i32;
+    // beyond, a power of ten is no normal number
+    let exponent = (3 * (largest.log10() / 3.0 + 1e-9).floor() as i32).clamp(-306, 306);
     if takes_prefix {
         let wanted = !(0.1..1e4).contains(&largest) && (unit != "s" || exponent < 0);
         let prefix = PREFIXES.iter().find(|(e, _)| *e == exponent);

@@ -278,4 +278,30 @@ mod tests {
             path.matches('L').count()
         );
     }
+
+    /// Whatever the values, a drawing is small and soon made.
+    #[test]
+    fn the_ends_of_all_numbers_are_drawn() {
+        let ends = [5e-324, 1e-308, 1e-307, 1.0, 1e300, f64::MAX];
+        for (low, high) in ends.iter().flat_map(|low| ends.map(|high| (*low, high))) {
+            for values in [[low, high], [-high, low]] {
+                let mut drawn = plot(values.to_vec());
+                let linear = svg(&drawn);
+                drawn.y = drawn.y.log();
+                let log = svg(&drawn);
+                let line = " d=\"M";
+                // numbers with fewer digits than others may fall on the frame
+                let normal = low.is_normal() && high.is_normal();
+                assert!(!normal || linear.contains(line), "{values:?}");
+                assert!(
+                    !normal || values[0] < 0.0 || log.contains(line),
+                    "{values:?}"
+                );
+                for text in [linear, log] {
+                    assert!(text.len() < 20_000, "{values:?}: {}", text.len());
+                    assert!(!text.contains("NaN") && !text.contains("inf"), "{values:?}");
+                }
+            }
+        }
+    }
 }

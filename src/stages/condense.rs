@@ -1,6 +1,7 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
 
 use super::condensed::CondensedStage;
+use super::loose::name_mechanisms;
 use super::modal_system::FullModes;
 use super::reduced_interface::{ReducedInterface, characteristic_modes};
 use super::{StageError, TIE_PRICE_MODES, TiePrice, Watch, tie_price};
@@ -107,6 +108,7 @@ pub fn compute_condense(
         }
         None => check_craig_bampton(&stage.condensed, &matrices, &rigid, band_hz)?,
     };
+    name_mechanisms(&mut checks, &stage)?;
     checks.push(estimated_error(&estimate, case.target()));
     let (mut full, mut price) = (None, None);
     if comparison == Comparison::Full {

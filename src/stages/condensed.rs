@@ -1,6 +1,7 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
 use super::free_system::{of_housing, of_ring};
+use super::loose::{check_interior, located};
 use super::structure::ring_and_tie;
 use super::{HousingStage, StageError, Watch};
 use crate::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
@@ -94,13 +95,20 @@ impl CondensedStage {
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
         };
+        if let Boundary::Nodes(nodes) = &boundary
+            && nodes.coordinates.is_empty()
+        {
+            return Err(StageError::interface_held(nodes, &housing.model));
+        }
+        check_interior(&housing, &boundary)?;
         watch.stage("condense");
         let condensed = craig_bampton(
             &boundary.matrices(&housing),
             boundary.partition(),
             choice,
             boundary.attached(),
-        )?;
+        )
+        .map_err(|error| located(error, &housing.model))?;
         let structural = StructuralStiffness::assemble(&housing.model)?;
         let stage = Self {
             structural: structural.map(|structural| match boundary.ring() {

@@ -3,7 +3,7 @@
 use super::ImportError;
 use crate::bearing::dent::DentError;
 use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
-use crate::case::CaseError;
+use crate::case::{CaseError, ModeExtent};
 use crate::element::ElementError;
 use crate::exchange::{CsvError, NpzError, ReadModesError, UffError};
 use crate::linalg::HarmonicError;
@@ -11,7 +11,7 @@ use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
 use crate::mesh::MeshError;
 use crate::modal::ModalError;
-use crate::model::{ModelError, RingError};
+use crate::model::{HousingModel, ModelError, NodeInterface, RingError};
 use crate::reduction::ReductionError;
 use crate::reduction::frf::FrfError;
 use crate::report::ReportError;
@@ -228,6 +228,43 @@ pub enum StageError {
         /// Whether the mesh has it.
         in_mesh: bool,
     },
+    /// An interface that cannot move.
+    #[error(
+        "condense.interface: all {displacements} displacements of its nodes are held by {holders}: expected at least one that is free"
+    )]
+    InterfaceHeld {
+        /// How many.
+        displacements: usize,
+        /// Supports, a link or both, in words.
+        holders: String,
+    },
+    /// A housing that can still move while its interface is held.
+    #[error(
+        "with the interface held, the housing can still move, so that it cannot be condensed: {}", what.join("; ")
+    )]
+    LooseInterior {
+        /// A sentence for each piece or joint.
+        what: Vec<String>,
+    },
+    /// A part that is held too softly, or not at all.
+    #[error("part \"{part}\", near node {tag}: {source}")]
+    SoftPart {
+        /// The part.
+        part: String,
+        /// gmsh's tag of a node.
+        tag: u64,
+        /// What was found.
+        source: ReductionError,
+    },
+    /// A band without modes.
+    #[error(
+        "modes: expected at least one mode {}, a count of eigenvalues finds none",
+        within(extent)
+    )]
+    NoModes {
+        /// What was asked for.
+        extent: ModeExtent,
+    },
     /// A superelement that cannot take the housing's place.
     #[error("housing.superelement: {}: {source}", path.display())]
     Import {
@@ -272,12 +309,36 @@ pub enum StageError {
 }
 
 impl StageError {
+    /// The error of an interface without a free displacement.
+    pub(super) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
+        Self::InterfaceHeld {
+            displacements: nodes.held.len(),
+            holders: nodes.holders(model),
+        }
+    }
+
     /// What to do about it, where the message does not say it already.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
             Self::Import { source, .. } => source.help(),
+            Self::InterfaceHeld { .. } => Some(
+                "name other nodes in condense.interface, or take the support off them".to_owned(),
+            ),
+            Self::LooseInterior { .. } => Some(
+                "join the part (merge its nodes in gmsh, housing.links), hold it (housing.supports), put three of its nodes \
+                 that are not in line into the interface, or leave it out of housing.parts"
+                    .to_owned(),
+            ),
+            Self::NoModes { .. } => Some(
+                "another band, or `modes.count = 1`, which finds the lowest wherever it is".to_owned(),
+            ),
+            Self::SoftPart { .. } => Some(
+                "check the units of the springs that hold it and its flattest elements (`plummer inspect`); hold it by \
+                 stiffer springs or a link, or leave it out of housing.parts"
+                    .to_owned(),
+            ),
             Self::ModeShapes(ReadModesError::Csv(CsvError::Content { .. })) => Some(
                 "frequencies without shapes are checked by `modes.expected` in the case file".to_owned(),
             ),
@@ -307,5 +368,14 @@ impl StageError {
             Self::Series(_) | Self::Npz(_) | Self::Uff(_) | Self::Report(_) => false,
             _ => true,
         }
+    }
+}
+
+/// Where modes were asked for, in words.
+fn within(extent: &ModeExtent) -> String {
+    match extent {
+        ModeExtent::Count(count) => format!("among the lowest {count} (count)"),
+        ModeExtent::UpToHz(hz) => format!("up to {hz} Hz (up_to_hz)"),
+        ModeExtent::BandHz([low, high]) => format!("from {low} to {high} Hz (band_hz)"),
     }
 }

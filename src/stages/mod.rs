@@ -27,6 +27,7 @@ mod imported_report;
 #[cfg(test)]
 mod imported_tests;
 mod inspect;
+mod loose;
 mod mesh_digest;
 mod mesh_sequence;
 mod modal_system;

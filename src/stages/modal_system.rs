@@ -87,10 +87,10 @@ pub(super) struct FullModes {
 }
 
 impl FullModes {
-    /// Modes over the free rows. The matrices are gone before they are factorised.
+    /// Modes over the free rows, at least one. The matrices are gone before they are factorised.
     ///
     /// # Errors
-    /// [`StageError::Linalg`].
+    /// [`StageError::Linalg`], [`StageError::NoModes`].
     pub fn of(
         matrices: CoupledMatrices,
         extent: ModeExtent,
@@ -108,6 +108,9 @@ impl FullModes {
         drop((stiffness, mass));
         watch.stage("eigen");
         let basis = ModalBasis::of(&problem, range(extent, free.len()))?;
+        if basis.count() == 0 {
+            return Err(StageError::NoModes { extent });
+        }
         Ok(Self {
             basis,
             motions,

@@ -4,7 +4,7 @@ use super::shape_view::shown_places;
 use super::{ModalSurvey, ModesResult};
 use crate::case::{Case, Material};
 use crate::modal::{MassDistribution, MassProperties, Participation};
-use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, significant};
+use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, fixed, significant};
 
 /// Direction of a column of a participation, by the number of columns.
 fn directions(columns: usize) -> &'static [&'static str] {
@@ -75,10 +75,7 @@ pub(super) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
 /// Mass, centroid, inertia.
 pub(super) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
     let millimetres = |values: &[f64]| {
-        let texts: Vec<String> = values
-            .iter()
-            .map(|value| format!("{:.4}", 1e3 * value))
-            .collect();
+        let texts: Vec<String> = values.iter().map(|value| fixed(1e3 * value, 4)).collect();
         format!("({}) mm", texts.join(", "))
     };
     let mut facts = vec![Fact::new(
@@ -114,7 +111,7 @@ pub(super) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
                 let axes: Vec<String> = principal
                     .axes
                     .iter()
-                    .map(|a| format!("({:.4}, {:.4}, {:.4})", a[0], a[1], a[2]))
+                    .map(|a| format!("({})", a.map(|part| fixed(part, 4)).join(", ")))
                     .collect();
                 facts.push(Fact::new("Principal axes", axes.join(", ")));
             }
@@ -236,4 +233,28 @@ pub fn free_motions(result: &ModesResult) -> Vec<String> {
 pub(super) fn complete(survey: &ModalSurvey) -> Verdict {
     let check = survey.basis.count_check;
     Verdict::of(check.counted == check.found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_off_of_a_centroid_has_no_sign() {
+        let mass = MassProperties {
+            mass: 2.0,
+            distribution: MassDistribution::Space {
+                centroid: [-1e-19, 2e-3, -3e-3],
+                inertia: [[1.0, -1e-17, 0.0], [-1e-17, 2.0, 0.0], [0.0, 0.0, 3.0]],
+            },
+        };
+        let facts = mass_facts(&mass);
+        let value = |name: &str| facts.iter().find(|fact| fact.name == name).unwrap();
+        assert_eq!(value("Centroid").value, "(0.0000, 2.0000, −3.0000) mm");
+        let axes = &value("Principal axes").value;
+        assert!(
+            !axes.contains("-0.0") && !axes.contains("−0.0000"),
+            "{axes}"
+        );
+    }
 }

@@ -208,7 +208,9 @@ impl ModalSurvey {
 }
 
 /// A mesh in too many bodies is worth no error where only reasons were asked for.
-fn unless_crumbs(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechanisms>, ModalError> {
+pub(super) fn unless_crumbs(
+    found: Result<Mechanisms, ModalError>,
+) -> Result<Option<Mechanisms>, ModalError> {
     match found {
         Ok(found) => Ok(Some(found)),
         Err(ModalError::TooManyBodies { .. }) => Ok(None),

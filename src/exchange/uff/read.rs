@@ -94,6 +94,29 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
     }
 }
 
+/// What a coordinate system begins with, and the line where that stands.
+struct System {
+    label: i64,
+    kind: i64,
+    line: Line,
+}
+
+impl System {
+    /// Reads label and type, passes over the name; `None` at the line that ends a dataset.
+    fn next(cursor: &mut Cursor, expected: &'static str) -> Result<Option<Self>, Fault> {
+        let line = cursor.expect_text(expected)?;
+        if line.is_delimiter() {
+            return Ok(None);
+        }
+        let numbers = line.integers(expected)?;
+        let &[label, kind, ..] = numbers.as_slice() else {
+            return Err(line.fault(expected));
+        };
+        cursor.expect("the name of a coordinate system")?;
+        Ok(Some(Self { label, kind, line }))
+    }
+}
+
 impl Content {
     /// Reads what follows the line that begins a dataset, to the line that ends it.
     fn dataset(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
@@ -196,16 +219,7 @@ impl Content {
         const SYSTEM: &str = "label, type and colour of a coordinate system";
         cursor.expect_text("the part of the coordinate systems")?;
         cursor.expect("the part's name")?;
-        loop {
-            let line = cursor.expect_text(SYSTEM)?;
-            if line.is_delimiter() {
-                return Ok(());
-            }
-            let numbers = line.integers(SYSTEM)?;
-            let &[label, kind, ..] = numbers.as_slice() else {
-                return Err(line.fault(SYSTEM));
-            };
-            cursor.expect("the name of a coordinate system")?;
+        while let Some(System { label, kind, .. }) = System::next(cursor, SYSTEM)? {
             let mut matrix = Vec::new();
             for _ in 0..4 {
                 matrix.extend(cursor.reals(3, 25, "three components of a coordinate system")?);
@@ -220,22 +234,14 @@ impl Content {
                 self.turned.insert(label);
             }
         }
+        Ok(())
     }
 
     /// Dataset 18: label, type, reference, colour, method; name; six and three numbers. All count as turned unless their
     /// numbers are origin, a point on +x and a point in the xz plane of the global axes.
     fn old_systems(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
         const SYSTEM: &str = "label and type of a coordinate system";
-        loop {
-            let line = cursor.expect_text(SYSTEM)?;
-            if line.is_delimiter() {
-                return Ok(());
-            }
-            let numbers = line.integers(SYSTEM)?;
-            let &[label, kind, ..] = numbers.as_slice() else {
-                return Err(line.fault(SYSTEM));
-            };
-            cursor.expect("the name of a coordinate system")?;
+        while let Some(System { label, kind, line }) = System::next(cursor, SYSTEM)? {
             let points = cursor.reals(9, 13, "nine numbers of a coordinate system")?;
             let [ox, oy, oz, ax, ay, az, _, py, _] = points[..] else {
                 return Err(line.fault(SYSTEM));
@@ -248,6 +254,7 @@ impl Content {
                 self.turned.insert(label);
             }
         }
+        Ok(())
     }
 
     /// Gives every mode the same nodes, in the order of first mention.

@@ -5,6 +5,7 @@ use super::super::membership::Membership;
 use super::super::motions::{rigid_component, rigid_count};
 use super::bodies::BodyMap;
 use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
+use crate::linalg::SparseMatrix;
 use crate::mesh::{Mesh, Sets};
 use crate::model::{HousingModel, Ring, RingFrame, RingTie};
 use serde::Serialize;
@@ -12,6 +13,14 @@ use std::collections::BTreeSet;
 
 /// Most bodies that are looked at: the dense problem has 6 unknowns each.
 const MOST_BODIES: usize = 200;
+
+/// What is in the bore, or at another interface.
+enum Bore<'m> {
+    Empty,
+    Ring(&'m RingTie, &'m Ring),
+    /// Displacements are held there, in the axes that the matrix turns to the mesh's.
+    Held(&'m [usize], Option<&'m SparseMatrix>),
+}
 
 /// Elements that hang together through whole faces (edges in the plane).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -83,7 +92,7 @@ impl Mechanisms {
     /// # Errors
     /// [`ModalError::TooManyBodies`] for more than 200 bodies, [`ModalError::Shape`] for another mesh than the model's.
     pub fn find(mesh: &Mesh, model: &HousingModel) -> Result<Self, ModalError> {
-        Self::of_bodies(mesh, model, None)
+        Self::of_bodies(mesh, model, &Bore::Empty)
     }
 
     /// The same of a housing with the ring in its bore: the ring is one more body, joined by the tie.
@@ -96,7 +105,22 @@ impl Mechanisms {
         tie: &RingTie,
         ring: &Ring,
     ) -> Result<Self, ModalError> {
-        Self::of_bodies(mesh, model, Some((tie, ring)))
+        Self::of_bodies(mesh, model, &Bore::Ring(tie, ring))
+    }
+
+    /// The same of a housing of which some displacements are held besides its supports: what can still move makes the
+    /// stiffness of the others singular. `rotation` turns the displacements to the mesh's axes if they are not along
+    /// them.
+    ///
+    /// # Errors
+    /// As [`Mechanisms::find`].
+    pub fn find_with_held(
+        mesh: &Mesh,
+        model: &HousingModel,
+        dofs: &[usize],
+        rotation: Option<&SparseMatrix>,
+    ) -> Result<Self, ModalError> {
+        Self::of_bodies(mesh, model, &Bore::Held(dofs, rotation))
     }
 
     /// The motions of a ring alone that its springs leave, in its own axes.
@@ -130,13 +154,9 @@ impl Mechanisms {
         }
     }
 
-    fn of_bodies(
-        mesh: &Mesh,
-        model: &HousingModel,
-        ring: Option<(&RingTie, &Ring)>,
-    ) -> Result<Self, ModalError> {
+    fn of_bodies(mesh: &Mesh, model: &HousingModel, bore: &Bore<'_>) -> Result<Self, ModalError> {
         let mut map = BodyMap::new(model);
-        if let Some((_, ring)) = ring {
+        if let Bore::Ring(_, ring) = bore {
             map.add_ring(model, ring);
         }
         if map.extents.len() > MOST_BODIES {
@@ -146,8 +166,10 @@ impl Mechanisms {
             });
         }
         let mut constraints = AllConstraints::new(model, &map);
-        if let Some((tie, ring)) = ring {
-            constraints.add_ring(tie, ring);
+        match *bore {
+            Bore::Empty => {}
+            Bore::Ring(tie, ring) => constraints.add_ring(tie, ring),
+            Bore::Held(dofs, rotation) => constraints.hold(dofs, rotation),
         }
         let mut bodies = described(mesh, model, &map)?;
         let full = rigid_count(model.dimension);

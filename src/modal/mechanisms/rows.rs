@@ -6,7 +6,7 @@
 use super::super::motions::{rigid_component, rigid_count, ring_motions};
 use super::super::spring_rows::{SpringRow, spring_rows};
 use super::bodies::BodyMap;
-use crate::linalg::DenseMatrix;
+use crate::linalg::{DenseMatrix, SparseMatrix};
 use crate::model::{HousingModel, NodalSource, Ring, RingFrame, RingTie};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,31 +79,55 @@ impl<'m> AllConstraints<'m> {
 
     /// The ring: every driven displacement of the bore follows it, and its springs hold it.
     pub fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
-        let (model, d) = (self.model, self.model.dimension);
         let Some(number) = self.bodies.ring else {
             return;
         };
         for &dof in &tie.partition().driven {
-            let (node, component) = (dof / d, dof % d);
+            let mut row = Row::new();
+            let node = dof / self.model.dimension;
             let Some(body) = self.bodies.of_node(node) else {
                 continue;
             };
-            // of a sliding tie the displacements are (radial, tangential, axial)
-            let along = match tie.rotation() {
-                Some(_) => model.frame.polar_axes(model.coordinates[node])[component],
-                None => [0, 1, 2].map(|i| f64::from(u8::from(i == component))),
-            };
-            let mut row = Row::new();
-            for (i, factor) in along.into_iter().enumerate().take(d) {
-                self.displacement(&mut row, body, node, i, factor);
-                self.displacement(&mut row, number, node, i, -factor);
-            }
+            self.driven(&mut row, body, dof, tie.rotation(), 1.0);
+            self.driven(&mut row, number, dof, tie.rotation(), -1.0);
             if let Some(constraints) = self.add(&row, false) {
                 constraints.tied = true;
             }
         }
-        for own in ring_spring_rows(ring, &model.frame) {
+        for own in ring_spring_rows(ring, &self.model.frame) {
             self.add(&Row::from([(number, own)]), true);
+        }
+    }
+
+    /// Holds displacements, which `rotation` turns to the mesh's axes if they are not along them.
+    pub fn hold(&mut self, dofs: &[usize], rotation: Option<&SparseMatrix>) {
+        for &dof in dofs {
+            let mut row = Row::new();
+            if let Some(body) = self.bodies.of_node(dof / self.model.dimension) {
+                self.driven(&mut row, body, dof, rotation, 1.0);
+                self.add(&row, true);
+            }
+        }
+    }
+
+    /// Adds `factor` times a displacement in the axes that `rotation` turns to the mesh's, as one of `body`.
+    fn driven(
+        &self,
+        row: &mut Row,
+        body: usize,
+        dof: usize,
+        rotation: Option<&SparseMatrix>,
+        factor: f64,
+    ) {
+        let d = self.model.dimension;
+        let (node, component) = (dof / d, dof % d);
+        for i in 0..d {
+            let along = match rotation {
+                // u' = rotation^T u
+                Some(rotation) => rotation.get(d * node + i, dof).copied().unwrap_or(0.0),
+                None => f64::from(u8::from(i == component)),
+            };
+            self.displacement(row, body, node, i, factor * along);
         }
     }
 
