@@ -14,9 +14,7 @@
 //! attached.
 
 use super::{CharacteristicModes, InteriorBasis, ReductionError};
-use crate::linalg::{
-    DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_generalised_eigen,
-};
+use crate::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen};
 
 /// Shift beside the lowest fixed-interface eigenvalue: below the elastic modes, and far from round-off.
 const SHIFT: f64 = 1e-3;
@@ -30,6 +28,9 @@ const MIXED: usize = 4;
 /// Change of an eigenvalue in an iteration, relative, at which it has converged. With as many vectors beyond as wanted ones,
 /// what is left is smaller.
 const CONVERGED: f64 = 1e-13;
+
+/// Squared length of a combination of vectors beside the longest, below which it is round-off.
+const DEPENDENT: f64 = 1e-13;
 
 /// Iterations at most; ten are usual. What has not converged then is as good as Ritz values are: from above.
 const ITERATIONS: usize = 100;
@@ -154,22 +155,17 @@ impl Bordered {
             let (inner, border) = self.split(&moved);
             let of_border = schur.solve(&(border - &scaled * &inner));
             let rest = inner - across.transpose() * &of_border;
-            let y = DenseMatrix::from_fn(order, width, |row, column| {
+            let y = DenseMatrix::from_fn(order, x.ncols(), |row, column| {
                 match row.checked_sub(self.kappa.len()) {
                     None => scale[row] * rest[(row, column)],
                     Some(row) => of_border[(row, column)],
                 }
             });
             let [k, m] = [0, 1].map(|which| symmetric(&(y.transpose() * self.times(which, &y))));
-            let y_scale: Vec<f64> = (0..width).map(|i| m[(i, i)].sqrt().recip()).collect();
-            let scaling = DenseMatrix::from_fn(width, width, |i, j| match i == j {
-                true => y_scale[i],
-                false => 0.0,
-            });
-            let ritz =
-                symmetric_generalised_eigen(&congruent(&k, &scaling), &congruent(&m, &scaling))?;
-            x = y * (scaling * ritz.vectors);
-            let wanted = count.min(width);
+            let normal = orthonormal(&m)?;
+            let ritz = symmetric_eigen(&symmetric(&congruent(&k, &normal)))?;
+            x = y * (normal * ritz.vectors);
+            let wanted = count.min(ritz.values.len());
             let done = (0..wanted).all(|mode| {
                 let (was, is) = (before[mode] + shift, ritz.values[mode] + shift);
                 (was - is).abs() <= CONVERGED * is
@@ -179,7 +175,7 @@ impl Bordered {
                 break;
             }
         }
-        let wanted = count.min(width);
+        let wanted = count.min(before.len());
         before.truncate(wanted);
         Ok(SymmetricSpectrum {
             values: before,
@@ -236,6 +232,27 @@ impl Bordered {
             x.subrows(inner, x.nrows() - inner).to_owned(),
         )
     }
+}
+
+/// Combinations V of vectors with the Gram matrix m, `V^T m V = 1` [n x kept]. Beside rigid motions all vectors of a first
+/// step look alike: what is round-off of their differences is left out, high modes that nobody wants.
+fn orthonormal(m: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+    let lengths: Vec<f64> = (0..m.nrows()).map(|i| m[(i, i)].sqrt()).collect();
+    let scaled = DenseMatrix::from_fn(m.nrows(), m.ncols(), |row, column| {
+        m[(row, column)] / (lengths[row] * lengths[column])
+    });
+    let gram = symmetric_eigen(&scaled)?;
+    let longest = gram.values.last().copied().unwrap_or(0.0);
+    let kept: Vec<usize> = (0..gram.values.len())
+        .filter(|&place| gram.values[place] > DEPENDENT * longest)
+        .collect();
+    Ok(DenseMatrix::from_fn(
+        m.nrows(),
+        kept.len(),
+        |row, column| {
+            gram.vectors[(row, kept[column])] / (gram.values[kept[column]].sqrt() * lengths[row])
+        },
+    ))
 }
 
 fn symmetric(a: &DenseMatrix) -> DenseMatrix {
