@@ -184,7 +184,8 @@ impl Case {
                     ("[damping]", self.damping.is_some()),
                     (
                         "ring.tie, or condense.interface = { nodes = [TAGS] }",
-                        tied || self.condense.interface != Interface::Ring,
+                        tied || self.superelement().is_some()
+                            || self.condense.interface != Interface::Ring,
                     ),
                 ],
             ),

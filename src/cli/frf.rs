@@ -66,15 +66,15 @@ fn verdict(result: &FrfResult) -> Verdict {
 }
 
 fn summary(result: &FrfResult) -> String {
-    let condensed = &result.stage.condensed;
+    let element = result.housing.element();
     let mut lines = vec![format!(
         "{} paths at {} frequencies from {:.0} to {:.0} Hz; {} interface coordinates, {} vectors",
         result.paths.len(),
         result.response.frequencies_hz().len(),
         result.band_hz[0],
         result.band_hz[1],
-        condensed.superelement.interface_dof,
-        condensed.basis.count()
+        element.interface_dof,
+        element.modal_dof()
     )];
     for path in &result.paths {
         let modes: Vec<String> = path
@@ -156,13 +156,13 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
     let fields = json!({
         "unit": "m/N",
         "band_hz": result.band_hz,
-        "interface_dof": result.stage.condensed.superelement.interface_dof,
-        "vectors": result.stage.condensed.basis.count(),
+        "interface_dof": result.housing.element().interface_dof,
+        "vectors": result.housing.element().modal_dof(),
         "frequency_hz": result.response.frequencies_hz(),
         "paths": paths,
         "full_frequency_hz": result.compared.iter().map(|at| at.frequency_hz).collect::<Vec<_>>(),
         "full_residual": result.compared.iter().map(|at| at.residual).collect::<Vec<_>>(),
-        "estimated_error": result.estimate.relative_errors,
+        "estimated_error": result.estimate.as_ref().map(|estimate| &estimate.relative_errors),
         "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
         "target": result.target,
         "not_compared": result.not_compared,

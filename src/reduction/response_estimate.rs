@@ -107,7 +107,10 @@ impl ResponseEstimate {
 
     /// The estimate at one of its frequencies.
     pub fn at(&self, hz: f64) -> Option<f64> {
-        let place = self.frequencies_hz.iter().position(|own| *own == hz)?;
+        let frequencies = self.frequencies_hz.iter();
+        let place = frequencies
+            .map(|own| own.to_bits())
+            .position(|own| own == hz.to_bits())?;
         self.relative_errors.get(place).copied()
     }
 

@@ -1,8 +1,9 @@
 //! The report of `plummer frf`.
 
 use super::StageError;
-use super::frf::FrfResult;
+use super::frf::{FrfHousing, FrfResult};
 use crate::case::Case;
+use crate::reduction::ResponseEstimate;
 use crate::reduction::frf::FrfQuantity;
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table,
@@ -26,13 +27,14 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
         .subtitle("Transfer paths")
         .document(document);
     let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
-    report = report.headline(
-        "Largest estimated error of a response",
-        result
-            .largest_estimate()
-            .map_or_else(|| "0".to_owned(), |(_, error)| significant(error, 2)),
-        result.largest_estimate().map_or(Verdict::of(true), passes),
-    );
+    report = match (&result.estimate, result.largest_estimate()) {
+        (None, _) => report.headline("Estimated error", "not known", Verdict::None),
+        (Some(_), largest) => {
+            let largest = largest.unwrap_or_default();
+            let name = "Largest estimated error of a response";
+            report.headline(name, significant(largest.1, 2), passes(largest))
+        }
+    };
     report = match result.largest_difference() {
         Some(largest) => report.headline(
             "Largest difference from the full model",
@@ -49,7 +51,9 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
     for path in 0..result.paths.len() {
         report = report.section(of_path(result, path)?);
     }
-    report = report.section(errors(result));
+    if let Some(estimate) = &result.estimate {
+        report = report.section(errors(result, estimate));
+    }
     if !result.ranking.is_empty() {
         report = report.section(ranking(result));
     }
@@ -60,29 +64,31 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
 }
 
 fn model(result: &FrfResult) -> Section {
-    let condensed = &result.stage.condensed;
-    let basis = &condensed.basis;
-    Section::new("Model").facts([
-        Fact::new(
-            "Interior degrees of freedom",
-            condensed.substructure.interior_dof().to_string(),
-        ),
-        Fact::new(
-            "Interface coordinates",
-            condensed.superelement.interface_dof.to_string(),
-        ),
-        Fact::new(
-            "Fixed-interface modes",
-            (basis.count() - basis.residual_vectors()).to_string(),
-        ),
-        Fact::new("Residual vectors", basis.residual_vectors().to_string())
-            .note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
-        Fact::new(
-            "Frequencies",
-            result.response.frequencies_hz().len().to_string(),
-        )
-        .note("equal steps of the band, and four to the half-power bandwidth of every resonance"),
-    ])
+    let element = result.housing.element();
+    let coordinates = Fact::new("Interface coordinates", element.interface_dof.to_string());
+    let of_housing = match &result.housing {
+        FrfHousing::Mesh(stage) => {
+            let (substructure, basis) = (&stage.condensed.substructure, &stage.condensed.basis);
+            let modes = basis.count() - basis.residual_vectors();
+            vec![
+                Fact::new("Interior degrees of freedom", substructure.interior_dof().to_string()),
+                coordinates,
+                Fact::new("Fixed-interface modes", modes.to_string()),
+                Fact::new("Residual vectors", basis.residual_vectors().to_string()).note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
+            ]
+        }
+        FrfHousing::File(imported) => vec![
+            Fact::new("Superelement", imported.0.path.display().to_string()),
+            coordinates,
+            Fact::new("Modes", element.modal_dof().to_string()),
+        ],
+    };
+    let of_response = [Fact::new(
+        "Frequencies",
+        result.response.frequencies_hz().len().to_string(),
+    )
+    .note("equal steps of the band, and four to the half-power bandwidth of every resonance")];
+    Section::new("Model").facts(of_housing.into_iter().chain(of_response))
 }
 
 fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
@@ -176,8 +182,7 @@ fn curve(name: impl Into<String>, values: &[(f64, c64)], of: impl Fn(c64) -> f64
     )
 }
 
-fn errors(result: &FrfResult) -> Section {
-    let estimate = &result.estimate;
+fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
     let estimated = estimate
         .frequencies_hz
         .iter()

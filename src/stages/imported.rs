@@ -110,22 +110,38 @@ impl ImportedHousing {
     /// Rows of the case's sensors over the coordinates, one \[order\] for each.
     ///
     /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring.
+    /// As [`ImportedHousing::row`].
     pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, StageError> {
+        let sensors = case.sensors.iter();
+        sensors
+            .map(|sensor| self.row(&sensor.name, &sensor.spot, sensor.direction, ring))
+            .collect()
+    }
+
+    /// The row of a place over the coordinates \[order\].
+    ///
+    /// # Errors
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring; each names `name`.
+    pub fn row(
+        &self,
+        name: &str,
+        spot: &SensorSpot,
+        direction: [f64; 3],
+        ring: &Ring,
+    ) -> Result<Vec<f64>, StageError> {
         let bodies = PlaceBodies {
             housing: None,
             ring: Some(ring),
             tie: None,
             frame: self.frame,
         };
-        let row = |sensor: &case::Sensor| match &sensor.spot {
-            SensorSpot::Recovered(row) => self.recovered(&sensor.name, row),
+        match spot {
+            SensorSpot::Recovered(row) => self.recovered(name, row),
             spot => {
-                let place = Place::new(bodies, &sensor.name, spot, sensor.direction)?;
+                let place = Place::new(bodies, name, spot, direction)?;
                 Ok(place.on_ring(self.element.order()))
             }
-        };
-        case.sensors.iter().map(row).collect()
+        }
     }
 
     fn recovered(&self, name: &str, row: &str) -> Result<Vec<f64>, StageError> {

@@ -59,7 +59,9 @@ pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use error::StageError;
 pub use free_system::FreeSystem;
-pub use frf::{CarriedPart, ComparedResponse, FrfResult, RankedPath, TransferPath, compute_frf};
+pub use frf::{
+    CarriedPart, ComparedResponse, FrfHousing, FrfResult, RankedPath, TransferPath, compute_frf,
+};
 pub use frf_report::frf_report;
 pub use housing::HousingStage;
 pub use import_error::ImportError;

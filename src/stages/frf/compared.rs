@@ -1,7 +1,7 @@
 //! The full model's responses beside those of the reduced one.
 
-use super::TransferPath;
 use super::reduced::ReducedPaths;
+use super::{FrfHousing, TransferPath};
 use crate::assembly::StructuralStiffness;
 use crate::case::{self, Case};
 use crate::linalg::{DenseMatrix, HarmonicDamping, HarmonicProblem, complex_columns};
@@ -36,11 +36,15 @@ pub struct ComparedResponse {
 pub(super) fn compare(
     case: &Case,
     asked: &case::Frf,
-    reduced: &ReducedPaths,
+    reduced: &ReducedPaths<'_>,
     response: &FrequencyResponse,
     paths: &[TransferPath],
     watch: &impl Watch,
 ) -> Result<(Vec<ComparedResponse>, Option<String>), StageError> {
+    let FrfHousing::Mesh(stage) = &reduced.housing else {
+        let why = "the housing is a superelement from a file, of which no mesh is known";
+        return Ok((Vec::new(), Some(why.to_owned())));
+    };
     let (alpha, beta) = match modal_damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => (alpha, beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => (0.0, 0.0),
@@ -58,7 +62,7 @@ pub(super) fn compare(
     if chosen.is_empty() {
         return Ok((Vec::new(), Some("no frequency was asked for".to_owned())));
     }
-    let stage = &reduced.stage;
+    let places = reduced.places(stage)?;
     watch.stage("full model");
     let coupled = stage.full_matrices();
     let structural = StructuralStiffness::assemble(&stage.housing.model)?;
@@ -79,7 +83,7 @@ pub(super) fn compare(
             .map(|row| free.iter().map(|&dof| row[dof]).collect())
             .collect()
     };
-    let (from, to) = (rows(&reduced.places[0]), rows(&reduced.places[1]));
+    let (from, to) = (rows(&places[0]), rows(&places[1]));
     let loads = DenseMatrix::from_fn(free.len(), from.len(), |row, load| from[load][row]);
     let loads = complex_columns(&loads);
     let own = reduced.response(&chosen)?;
@@ -92,7 +96,10 @@ pub(super) fn compare(
             reduced: Vec::with_capacity(paths.len()),
             full: Vec::with_capacity(paths.len()),
             difference: 0.0,
-            estimated: reduced.estimate.at(hz),
+            estimated: reduced
+                .estimate
+                .as_ref()
+                .and_then(|estimate| estimate.at(hz)),
             residual: solution.residuals.iter().copied().fold(0.0, f64::max),
         };
         for path in paths {
@@ -115,7 +122,7 @@ pub(super) fn compare(
 /// The highest peaks of the first path's accelerance, where the estimated error is largest, the band's top, and places
 /// between.
 fn checked_frequencies(
-    reduced: &ReducedPaths,
+    reduced: &ReducedPaths<'_>,
     response: &FrequencyResponse,
     paths: &[TransferPath],
 ) -> Vec<f64> {
@@ -132,6 +139,10 @@ fn checked_frequencies(
     peaks.truncate(CHECKED);
     let between = (1..=CHECKED).map(|part| low + (high - low) * part as f64 / CHECKED as f64);
     let mut chosen: Vec<f64> = peaks.into_iter().map(|at| hz[at]).chain(between).collect();
-    chosen.extend(reduced.estimate.largest().map(|(hz, _)| hz));
+    let worst = reduced
+        .estimate
+        .as_ref()
+        .and_then(|estimate| estimate.largest());
+    chosen.extend(worst.map(|(hz, _)| hz));
     chosen
 }

@@ -1,13 +1,14 @@
 //! `plummer frf`: transfer paths of a housing, reduced, against the full model at chosen frequencies.
 
 mod compared;
+mod housing;
 mod ranking;
 mod reduced;
 
 pub use compared::ComparedResponse;
+pub use housing::FrfHousing;
 pub use ranking::RankedPath;
 
-use super::condensed::CondensedStage;
 use super::{StageError, Watch};
 use crate::case::Case;
 use crate::reduction::ResponseEstimate;
@@ -43,13 +44,13 @@ pub struct TransferPath {
 #[derive(Debug, Clone)]
 pub struct FrfResult {
     /// The condensed housing.
-    pub stage: CondensedStage,
+    pub housing: FrfHousing,
     /// Band, Hz.
     pub band_hz: [f64; 2],
     /// Receptances of the reduced model.
     pub response: FrequencyResponse,
-    /// Their estimated errors.
-    pub estimate: ResponseEstimate,
+    /// Their estimated errors; none of a housing of which no mesh is known.
+    pub estimate: Option<ResponseEstimate>,
     /// The paths, sensor by sensor.
     pub paths: Vec<TransferPath>,
     /// Against the full model.
@@ -65,7 +66,7 @@ pub struct FrfResult {
 impl FrfResult {
     /// Frequency and size of the largest estimated error.
     pub fn largest_estimate(&self) -> Option<(f64, f64)> {
-        self.estimate.largest()
+        self.estimate.as_ref()?.largest()
     }
 
     /// Frequency and size of the largest difference from the full model; none where nothing was compared.
@@ -102,7 +103,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
     Ok(FrfResult {
         band_hz: reduced.band_hz,
         target: case.target(),
-        stage: reduced.stage,
+        housing: reduced.housing,
         estimate: reduced.estimate,
         response,
         paths,

@@ -1,5 +1,6 @@
 //! The reduced model on the paths of a case, with as many residual vectors as its responses need.
 
+use super::housing::{FrfHousing, Spot, places};
 use super::{CarriedPart, TransferPath};
 use crate::case::{self, Case};
 use crate::linalg::DenseMatrix;
@@ -10,7 +11,7 @@ use crate::reduction::frf::{
 use crate::reduction::{BasisChoice, BasisSize, ResponseEstimate};
 use crate::stages::condensed::{CondensedStage, basis_choice};
 use crate::stages::damping::viscous_matrix;
-use crate::stages::places::{Place, PlaceBodies};
+use crate::stages::places::Place;
 use crate::stages::{StageError, Watch};
 
 /// Equal intervals of the band in which the response is computed, beside its resonances.
@@ -32,142 +33,138 @@ const UNCOUPLED: f64 = 1e-10;
 const NO_MORE: ModalDamping = ModalDamping::Uniform(0.0);
 
 /// A condensed housing, with its ring, on the paths of a case.
-pub(super) struct ReducedPaths {
-    pub stage: CondensedStage,
-    /// Where forces act, where motions are read.
-    pub places: [Vec<Place>; 2],
-    system: ReducedSystem,
-    paths: FrfPaths,
+pub(super) struct ReducedPaths<'c> {
+    asked: Asked<'c>,
+    pub housing: FrfHousing,
     pub band_hz: [f64; 2],
     pub frequencies_hz: Vec<f64>,
-    pub estimate: ResponseEstimate,
-    names: [Vec<String>; 2],
+    /// None of a housing of which no mesh is known.
+    pub estimate: Option<ResponseEstimate>,
+    system: ReducedSystem,
+    paths: FrfPaths,
     superposition: ModalSuperposition,
 }
 
-impl ReducedPaths {
-    /// Condenses the housing of a case for its paths.
+/// What a case asks for.
+#[derive(Clone, Copy)]
+struct Asked<'c> {
+    case: &'c Case,
+    frf: &'c case::Frf,
+}
+
+impl<'c> Asked<'c> {
+    /// The forces, then the sensors: those named, or all.
+    fn ends(self) -> [Vec<Spot<'c>>; 2] {
+        let Self { case, frf } = self;
+        let named = |sensor: &&case::Sensor| frf.to.is_empty() || frf.to.contains(&sensor.name);
+        let sensors = case.sensors.iter().filter(named);
+        let from = frf.from.iter();
+        [
+            from.map(|push| (&*push.name, &push.spot, push.direction))
+                .collect(),
+            sensors
+                .map(|sensor| (&*sensor.name, &sensor.spot, sensor.direction))
+                .collect(),
+        ]
+    }
+}
+
+impl<'c> ReducedPaths<'c> {
+    /// Condenses the housing of a case for its paths, or reads it.
     ///
     /// # Errors
     /// [`StageError`] of the stages that it goes through.
-    pub fn build(case: &Case, asked: &case::Frf, watch: &impl Watch) -> Result<Self, StageError> {
+    pub fn build(
+        case: &'c Case,
+        frf: &'c case::Frf,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
+        let asked = Asked { case, frf };
         let choice = basis_choice(case);
-        let band_hz = asked
+        let band_hz = frf
             .band_hz
             .or(case.band_hz())
             .unwrap_or([0.0, choice.band_hz]);
+        if let Some(path) = case.superelement() {
+            watch.stage("read");
+            return Self::of(asked, FrfHousing::read(case, path)?, band_hz);
+        }
         let stage = CondensedStage::with_basis(case, first_choice(choice, band_hz[1]), watch)?
             .ok_or(StageError::NothingToCondense)?;
-        let sensors = sensors(case, asked);
-        let pushes = asked.from.iter();
-        let pushes = pushes.map(|push| (&*push.name, &push.spot, push.direction));
-        let seen = sensors.iter();
-        let seen = seen.map(|sensor| (&*sensor.name, &sensor.spot, sensor.direction));
-        let names = [
-            pushes.clone().map(|(name, ..)| name.to_owned()).collect(),
-            seen.clone().map(|(name, ..)| name.to_owned()).collect(),
-        ];
-        let places = [placed(&stage, pushes)?, placed(&stage, seen)?];
         // static response to every force and, as the path back is the same, to a force at every sensor
+        let ends = places(&stage, asked.ends().into_iter().flatten())?;
         let dof = stage.housing.model.dof();
-        let all: Vec<Vec<f64>> = places
-            .iter()
-            .flatten()
-            .map(|at| at.on_housing(dof))
-            .collect();
+        let all: Vec<Vec<f64>> = ends.iter().map(|at| at.on_housing(dof)).collect();
         let loads = DenseMatrix::from_fn(dof, all.len(), |row, column| all[column][row]);
-        let mut reduced = Self::of(
-            case,
-            asked,
-            stage.with_loads(&loads)?,
-            places,
-            names,
-            band_hz,
-        )?;
+        let meshed = |stage| FrfHousing::Mesh(Box::new(stage));
+        let mut reduced = Self::of(asked, meshed(stage.with_loads(&loads)?), band_hz)?;
         if let BasisSize::Auto(target) = choice.size {
             watch.stage("basis for the responses");
             for _ in 0..ENLARGEMENTS {
-                if reduced.largest_error() <= MARGIN * target {
-                    break;
+                match (reduced.housing, &reduced.estimate) {
+                    (FrfHousing::Mesh(stage), Some(estimate))
+                        if largest(estimate) > MARGIN * target =>
+                    {
+                        let stage = stage.with_forces(estimate.forces().clone())?;
+                        reduced = Self::of(asked, meshed(stage), band_hz)?;
+                    }
+                    (housing, _) => {
+                        reduced.housing = housing;
+                        break;
+                    }
                 }
-                let stage = reduced
-                    .stage
-                    .with_forces(reduced.estimate.forces().clone())?;
-                let Self { places, names, .. } = reduced;
-                reduced = Self::of(case, asked, stage, places, names, band_hz)?;
             }
         }
         Ok(reduced)
     }
 
-    fn of(
-        case: &Case,
-        asked: &case::Frf,
-        stage: CondensedStage,
-        places: [Vec<Place>; 2],
-        names: [Vec<String>; 2],
-        band_hz: [f64; 2],
-    ) -> Result<Self, StageError> {
-        let system = system(case, &stage)?;
+    fn of(asked: Asked<'c>, housing: FrfHousing, band_hz: [f64; 2]) -> Result<Self, StageError> {
+        let system = system(asked.case, &housing)?;
         let basis = ModalBasis::new(&system)?;
         let order = system.order();
-        let [from, to] = places.each_ref().map(|places| {
-            places
-                .iter()
-                .map(|at| at.reduced(&stage.condensed))
-                .collect::<Vec<_>>()
-        });
+        let [from, to] = asked.ends();
+        let from = housing.rows(from.into_iter())?;
+        let to = housing.rows(to.into_iter())?;
         let paths = FrfPaths {
             loads: DenseMatrix::from_fn(order, from.len(), |row, load| from[load][row]),
             sensors: DenseMatrix::from_fn(to.len(), order, |sensor, row| to[sensor][row]),
         };
         let kept = basis.frequencies_hz().len();
         let superposition = ModalSuperposition::new(&system, &basis, &paths, kept, &NO_MORE)?;
-        let resonances: Vec<Resonance> = basis
-            .frequencies_hz()
-            .iter()
-            .enumerate()
-            .filter(|(_, hz)| **hz > 0.0 && **hz <= 1.1 * band_hz[1])
-            .map(|(mode, &frequency_hz)| Resonance {
-                frequency_hz,
-                ratio: superposition.ratio(mode).unwrap_or(0.0),
-            })
-            .collect();
-        let grid = FrequencyGrid {
-            band_hz,
-            intervals: INTERVALS,
-            points_a_bandwidth: 4,
-            reach: 3.0,
+        let frequencies_hz = frequencies(asked.frf, &basis, &superposition, band_hz)?;
+        let estimate = match &housing {
+            FrfHousing::File(_) => None,
+            FrfHousing::Mesh(stage) => Some(ResponseEstimate::new(
+                &stage.condensed,
+                stage.structural.as_ref(),
+                &system,
+                &basis,
+                &paths,
+                &frequencies_hz,
+            )?),
         };
-        let mut frequencies_hz = frequency_list(&grid, &resonances)?;
-        let [low, high] = band_hz;
-        let checked = asked.check_hz.iter().flatten().copied();
-        frequencies_hz.extend(checked.filter(|hz| (low..=high).contains(hz)));
-        frequencies_hz.sort_by(f64::total_cmp);
-        frequencies_hz.dedup();
-        let estimate = ResponseEstimate::new(
-            &stage.condensed,
-            stage.structural.as_ref(),
-            &system,
-            &basis,
-            &paths,
-            &frequencies_hz,
-        )?;
         Ok(Self {
-            stage,
-            places,
-            system,
-            paths,
+            asked,
+            housing,
             band_hz,
             frequencies_hz,
             estimate,
-            names,
+            system,
+            paths,
             superposition,
         })
     }
 
-    fn largest_error(&self) -> f64 {
-        self.estimate.largest().map_or(0.0, |(_, error)| error)
+    /// Places of forces and sensors on a condensed housing.
+    ///
+    /// # Errors
+    /// None that [`ReducedPaths::build`] did not have.
+    pub fn places(&self, stage: &CondensedStage) -> Result<[Vec<Place>; 2], StageError> {
+        let [from, to] = self.asked.ends();
+        Ok([
+            places(stage, from.into_iter())?,
+            places(stage, to.into_iter())?,
+        ])
     }
 
     /// Responses at ascending frequencies, Hz: sums of modes where damping does not couple them, which is exact and quick.
@@ -187,10 +184,10 @@ impl ReducedPaths {
     /// # Errors
     /// [`StageError::Frf`].
     pub fn transfer_paths(&self) -> Result<Vec<TransferPath>, StageError> {
-        let [from, to] = &self.names;
+        let [from, to] = self.asked.ends();
         let mut paths = Vec::with_capacity(from.len() * to.len());
-        for (sensor, to) in to.iter().enumerate() {
-            for (load, from) in from.iter().enumerate() {
+        for (sensor, (to, ..)) in to.iter().enumerate() {
+            for (load, (from, ..)) in from.iter().enumerate() {
                 let (band_hz, hz) = (self.band_hz, &self.frequencies_hz);
                 let shares = self.superposition.shares(sensor, load, band_hz, hz)?;
                 let parts = self.superposition.contributions(sensor, load, hz)?;
@@ -201,8 +198,8 @@ impl ReducedPaths {
                         .collect(),
                 });
                 paths.push(TransferPath {
-                    from: from.clone(),
-                    to: to.clone(),
+                    from: (*from).to_owned(),
+                    to: (*to).to_owned(),
                     place: (sensor, load),
                     carried: carried.collect(),
                     shares,
@@ -226,31 +223,45 @@ fn first_choice(choice: BasisChoice, band_hz: f64) -> BasisChoice {
     }
 }
 
-/// Sensors of the paths: those named, or all.
-fn sensors<'c>(case: &'c Case, asked: &case::Frf) -> Vec<&'c case::Sensor> {
-    let named = |sensor: &&case::Sensor| asked.to.is_empty() || asked.to.contains(&sensor.name);
-    case.sensors.iter().filter(named).collect()
+fn largest(estimate: &ResponseEstimate) -> f64 {
+    estimate.largest().map_or(0.0, |(_, error)| error)
 }
 
-fn placed<'c>(
-    stage: &CondensedStage,
-    spots: impl Iterator<Item = (&'c str, &'c case::SensorSpot, [f64; 3])>,
-) -> Result<Vec<Place>, StageError> {
-    let ring = stage.boundary.ring();
-    let bodies = PlaceBodies {
-        housing: Some(&stage.housing),
-        ring: ring.map(|(ring, _)| ring),
-        tie: ring.map(|(_, tie)| tie),
-        frame: *stage.housing.model.frame(),
+/// Equal steps of the band, its resonances, and where the full model is solved.
+fn frequencies(
+    frf: &case::Frf,
+    basis: &ModalBasis,
+    superposition: &ModalSuperposition,
+    band_hz: [f64; 2],
+) -> Result<Vec<f64>, StageError> {
+    let [low, high] = band_hz;
+    let resonances: Vec<Resonance> = basis
+        .frequencies_hz()
+        .iter()
+        .enumerate()
+        .filter(|(_, hz)| **hz > 0.0 && **hz <= 1.1 * high)
+        .map(|(mode, &frequency_hz)| Resonance {
+            frequency_hz,
+            ratio: superposition.ratio(mode).unwrap_or(0.0),
+        })
+        .collect();
+    let grid = FrequencyGrid {
+        band_hz,
+        intervals: INTERVALS,
+        points_a_bandwidth: 4,
+        reach: 3.0,
     };
-    spots
-        .map(|(name, spot, direction)| Place::new(bodies, name, spot, direction))
-        .collect()
+    let mut frequencies_hz = frequency_list(&grid, &resonances)?;
+    let checked = frf.check_hz.iter().flatten().copied();
+    frequencies_hz.extend(checked.filter(|hz| (low..=high).contains(hz)));
+    frequencies_hz.sort_by(f64::total_cmp);
+    frequencies_hz.dedup();
+    Ok(frequencies_hz)
 }
 
 /// Housing and ring, with the case's damping.
-fn system(case: &Case, stage: &CondensedStage) -> Result<ReducedSystem, StageError> {
-    let element = &stage.condensed.superelement;
+fn system(case: &Case, housing: &FrfHousing) -> Result<ReducedSystem, StageError> {
+    let element = housing.element();
     let with_ring = |own: &DenseMatrix, ring: Option<&DenseMatrix>| {
         let mut sum = own.clone();
         if let Some(ring) = ring {
@@ -262,7 +273,7 @@ fn system(case: &Case, stage: &CondensedStage) -> Result<ReducedSystem, StageErr
         }
         sum
     };
-    let attached = stage.boundary.attached();
+    let attached = housing.attached();
     let k = with_ring(&element.stiffness, attached.map(|part| part.stiffness));
     let m = with_ring(&element.mass, attached.map(|part| part.mass));
     let viscous = viscous_matrix(case, &k, &m)?;

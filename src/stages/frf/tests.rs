@@ -1,8 +1,10 @@
 //! Transfer paths of a small housing: estimated errors are true, `auto` reaches its target, variants are ranked.
 
 use super::*;
-use crate::case::{Case, Source};
-use crate::stages::Unwatched;
+use crate::case::{Case, Purpose, Source};
+use crate::exchange::write_superelement_npz;
+use crate::stages::condensed::CondensedStage;
+use crate::stages::{Unwatched, superelement_record};
 
 const HOUSING: &str = "title = \"small\"\n\
     [materials.aluminium]\nyoung = 70e9\npoisson = 0.33\ndensity = 2700\n\
@@ -19,14 +21,18 @@ const HOUSING: &str = "title = \"small\"\n\
 
 const DAMPED: &str = "[damping]\nratios = [{ frequency_hz = 3000, ratio = 0.01 }, { frequency_hz = 60000, ratio = 0.01 }]\n";
 
-fn result(rest: &str, set: &[&str]) -> FrfResult {
+fn case(text: String, set: &[&str]) -> Case {
     let root = env!("CARGO_MANIFEST_DIR");
     let case = Case::from_source(Source {
         path: format!("{root}/meshes/small.toml").into(),
-        text: format!("{HOUSING}{rest}"),
+        text,
         set: set.iter().map(|key| (*key).to_owned()).collect(),
     });
-    compute_frf(&case.unwrap(), &Unwatched).unwrap()
+    case.unwrap()
+}
+
+fn result(rest: &str, set: &[&str]) -> FrfResult {
+    compute_frf(&case(format!("{HOUSING}{rest}"), set), &Unwatched).unwrap()
 }
 
 /// Several modes, zeros between them, and a band up to where the first modes that are left out begin.
@@ -42,7 +48,7 @@ fn auto_reaches_the_target_and_no_more_than_it_needs() {
         assert!(found.passes(), "{target}: {:?}", found.largest_difference());
         let (_, difference) = found.largest_difference().unwrap();
         assert!(difference <= found.target);
-        let count = found.stage.condensed.basis.count();
+        let count = found.housing.element().modal_dof();
         assert!(count > vectors, "{target}: {count} vectors");
         vectors = count;
     }
@@ -131,4 +137,62 @@ fn the_variant_with_softer_supports_transmits_less_above_its_resonance() {
     };
     assert!(level("soft").is_finite() && level("as given").is_finite());
     assert!(found.ranking[0].variants[0].mean_db <= found.ranking[0].variants[1].mean_db);
+}
+
+/// Between places on the ring a basis of given size is all that there is: the superelement of `condense` is the same.
+#[test]
+fn a_superelement_from_a_file_has_the_responses_that_it_came_with() {
+    let size = ["condense.fixed_interface_modes=12"];
+    let race = "[[sensors]]\nname = \"race\"\nring_deg = 30\ndirection = [0, 1, 0]\n";
+    let meshed = format!("{HOUSING}to = [\"race\"]\n{race}{}", accuracy("0.1"));
+    let expected = compute_frf(&case(meshed.clone(), &size), &Unwatched).unwrap();
+    assert!(expected.estimate.is_some());
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("superelement.npz");
+    let whole = case(meshed, &size);
+    let stage = CondensedStage::build(&whole, &Unwatched).unwrap().unwrap();
+    write_superelement_npz(&path, &superelement_record(&whole, &stage).unwrap()).unwrap();
+    let ring = &HOUSING[HOUSING.find("[ring]").unwrap()..HOUSING.find("tie = ").unwrap()];
+    let frf = &HOUSING[HOUSING.find("[frf]").unwrap()..];
+    let imported = format!(
+        "[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}",
+        accuracy("0.1")
+    );
+    let imported = case(imported, &[]);
+    imported.ready_for(Purpose::Frf).unwrap();
+    let found = compute_frf(&imported, &Unwatched).unwrap();
+    assert!(found.estimate.is_none() && found.compared.is_empty() && found.passes());
+    assert!(
+        found
+            .not_compared
+            .unwrap()
+            .contains("superelement from a file")
+    );
+    let both = found
+        .response
+        .receptance()
+        .iter()
+        .zip(expected.response.receptance());
+    assert_eq!(found.paths.len(), 2);
+    for (found, expected) in both {
+        for load in 0..2 {
+            let expected = expected[(0, load)];
+            // the same matrices, from a file that keeps every bit; modes are summed in the same order
+            assert!((found[(0, load)] - expected).norm() <= 1e-12 * expected.norm());
+        }
+    }
+    // a force cannot act on a mesh that is not known
+    let on_mesh = case(
+        format!(
+            "[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}",
+            accuracy("0.1")
+        ),
+        &["frf.from=[{node=1, direction=[0, 1, 0]}]"],
+    );
+    let error = compute_frf(&on_mesh, &Unwatched).unwrap_err();
+    assert!(
+        error.is_input() && error.to_string().contains("node 1"),
+        "{error}"
+    );
 }
