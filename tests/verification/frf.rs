@@ -310,7 +310,7 @@ fn auto_keeps_its_target_against_the_reference() {
                 .response
                 .frequencies_hz()
                 .iter()
-                .position(|own| own == hz);
+                .position(|own| (own - hz).abs() < 1e-9);
             let found = result.response.receptance()[place.unwrap()][path.place];
             largest = largest.max((found - expected).norm() / expected.norm());
         }
