@@ -29,19 +29,26 @@ pub(super) struct PlaceBodies<'a> {
     pub frame: RingFrame,
 }
 
+impl<'a> PlaceBodies<'a> {
+    /// Those of a condensed housing.
+    pub fn of(stage: &'a CondensedStage) -> Self {
+        let ring = stage.boundary.ring();
+        Self {
+            housing: Some(&stage.housing),
+            ring: ring.map(|(ring, _)| ring),
+            tie: ring.map(|(_, tie)| tie),
+            frame: *stage.housing.model.frame(),
+        }
+    }
+}
+
 impl Place {
     /// Where a sensor of a condensed housing is.
     ///
     /// # Errors
     /// As [`Place::new`].
     pub fn of_sensor(stage: &CondensedStage, sensor: &case::Sensor) -> Result<Self, StageError> {
-        let ring = stage.boundary.ring();
-        let bodies = PlaceBodies {
-            housing: Some(&stage.housing),
-            ring: ring.map(|(ring, _)| ring),
-            tie: ring.map(|(_, tie)| tie),
-            frame: *stage.housing.model.frame(),
-        };
+        let bodies = PlaceBodies::of(stage);
         Self::new(bodies, &sensor.name, &sensor.spot, sensor.direction)
     }
 

@@ -81,13 +81,7 @@ pub(super) fn places<'c>(
     stage: &CondensedStage,
     spots: impl Iterator<Item = Spot<'c>>,
 ) -> Result<Vec<Place>, StageError> {
-    let ring = stage.boundary.ring();
-    let bodies = PlaceBodies {
-        housing: Some(&stage.housing),
-        ring: ring.map(|(ring, _)| ring),
-        tie: ring.map(|(_, tie)| tie),
-        frame: *stage.housing.model.frame(),
-    };
+    let bodies = PlaceBodies::of(stage);
     spots
         .map(|(name, spot, direction)| Place::new(bodies, name, spot, direction))
         .collect()
