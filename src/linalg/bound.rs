@@ -75,10 +75,9 @@ impl Quality {
             .collect();
         let energy = |mode: usize| inexact * (remainders.col(mode).transpose() * steps.col(mode));
         let energies: Vec<f64> = (0..count).map(energy).collect();
-        let rounding: Vec<f64> = (0..count)
-            .map(|mode| {
-                ROUNDING * f64::EPSILON * stiffness.energy_scatter(ritz.vectors.col_as_slice(mode))
-            })
+        let scatters = stiffness.energy_scatters(x).into_iter();
+        let rounding: Vec<f64> = scatters
+            .map(|scatter| ROUNDING * f64::EPSILON * scatter)
             .collect();
         let bounds = bounds(&values, &lengths, &energies, sigma)
             .into_iter()

@@ -1,16 +1,12 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
-use super::factor::{Factor, FactorMemory};
+use super::factor::{Factor, FactorMemory, LARGEST_CONTRACTION};
 use super::numeric::Kind;
 use super::ordering::Ordering;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SparseMatrix};
 use std::sync::Arc;
-
-/// Contraction above which a matrix is refused to be solved with. Solutions, and the lowest eigenvalues, are then right to
-/// so much; frequencies, which go with the root, to half of it.
-const LARGEST_CONTRACTION: f64 = 1e-4;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
 #[derive(Debug, Clone)]
@@ -24,7 +20,7 @@ impl SparseCholesky {
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
-    /// matrix of which round-off leaves too little to solve with, or [`LinalgError::Factorisation`].
+    /// matrix of which round-off leaves not one digit to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
         if a.cols() != a.rows() || !a.is_csc() {
             return Err(LinalgError::Shape {
@@ -63,6 +59,18 @@ impl SparseCholesky {
     /// Number of rows of the factorised matrix.
     pub fn order(&self) -> usize {
         self.ordering.old.len()
+    }
+
+    /// Relative error that round-off leaves in a solution, estimated: the factor by which iterative refinement would reduce
+    /// it. The lowest eigenvalues are right to as much, frequencies to half of it.
+    pub fn contraction(&self) -> f64 {
+        self.factor.contraction
+    }
+
+    /// Row of the matrix in which round-off is felt most.
+    pub fn weakest_row(&self) -> usize {
+        let place = self.ordering.old.get(self.factor.weakest);
+        place.map_or(0, |&row| row as usize)
     }
 
     /// Order and factor, for an eigenvalue problem with the same matrix.

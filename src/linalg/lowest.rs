@@ -11,7 +11,7 @@ use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SymmetricSpectrum, pseudo_random, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, Par};
 
 /// Vectors that the Krylov space grows by.
 const BLOCK: usize = 8;
@@ -93,10 +93,10 @@ pub(super) fn largest_basis(pursued: usize) -> usize {
     krylov_size(pursued) + 2 * CORRECTED
 }
 
-/// Size of the Krylov space: smaller ones need more corrections, larger ones cost more than they save (measured on a solid
-/// of 60 000 degrees of freedom, 20 modes).
+/// Size of the Krylov space: smaller ones need more corrections, larger ones cost more than they save (measured on solids
+/// of 60 000 degrees of freedom, 20 and 41 modes).
 fn krylov_size(pursued: usize) -> usize {
-    2 * pursued + 4 * BLOCK
+    3 * pursued + 2 * BLOCK
 }
 
 impl<'p> Search<'p> {
@@ -135,6 +135,7 @@ impl<'p> Search<'p> {
         if self.basis.size() + 2 * BLOCK > self.krylov {
             self.restart(self.pursued)?;
         }
+        let before = self.basis.size();
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
         self.mass
@@ -149,38 +150,46 @@ impl<'p> Search<'p> {
             if width == 0 {
                 break;
             }
-            let products = self.basis.products();
-            let last = products.subcols(self.basis.size() - width, width);
-            first(&mut self.blocks[0], width).copy_from(last);
+            let [block, product, _] = &mut self.blocks;
+            first(block, width).copy_from(first(product, width));
         }
+        self.project(before);
         Ok(())
     }
 
-    /// Adds the first columns of the first block; the second holds their products with M.
+    /// Adds the first columns of the first block; the second holds their products with M, and in the end those of what was
+    /// added.
     fn extend(&mut self, width: usize) -> Result<usize, LinalgError> {
-        let before = self.basis.size();
         let [block, product, spare] = &mut self.blocks;
-        let added = self.basis.extend(
+        self.basis.extend(
             first(block, width),
             first(product, width),
             first(spare, width),
-        )?;
-        let new = self.basis.vectors().subcols(before, added);
-        let mut stiff = first(spare, added);
-        self.stiffness.times_into(new, stiff.rb_mut());
-        let rows = times(self.basis.vectors().transpose(), stiff.rb());
-        for column in 0..added {
-            for row in 0..before + added {
-                let value = if row < before {
-                    rows[(row, column)]
-                } else {
-                    0.5 * (rows[(row, column)] + rows[(before + column, row - before)])
-                };
-                self.projected[(row, before + column)] = value;
-                self.projected[(before + column, row)] = value;
+        )
+    }
+
+    /// Completes `V^T K V` from a vector on: many at once, so that the basis is read once for all of them. Overwrites the
+    /// last block.
+    fn project(&mut self, from: usize) {
+        let size = self.basis.size();
+        for begin in (from..size).step_by(CORRECTED) {
+            let width = CORRECTED.min(size - begin);
+            let (vectors, mut stiff) = (self.basis.vectors(), first(&mut self.blocks[2], width));
+            let new = vectors.subcols(begin, width);
+            self.stiffness.times_into(new, stiff.rb_mut());
+            let known = vectors.subcols(0, begin + width);
+            let rows = times(known.transpose(), stiff.rb());
+            for column in 0..width {
+                for row in 0..begin + width {
+                    let value = match row.checked_sub(begin) {
+                        None => rows[(row, column)],
+                        Some(new) => 0.5 * (rows[(row, column)] + rows[(begin + column, new)]),
+                    };
+                    self.projected[(row, begin + column)] = value;
+                    self.projected[(begin + column, row)] = value;
+                }
             }
         }
-        Ok(added)
     }
 
     /// Eigenvalues and combinations of the space, ascending.
@@ -290,7 +299,11 @@ impl<'p> Search<'p> {
         if open.len() > self.basis.room() {
             self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
         }
+
+        let before = self.basis.size();
         self.extend(open.len())?;
+        self.project(before);
+
         Ok(None)
     }
 
@@ -302,18 +315,15 @@ impl<'p> Search<'p> {
         let width = chosen.len();
         let mut vectors = first(vectors, width);
         let (mut heavy, mut remainders) = (first(heavy, width), first(remainders, width));
-        let combine = |to: MatMut<'_, f64>, from: MatRef<'_, f64>| {
-            matmul(
-                to,
-                Accum::Replace,
-                from,
-                combinations.as_ref(),
-                1.0,
-                Par::Seq,
-            );
-        };
-        combine(vectors.rb_mut(), self.basis.vectors());
-        combine(heavy.rb_mut(), self.basis.products());
+        matmul(
+            vectors.rb_mut(),
+            Accum::Replace,
+            self.basis.vectors(),
+            combinations.as_ref(),
+            1.0,
+            Par::Seq,
+        );
+        self.mass.times_into(vectors.rb(), heavy.rb_mut());
         self.stiffness.times_into(vectors.rb(), remainders.rb_mut());
         let mut residuals = Vec::with_capacity(chosen.len());
         for (column, &place) in chosen.iter().enumerate() {

@@ -26,8 +26,10 @@ mod lowest;
 mod metis;
 mod numeric;
 mod ordering;
+mod precision;
 mod small;
 mod sparse;
+mod substitution;
 mod symbolic;
 mod symmetric;
 

@@ -7,19 +7,20 @@
 //! 60 000 degrees of freedom).
 
 use super::LinalgError;
+use super::precision::Precision;
+use super::substitution::{Pivoting, Triangles, substitute};
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
-use faer::perm::PermRef;
 use faer::prelude::*;
 use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalIntranodeLbltRef, SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt,
+    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt,
     factorize_supernodal_numeric_intranode_lblt_scratch, factorize_supernodal_numeric_llt,
     factorize_supernodal_numeric_llt_scratch,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, Mat, MatMut, Par};
+use faer::{MatMut, Par};
 use rayon::prelude::*;
 
 /// Which factorisation.
@@ -30,32 +31,6 @@ pub(super) enum Kind {
     /// `L B L^T` with pivots of order one and two within each supernode (Bunch and Kaufman, Math. Comp. 31 (1977)
     /// 163-179).
     Indefinite,
-}
-
-/// A precision in which a factor is computed and kept.
-pub(super) trait Precision: faer::traits::RealField + Copy {
-    /// The nearest value.
-    fn rounded(value: f64) -> Self;
-    /// The value in double precision.
-    fn exact(self) -> f64;
-}
-
-impl Precision for f32 {
-    fn rounded(value: f64) -> Self {
-        value as f32
-    }
-    fn exact(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Precision for f64 {
-    fn rounded(value: f64) -> Self {
-        value
-    }
-    fn exact(self) -> f64 {
-        self
-    }
 }
 
 /// Block-diagonal part of `L B L^T` off the diagonal, and the order of the pivots within the supernodes.
@@ -176,6 +151,20 @@ impl<T: Precision> NumericFactor<T> {
         })
     }
 
+    /// The same with every entry rounded to another precision.
+    pub fn rounded<S: Precision>(&self) -> NumericFactor<S> {
+        let round = |values: &[T]| values.iter().map(|&v| S::rounded(v.exact())).collect();
+        NumericFactor {
+            values: round(&self.values),
+            scale: self.scale.clone(),
+            pivots: self.pivots.as_ref().map(|pivots| Pivots {
+                below_diagonal: round(&pivots.below_diagonal),
+                old: pivots.old.clone(),
+                new: pivots.new.clone(),
+            }),
+        }
+    }
+
     /// The memory of its entries, for another factor.
     pub fn into_memory(self) -> Vec<T> {
         self.values
@@ -196,49 +185,50 @@ impl<T: Precision> NumericFactor<T> {
         }
     }
 
-    fn solve_columns(&self, symbolic: &Symbolic, mut b: MatMut<'_, f64>) {
-        let mut x = Mat::<T>::zeros(self.scale.len(), b.ncols());
-        for column in 0..b.ncols() {
-            let from = b.rb().col(column);
-            for (row, entry) in x.col_as_slice_mut(column).iter_mut().enumerate() {
-                let place = self.place(row);
-                *entry = T::rounded(self.scale[place] * from[place]);
-            }
-        }
-        self.solve_scaled(symbolic, x.as_mut());
-        for column in 0..b.ncols() {
-            let mut to = b.rb_mut().col_mut(column);
-            for (row, entry) in x.col_as_slice(column).iter().enumerate() {
-                let place = self.place(row);
-                to[place] = self.scale[place] * entry.exact();
-            }
+    fn solve_columns(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
+        // more lanes than columns are wasted, fewer load every entry more often
+        match b.ncols() {
+            ..=4 => self.solve_blocks::<4>(symbolic, b),
+            9.. if T::REGISTER == 8 => self.solve_blocks::<16>(symbolic, b),
+            _ => self.solve_blocks::<8>(symbolic, b),
         }
     }
 
-    fn solve_scaled(&self, symbolic: &Symbolic, x: MatMut<'_, T>) {
-        let (supernodes, parallelism) = (&symbolic.supernodes, Par::Seq);
-        let scratch = supernodes.solve_in_place_scratch::<T>(x.ncols(), parallelism);
-        let mut buffer = MemBuffer::new(scratch);
-        let stack = MemStack::new(&mut buffer);
-        match &self.pivots {
-            None => SupernodalLltRef::new(supernodes, &self.values).solve_in_place_with_conj(
-                Conj::No,
-                x,
-                parallelism,
-                stack,
-            ),
-            Some(pivots) => SupernodalIntranodeLbltRef::new(
-                supernodes,
-                &self.values,
-                &pivots.below_diagonal,
-                PermRef::new_checked(&pivots.old, &pivots.new, self.scale.len()),
-            )
-            .solve_in_place_no_numeric_permute_with_conj(
-                Conj::No,
-                x,
-                parallelism,
-                stack,
-            ),
+    /// The same in blocks of `L` columns, which are filled up with zeros.
+    fn solve_blocks<const L: usize>(&self, symbolic: &Symbolic, mut b: MatMut<'_, f64>) {
+        let order = self.scale.len();
+        let mut x = vec![[T::default(); L]; order * b.ncols().div_ceil(L)];
+        for (block, x) in x.chunks_exact_mut(order).enumerate() {
+            let width = L.min(b.ncols() - L * block);
+            let columns = b.rb().subcols(L * block, width);
+            for (row, lanes) in x.iter_mut().enumerate() {
+                let place = self.place(row);
+                let entries = columns.row(place).iter();
+                for (lane, entry) in lanes.iter_mut().zip(entries) {
+                    *lane = T::rounded(self.scale[place] * entry);
+                }
+            }
+        }
+        let pivoting = self.pivots.as_ref().map(|pivots| Pivoting {
+            below_diagonal: &pivots.below_diagonal,
+            places: &pivots.new,
+        });
+        let triangles = Triangles {
+            supernodes: &symbolic.supernodes,
+            values: &self.values,
+            pivoting,
+        };
+        substitute(&triangles, &mut x);
+        for (block, x) in x.chunks_exact(order).enumerate() {
+            let width = L.min(b.ncols() - L * block);
+            let mut columns = b.rb_mut().subcols_mut(L * block, width);
+            for (row, lanes) in x.iter().enumerate() {
+                let place = self.place(row);
+                let entries = columns.rb_mut().row_mut(place).iter_mut();
+                for (lane, entry) in lanes.iter().zip(entries) {
+                    *entry = self.scale[place] * lane.exact();
+                }
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::ordering::{ABSENT, Ordering};
 use super::{DenseMatrix, SparseMatrix};
 use faer::prelude::*;
 use faer::{MatMut, MatRef};
-use multiversion::multiversion;
+use multiversion::{multiversion, target::target_cfg_f};
 use rayon::prelude::*;
 use std::cell::RefCell;
 
@@ -104,6 +104,16 @@ impl SymmetricMatrix {
         sum
     }
 
+    /// Whether every entry of another matrix has a place in this one.
+    pub fn covers(&self, other: &Self) -> bool {
+        (0..self.order()).all(|column| {
+            let mut places = self.column(column);
+            other
+                .column(column)
+                .all(|(row, _)| places.any(|place| place.0 == row))
+        })
+    }
+
     /// `A X` for `X` [n x k].
     pub fn times(&self, x: MatRef<'_, f64>) -> DenseMatrix {
         let mut y = DenseMatrix::zeros(self.order(), x.ncols());
@@ -119,23 +129,30 @@ impl SymmetricMatrix {
             .for_each(|(x, y)| SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y, scratch)));
     }
 
-    /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x`: its round-off, in units of that of one
-    /// entry, when the entries' errors are independent.
-    pub fn energy_scatter(&self, x: &[f64]) -> f64 {
-        let of_column = |column: usize| -> f64 {
-            let (mut diagonal, mut below) = (0.0, 0.0);
-            for (row, value) in self.column(column) {
-                let term = (value * x[row]) * (value * x[row]);
-                if row == column {
-                    diagonal += term;
-                } else {
-                    below += term;
-                }
-            }
-            // an entry below the diagonal stands for two terms
-            (diagonal + 4.0 * below) * x[column] * x[column]
+    /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x` for every column of `X` [n x k]: its
+    /// round-off, in units of that of one entry, when the entries' errors are independent.
+    pub fn energy_scatters(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+        let squared = Self {
+            offsets: self.offsets.clone(),
+            rows: self.rows.clone(),
+            values: self.values.iter().map(|value| value * value).collect(),
         };
-        (0..self.order()).map(of_column).sum::<f64>().sqrt()
+        let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
+        let (sums, diagonal) = (squared.times(squares.as_ref()), squared.diagonal());
+        let scatter = |column: usize| -> f64 {
+            let rows = squares
+                .col_as_slice(column)
+                .iter()
+                .zip(sums.col_as_slice(column));
+            let terms = rows.zip(&diagonal);
+            // the entries a_ij and a_ji are one, with one error: their squares count four times, not twice
+            terms
+                .map(|((x, sum), diagonal)| x * (2.0 * sum - diagonal * x))
+                .sum()
+        };
+        (0..x.ncols())
+            .map(|column| scatter(column).sqrt())
+            .collect()
     }
 
     fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
@@ -187,6 +204,25 @@ fn multiply(
     lanes: &[[f64; LANES]],
     product: &mut [[f64; LANES]],
 ) {
+    // without the instruction a fused product is a call of the library
+    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
+        multiply_by(offsets, rows, values, lanes, product, f64::mul_add);
+    } else {
+        multiply_by(offsets, rows, values, lanes, product, |a, b, sum| {
+            a * b + sum
+        });
+    }
+}
+
+#[inline(always)]
+fn multiply_by(
+    offsets: &[u32],
+    rows: &[u32],
+    values: &[f64],
+    lanes: &[[f64; LANES]],
+    product: &mut [[f64; LANES]],
+    add: impl Fn(f64, f64, f64) -> f64,
+) {
     for (column, factor) in lanes.iter().enumerate() {
         let range = offsets[column] as usize..offsets[column + 1] as usize;
         let mut sum = [0.0; LANES];
@@ -194,18 +230,68 @@ fn multiply(
             let row = row as usize;
             if row == column {
                 for lane in 0..LANES {
-                    sum[lane] += value * factor[lane];
+                    sum[lane] = add(value, factor[lane], sum[lane]);
                 }
             } else {
                 let (below, other) = (&mut product[row], &lanes[row]);
                 for lane in 0..LANES {
-                    below[lane] += value * factor[lane];
-                    sum[lane] += value * other[lane];
+                    below[lane] = add(value, factor[lane], below[lane]);
+                    sum[lane] = add(value, other[lane], sum[lane]);
                 }
             }
         }
         for lane in 0..LANES {
             product[column][lane] += sum[lane];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [[2, 1, 0], [1, 3, -2], [0, -2, 0]], the last diagonal entry not stored.
+    fn sample() -> SymmetricMatrix {
+        SymmetricMatrix {
+            offsets: vec![0, 2, 4, 4],
+            rows: vec![0, 1, 1, 2],
+            values: vec![2.0, 1.0, 3.0, -2.0],
+        }
+    }
+
+    #[test]
+    fn terms_scatter_as_their_squares() {
+        let x = DenseMatrix::from_fn(3, 2, |row, column| {
+            [[1.0, 2.0, 3.0], [0.0, 1.0, 0.5]][column][row]
+        });
+        let found = sample().energy_scatters(x.as_ref());
+        // terms 2, 12 on the diagonal, 2 * 2 and 2 * 12 beside it; then 3 and 2 * 1
+        let expected = [(4.0 + 144.0 + 16.0 + 576.0_f64).sqrt(), 13.0_f64.sqrt()];
+        for (found, expected) in found.iter().zip(expected) {
+            // round-off of a few sums
+            assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_pattern_covers_its_parts() {
+        let whole = sample();
+        let part = SymmetricMatrix {
+            offsets: vec![0, 1, 2, 2],
+            rows: vec![1, 1],
+            values: vec![1.0, 1.0],
+        };
+        let other = SymmetricMatrix {
+            offsets: vec![0, 0, 0, 1],
+            rows: vec![2],
+            values: vec![1.0],
+        };
+        let corner = SymmetricMatrix {
+            offsets: vec![0, 1, 1, 1],
+            rows: vec![0],
+            values: vec![1.0],
+        };
+        assert!(whole.covers(&whole) && whole.covers(&part) && whole.covers(&corner));
+        assert!(!part.covers(&corner) && !whole.covers(&other));
     }
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::linalg::{SymmetricSpectrum, TripletBuilder, symmetric_generalised_eigen};
 use crate::reduction::BasisSize;
-use crate::reduction::samples::{partition, rod};
+use crate::reduction::samples::{every_third, partition, rod};
 use crate::reduction::substructure::dense;
 use std::f64::consts::TAU;
 
@@ -31,6 +31,33 @@ fn all_modes_kept_is_the_full_model() {
         let error = (found.values[mode] - full.values[mode]).abs();
         assert!(error < 1e-11, "{mode}: {error:e}");
     }
+}
+
+/// m_bb is put together in blocks, half of it by symmetry: here of three blocks.
+#[test]
+fn the_mass_of_a_long_interface_is_that_of_its_motions() {
+    let nodes = 240;
+    let mut rod = rod(nodes);
+    let mut coupled = TripletBuilder::new(nodes, nodes);
+    for node in 1..nodes {
+        coupled.add(node, node - 1, 0.2);
+        coupled.add(node - 1, node, 0.2);
+    }
+    rod.mass = &rod.mass + &coupled.build();
+    let partition = every_third(nodes);
+    let substructure = Substructure::new(&rod, &partition).expect("connected");
+    let order = substructure.interface_dof();
+    assert!(order > 64);
+    let mut motions = DenseMatrix::zeros(nodes, order);
+    for column in 0..order {
+        motions[(partition.driven[column], column)] = 1.0;
+        for (row, &node) in partition.interior.iter().enumerate() {
+            motions[(node, column)] = substructure.constraint_modes()[(row, column)];
+        }
+    }
+    let expected = motions.transpose() * dense(&rod.mass) * &motions;
+    // round-off of masses of order one
+    assert!((substructure.mass() - expected).norm_max() < 1e-14);
 }
 
 #[test]

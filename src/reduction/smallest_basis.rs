@@ -82,11 +82,13 @@ fn smallest_size(
     target: f64,
     enhanced: bool,
 ) -> Option<(usize, Vec<usize>)> {
+    let quasi_static = largest.quasi_static();
     let too_large = |count: usize| -> Vec<usize> {
         let modes = estimate.modes.iter().enumerate();
         modes
             .filter(|(place, mode)| {
-                mode.relative_error > 0.0
+                // the error of a mode that moves may be zero now and grow
+                spectrum.values[*place] > quasi_static
                     && mode.relative_error + growth(largest, spectrum, *place, count) > target
             })
             .map(|(place, _)| place)

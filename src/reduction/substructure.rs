@@ -21,7 +21,11 @@ use crate::model::HousingPartition;
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
 /// modes.
-const BLOCK: usize = 64;
+const BLOCK: usize = 32;
+
+/// Relative error of static solutions above which an interior is refused: fixed-interface eigenvalues are right to as much,
+/// their frequencies to half of it.
+const LARGEST_CONTRACTION: f64 = 1e-4;
 
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
@@ -56,24 +60,25 @@ impl Substructure {
         }
         let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
         let dof = |row: usize| i.get(row).copied().unwrap_or(0);
+        let soft = |row, contraction| ReductionError::SoftInterior {
+            dof: dof(row),
+            error: contraction,
+            limit: LARGEST_CONTRACTION,
+        };
         let floating = |error| match error {
             LinalgError::NotPositiveDefinite { pivot, .. } => ReductionError::FloatingInterior {
                 interior: i.len(),
                 dof: dof(pivot),
             },
             LinalgError::IllConditioned {
-                row,
-                contraction,
-                limit,
-                ..
-            } => ReductionError::SoftInterior {
-                dof: dof(row),
-                error: contraction,
-                limit,
-            },
+                row, contraction, ..
+            } => soft(row, contraction),
             other => other.into(),
         };
         let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
+        if factor.contraction() > LARGEST_CONTRACTION {
+            return Err(soft(factor.weakest_row(), factor.contraction()));
+        }
         let interior = EigenProblem::with_factor(&k_ii, &m_ii, &factor)?;
         drop((k_ii, m_ii));
         let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
@@ -106,14 +111,14 @@ impl Substructure {
             }
             let k = transpose_times_dense(stiffness_ib, &modes);
             add_block(&mut self.stiffness, first, &k);
-            let m = transpose_times_dense(&self.mass_ib, &modes);
+            let mut follow = self.mass_times(&modes);
+            add_columns(&mut follow, &self.mass_ib, first);
+            // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
+            let known = self.constraint_modes.subcols(0, first + width);
+            let mut m = known.transpose() * &follow;
+            m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
             add_block(&mut self.mass, first, &m);
-        }
-        for first in (0..order).step_by(BLOCK) {
-            let width = BLOCK.min(order - first);
-            let follow = self.follow_block(first, width);
-            let m = self.constraint_modes.transpose() * &follow;
-            add_block(&mut self.mass, first, &m);
+            add_mirrored(&mut self.mass, first, &m);
         }
         symmetrise(&mut self.stiffness);
         symmetrise(&mut self.mass);
@@ -196,11 +201,6 @@ impl Substructure {
     pub fn modes_below(&self, value: f64) -> Result<EigenPairs, ReductionError> {
         Ok(self.interior.below(value)?)
     }
-
-    fn follow_block(&self, first: usize, width: usize) -> DenseMatrix {
-        let modes = self.constraint_modes.subcols(first, width).to_owned();
-        self.mass_times(&modes) + columns_of(&self.mass_ib, first, width)
-    }
 }
 
 /// A sparse matrix with all its zeros.
@@ -211,20 +211,34 @@ pub(super) fn dense(sparse: &SparseMatrix) -> DenseMatrix {
 /// Some columns of a sparse matrix with all their zeros.
 fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
     let mut full = DenseMatrix::zeros(sparse.rows(), width);
-    for column in 0..width {
+    add_columns(&mut full, sparse, first);
+    full
+}
+
+/// Adds columns of a sparse matrix from `first` on.
+fn add_columns(to: &mut DenseMatrix, sparse: &SparseMatrix, first: usize) {
+    for column in 0..to.ncols() {
         if let Some(entries) = sparse.outer_view(first + column) {
             for (row, &value) in entries.iter() {
-                full[(row, column)] = value;
+                to[(row, column)] += value;
             }
         }
     }
-    full
 }
 
 fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
     for column in 0..block.ncols() {
         for row in 0..block.nrows() {
             matrix[(row, first + column)] += block[(row, column)];
+        }
+    }
+}
+
+/// Adds the rows of a block of columns above its diagonal block as columns.
+fn add_mirrored(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
+    for column in 0..block.ncols() {
+        for row in 0..first {
+            matrix[(first + column, row)] += block[(row, column)];
         }
     }
 }

@@ -33,7 +33,8 @@ impl EigenProblem {
     /// Factor of K, or of K less a shift below zero if K is not positive definite.
     pub(super) fn definite_factor(&self) -> Result<(f64, Arc<Factor>), LinalgError> {
         if let Some(factor) = self.factor.as_ref().filter(|factor| factor.is_sharp()) {
-            return Ok((0.0, Arc::clone(factor)));
+            let light = factor.lightened(&self.stiffness).map(Arc::new);
+            return Ok((0.0, light.unwrap_or_else(|| Arc::clone(factor))));
         }
         let attempt = |sigma: f64| -> Result<(f64, Arc<Factor>), LinalgError> {
             let shifted = self.stiffness.shifted(sigma, &self.mass);

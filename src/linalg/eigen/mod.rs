@@ -105,7 +105,11 @@ impl EigenProblem {
         let (ordering, factor) = factor.shared();
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
-        let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
+        let symbolic = if stiffness.covers(&mass) {
+            Arc::clone(factor.symbolic())
+        } else {
+            Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?)
+        };
         Ok(Self {
             ordering,
             stiffness,
