@@ -1,27 +1,23 @@
 //! The cage: where the balls are when the shaft has turned.
 //!
 //! ```text
-//! ω_c = (ω_s / 2)(1 − D_b / D_p)(1 − s)        θ_j = θ_0 + (ω_c / ω_s) θ_s + 2 π j / N_b
+//! ω_c = (ω_s / 2)(1 − D_b / D_p)(1 − s)        θ_j = θ_0 + ∫ ω_c dt + 2 π j / N_b
 //! ```
 //!
-//! Slip `s` is constant here: 0 is pure rolling, 1 a cage at rest (the paper's assumptions 4 and 5).
+//! Speed and slip are piecewise linear in time, their product is quadratic, and the cage's angle is integrated exactly.
 
 use std::f64::consts::TAU;
 
 use thiserror::Error;
 
 use super::geometry::BearingGeometry;
-use crate::bearing::speed::ShaftMotion;
+use super::rotation::{Rotation, RotationCursor, RotationState, SpeedPiece};
+use super::slip::SlipProfile;
+use super::speed::SpeedProfile;
 
 /// Why a cage cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CageError {
-    /// Slip outside its range.
-    #[error("slip = {slip} must be 0 (pure rolling) to 1 (cage at rest)")]
-    Slip {
-        /// Slip that was given.
-        slip: f64,
-    },
     /// The first ball's angle is not a number.
     #[error("first ball angle {angle} rad must be finite")]
     FirstBall {
@@ -30,45 +26,85 @@ pub enum CageError {
     },
 }
 
-/// A rigid cage that carries the balls at equal angles, geared to the shaft.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A rigid cage that carries the balls at equal angles, driven by the shaft.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cage {
-    ratio: f64,
-    first_ball_angle: f64,
+    /// Cage turns per shaft turn without slip.
+    rolling_ratio: f64,
+    shaft: SpeedProfile,
+    slip: SlipProfile,
     spacing: f64,
+    /// Of ball 0.
+    rotation: Rotation,
 }
 
 impl Cage {
-    /// Cage of `bearing` with constant `slip` (0 to 1) whose ball 0 is at `first_ball_angle` (rad, from x,
-    /// counter-clockwise) when the shaft's angle is zero.
+    /// Cage of `bearing` under a `shaft` of that speed, with `slip`; ball 0 is at `first_ball_angle` (rad, from x,
+    /// counter-clockwise) at time zero.
     ///
     /// # Errors
     /// [`CageError`] names the value out of range.
     pub fn new(
         bearing: &BearingGeometry,
-        slip: f64,
+        shaft: SpeedProfile,
+        slip: SlipProfile,
         first_ball_angle: f64,
     ) -> Result<Self, CageError> {
-        if !(0.0..=1.0).contains(&slip) {
-            return Err(CageError::Slip { slip });
-        }
         if !first_ball_angle.is_finite() {
             return Err(CageError::FirstBall {
                 angle: first_ball_angle,
             });
         }
+        let rolling_ratio = bearing.orders().cage;
+        let times = slip.knot_times(&shaft);
+        let piece = |place: usize| {
+            let time = times.get(place).copied().unwrap_or(0.0);
+            let driving = shaft.motion(time);
+            let start = slip.at(time, driving.speed);
+            let slope = times.get(place + 1).map_or(0.0, |&next| {
+                let end = slip.at(next, shaft.speed(next));
+                (end - start) / (next - time)
+            });
+            SpeedPiece {
+                time,
+                speed: rolling_ratio * driving.speed * (1.0 - start),
+                acceleration: rolling_ratio
+                    * (driving.acceleration * (1.0 - start) - driving.speed * slope),
+                jerk: -2.0 * rolling_ratio * driving.acceleration * slope,
+            }
+        };
+        let rest: Vec<SpeedPiece> = (1..times.len()).map(piece).collect();
         Ok(Self {
-            ratio: bearing.orders().cage * (1.0 - slip),
-            first_ball_angle,
+            rolling_ratio,
             spacing: TAU / f64::from(bearing.balls()),
+            rotation: Rotation::new(piece(0), &rest, first_ball_angle),
+            shaft,
+            slip,
         })
     }
 
-    /// Cage turns per shaft turn, 0 to 1/2.
+    /// Speed of the shaft that drives it.
     #[must_use]
-    #[inline]
-    pub fn ratio(&self) -> f64 {
-        self.ratio
+    pub fn shaft(&self) -> &SpeedProfile {
+        &self.shaft
+    }
+
+    /// Slip of the cage.
+    #[must_use]
+    pub fn slip(&self) -> &SlipProfile {
+        &self.slip
+    }
+
+    /// Cage turns per shaft turn between two times (s); without slip where the shaft does not turn.
+    #[must_use]
+    pub fn ratio_between(&self, from: f64, to: f64) -> f64 {
+        let shaft = self.shaft.angle(to) - self.shaft.angle(from);
+        let ratio = (self.rotation.at(to).angle - self.rotation.at(from).angle) / shaft;
+        if ratio.is_finite() {
+            ratio
+        } else {
+            self.rolling_ratio
+        }
     }
 
     /// Angle between neighbouring balls, rad.
@@ -78,15 +114,18 @@ impl Cage {
         self.spacing
     }
 
-    /// Cage motion that belongs to a shaft motion; the angle is that of ball 0 (not reduced to one turn).
+    /// Motion at `time` (s); the angle is that of ball 0 (not reduced to one turn).
     #[must_use]
     #[inline]
-    pub fn motion(&self, shaft: ShaftMotion) -> ShaftMotion {
-        ShaftMotion {
-            angle: self.first_ball_angle + self.ratio * shaft.angle,
-            speed: self.ratio * shaft.speed,
-            acceleration: self.ratio * shaft.acceleration,
-        }
+    pub fn motion(&self, time: f64) -> RotationState {
+        self.rotation.at(time)
+    }
+
+    /// The same, searching from where `cursor` was left.
+    #[must_use]
+    #[inline]
+    pub fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+        self.rotation.at_from(cursor, time)
     }
 
     /// Angle of `ball` (counted counter-clockwise from ball 0), rad, not reduced, from the cage angle.
@@ -100,46 +139,103 @@ impl Cage {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::SpeedKnot;
     use crate::bearing::samples::source_bearing;
     use approx::assert_relative_eq;
 
-    const SHAFT: ShaftMotion = ShaftMotion {
-        angle: 10.0,
-        speed: -4.0,
-        acceleration: 2.0,
-    };
+    const RATIO: f64 = 0.5 * (1.0 - 2e-3 / 7.5105e-3);
+
+    /// Up, past standstill to the other side, and constant.
+    fn varied() -> SpeedProfile {
+        let knots = [(-0.5, 0.0), (0.5, 30.0), (1.5, -20.0), (2.0, -20.0)];
+        let knots = knots.map(|(time, frequency_hz)| SpeedKnot { time, frequency_hz });
+        SpeedProfile::new(&knots).unwrap()
+    }
 
     #[test]
     fn pure_rolling_follows_the_cage_order() {
-        let cage = Cage::new(&source_bearing(), 0.0, 1.0).unwrap();
-        let ratio = 0.5 * (1.0 - 2e-3 / 7.5105e-3);
-        let motion = cage.motion(SHAFT);
-        assert_relative_eq!(motion.angle, 1.0 + 10.0 * ratio, max_relative = 1e-14);
-        assert_relative_eq!(motion.speed, -4.0 * ratio, max_relative = 1e-14);
-        assert_relative_eq!(motion.acceleration, 2.0 * ratio, max_relative = 1e-14);
+        let speed = varied();
+        let slip = SlipProfile::constant(0.0).unwrap();
+        let cage = Cage::new(&source_bearing(), speed.clone(), slip, 1.0).unwrap();
+        for time in [-2.0, -0.1, 0.0, 0.7, 1.4, 3.0] {
+            let (motion, shaft) = (cage.motion(time), speed.motion(time));
+            assert_relative_eq!(
+                motion.angle,
+                1.0 + RATIO * shaft.angle,
+                max_relative = 1e-13
+            );
+            assert_relative_eq!(motion.speed, RATIO * shaft.speed, epsilon = 1e-12);
+            assert_relative_eq!(
+                motion.acceleration,
+                RATIO * shaft.acceleration,
+                epsilon = 1e-12
+            );
+        }
         assert_relative_eq!(cage.ball_angle(0.5, 7), 0.5 + TAU, max_relative = 1e-14);
     }
 
+    /// The angle against Gauss integration of the speed, piece by piece between all knots; the speed against its definition.
     #[test]
-    fn slip_slows_the_cage_in_proportion() {
-        let rolling = Cage::new(&source_bearing(), 0.0, 0.0).unwrap();
-        let slipping = Cage::new(&source_bearing(), 0.25, 0.0).unwrap();
-        assert_relative_eq!(
-            slipping.ratio(),
-            0.75 * rolling.ratio(),
-            max_relative = 1e-15
-        );
+    fn slip_over_time_and_over_speed_is_integrated_exactly() {
+        let speed = varied();
+        for slip in [
+            SlipProfile::constant(0.25).unwrap(),
+            SlipProfile::over_time(&[(0.0, 0.3), (0.9, 0.0), (1.1, 0.2)]).unwrap(),
+            SlipProfile::over_speed(&[(5.0, 0.5), (12.0, 0.1), (25.0, 0.0)]).unwrap(),
+        ] {
+            let cage = Cage::new(&source_bearing(), speed.clone(), slip.clone(), -0.4).unwrap();
+            let defined = |time: f64| {
+                let shaft = speed.speed(time);
+                RATIO * shaft * (1.0 - slip.at(time, shaft))
+            };
+            let mut angle = -0.4;
+            let mut from = 0.0;
+            let mut knots = slip.knot_times(&speed);
+            knots.push(2.5);
+            for &to in knots.iter().filter(|&&time| time > 0.0) {
+                // two points are exact for cubics, the speed is a square
+                let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+                let node = half / 3.0_f64.sqrt();
+                angle += half * (defined(middle - node) + defined(middle + node));
+                assert_relative_eq!(cage.motion(to).angle, angle, max_relative = 1e-12);
+                assert_relative_eq!(
+                    cage.motion(middle).speed,
+                    defined(middle),
+                    max_relative = 1e-11
+                );
+                let step = 1e-4 * half;
+                let rate = (defined(middle + step) - defined(middle - step)) / (2.0 * step);
+                // a difference over 1e-4 of the piece
+                assert_relative_eq!(
+                    cage.motion(middle).acceleration,
+                    rate,
+                    epsilon = 1e-7 * rate.abs().max(1.0)
+                );
+                from = to;
+            }
+            assert_relative_eq!(cage.motion(0.0).angle, -0.4, epsilon = 1e-14);
+        }
     }
 
     #[test]
-    fn values_out_of_range_are_refused() {
-        let error = Cage::new(&source_bearing(), -0.1, 0.0).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "slip = -0.1 must be 0 (pure rolling) to 1 (cage at rest)"
+    fn the_mean_ratio_counts_slip() {
+        let speed = SpeedProfile::constant(20.0).unwrap();
+        let slip = SlipProfile::over_time(&[(0.0, 0.0), (1.0, 0.2)]).unwrap();
+        let cage = Cage::new(&source_bearing(), speed, slip.clone(), 0.0).unwrap();
+        assert_relative_eq!(
+            cage.ratio_between(0.0, 1.0),
+            0.9 * RATIO,
+            max_relative = 1e-13
         );
-        assert!(Cage::new(&source_bearing(), f64::NAN, 0.0).is_err());
-        let error = Cage::new(&source_bearing(), 0.0, f64::INFINITY).unwrap_err();
+        let still = SpeedProfile::constant(0.0).unwrap();
+        let cage = Cage::new(&source_bearing(), still, slip, 0.0).unwrap();
+        assert_relative_eq!(cage.ratio_between(0.0, 1.0), RATIO);
+    }
+
+    #[test]
+    fn a_first_ball_nowhere_is_refused() {
+        let (speed, slip) = (varied(), SlipProfile::constant(0.0).unwrap());
+        let error = Cage::new(&source_bearing(), speed, slip, f64::INFINITY).unwrap_err();
         assert_eq!(error.to_string(), "first ball angle inf rad must be finite");
     }
 }

@@ -240,6 +240,19 @@ impl BearingGeometry {
         0.5 * self.dimensions.outer_groove_radius / self.dimensions.ball_radius
     }
 
+    /// Contact angle that an axial load sets without other forces, rad; `None` for a preloaded bearing.
+    ///
+    /// `cos α = 1 − c / ((f_i + f_o − 1) D_b)` with c the radial play (T. A. Harris, *Rolling Bearing Analysis*, 4th
+    /// edition, section 2.2). The model of this crate is loaded radially: its own contact angle is zero.
+    #[must_use]
+    pub fn free_contact_angle(&self) -> Option<f64> {
+        let between_centres = (self.inner_conformity() + self.outer_conformity() - 1.0)
+            * 2.0
+            * self.dimensions.ball_radius;
+        let cosine = 1.0 - self.radial_play / between_centres;
+        (self.radial_play >= 0.0 && cosine >= 0.0).then(|| cosine.acos())
+    }
+
     /// Defect orders for pure rolling, per shaft turn.
     #[must_use]
     pub fn orders(&self) -> DefectOrders {

@@ -21,6 +21,15 @@ fn derived_numbers_of_the_source_bearing() {
     assert_relative_eq!(bearing.orders().ball_defect, 3.489, epsilon = 5e-4);
 }
 
+/// A = (0.52 + 0.535 - 1) 2 mm = 0.11 mm between the groove centres, 2.5 um of play: cos a = 1 - 2.5 / 110.
+#[test]
+fn an_axial_load_sets_the_free_contact_angle() {
+    let angle = source_bearing().free_contact_angle().unwrap();
+    assert_relative_eq!(angle.to_degrees(), 12.2388, epsilon = 1e-4);
+    let tight = source_bearing().with_radial_play(-1e-6).unwrap();
+    assert!(tight.free_contact_angle().is_none());
+}
+
 #[test]
 fn given_play_moves_the_inner_race_alone() {
     let nominal = source_bearing();

@@ -1,21 +1,23 @@
 //! The ball bearing by itself: geometry, contact, kinematics and dents. Knows nothing of finite elements.
 //!
 //! [`BearingGeometry`] -> [`ContactStiffness`] (Hertz, or given) -> force law [`contact`];
-//! [`SpeedProfile`] -> shaft angle -> [`Cage`] -> ball angles; [`dent::OuterDent`] takes the place
+//! [`SpeedProfile`] and [`SlipProfile`] -> [`Cage`] -> ball angles; [`dent::OuterDent`] takes the place
 //! of the outer race where a ball meets a dent.
 //!
 //! Frames: x right, y up, angles counter-clockwise from x, radians. A penetration δ is positive
 //! when ball and race overlap. SI throughout.
 //!
 //! # Limitations
-//! Radial bearing in its own plane (contact angle zero); dents on the outer race only; constant
-//! cage slip; no lubricant film.
+//! Radial bearing in its own plane (contact angle zero); dents on the outer race only; no
+//! lubricant film.
 
 pub mod cage;
 pub mod contact;
 pub mod dent;
 pub mod geometry;
 pub mod materials;
+pub mod rotation;
+pub mod slip;
 pub mod speed;
 
 #[cfg(test)]
@@ -25,4 +27,6 @@ pub use cage::{Cage, CageError};
 pub use contact::{ContactForce, HertzContact};
 pub use geometry::{BearingDimensions, BearingGeometry, GeometryError};
 pub use materials::{ContactMaterial, ContactStiffness, Race, RaceContacts, StiffnessError};
-pub use speed::{ShaftMotion, SpeedCursor, SpeedError, SpeedKnot, SpeedProfile};
+pub use rotation::{RotationCursor, RotationState};
+pub use slip::{SlipError, SlipProfile};
+pub use speed::{SpeedError, SpeedKnot, SpeedProfile};

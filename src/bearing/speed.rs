@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
+use super::rotation::{Rotation, RotationCursor, RotationState, SpeedPiece};
+
 /// Why a speed table is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SpeedError {
@@ -52,52 +54,10 @@ pub struct SpeedKnot {
     pub frequency_hz: f64,
 }
 
-/// Angle and its derivatives at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ShaftMotion {
-    /// Angle, rad, not reduced to one turn.
-    pub angle: f64,
-    /// Angular speed, rad/s.
-    pub speed: f64,
-    /// Angular acceleration, rad/s².
-    pub acceleration: f64,
-}
-
-/// Remembers the interval of the last call: successive times cost no search.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct SpeedCursor {
-    interval: usize,
-}
-
-/// Interval that starts at `time` and holds up to the next one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Interval {
-    time: f64,
-    angle: f64,
-    speed: f64,
-    acceleration: f64,
-}
-
-impl Interval {
-    #[inline]
-    fn motion(&self, time: f64) -> ShaftMotion {
-        let dt = time - self.time;
-        let speed = self.speed + self.acceleration * dt;
-        ShaftMotion {
-            angle: self.angle + 0.5 * dt * (self.speed + speed),
-            speed,
-            acceleration: self.acceleration,
-        }
-    }
-}
-
 /// Piecewise linear speed over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
-    /// Constant speed before the first knot; its reference time is the first knot's.
-    before: Interval,
-    /// One interval a knot; the last goes on for ever at constant speed.
-    intervals: Vec<Interval>,
+    rotation: Rotation,
 }
 
 impl SpeedProfile {
@@ -124,37 +84,22 @@ impl SpeedProfile {
                 });
             }
         }
-        let mut angle = 0.0;
-        let mut intervals = Vec::with_capacity(knots.len());
-        for (row, knot) in knots.iter().enumerate() {
-            let speed = TAU * knot.frequency_hz;
-            let mut interval = Interval {
+        let piece = |row: usize, knot: &SpeedKnot| {
+            let rise = knots.get(row + 1).map_or(0.0, |next| {
+                (next.frequency_hz - knot.frequency_hz) / (next.time - knot.time)
+            });
+            SpeedPiece {
                 time: knot.time,
-                angle,
-                speed,
-                acceleration: 0.0,
-            };
-            if let Some(next) = knots.get(row + 1) {
-                let duration = next.time - knot.time;
-                let next_speed = TAU * next.frequency_hz;
-                interval.acceleration = (next_speed - speed) / duration;
-                angle += 0.5 * duration * (speed + next_speed);
+                speed: TAU * knot.frequency_hz,
+                acceleration: TAU * rise,
+                jerk: 0.0,
             }
-            intervals.push(interval);
-        }
-        let before = Interval {
-            time: first.time,
-            angle: 0.0,
-            speed: TAU * first.frequency_hz,
-            acceleration: 0.0,
         };
-        let mut profile = Self { before, intervals };
-        let at_zero = profile.angle(0.0);
-        profile.before.angle -= at_zero;
-        for interval in &mut profile.intervals {
-            interval.angle -= at_zero;
-        }
-        Ok(profile)
+        let rest = knots.iter().enumerate().skip(1);
+        let rest: Vec<SpeedPiece> = rest.map(|(row, knot)| piece(row, knot)).collect();
+        Ok(Self {
+            rotation: Rotation::new(piece(0, first), &rest, 0.0),
+        })
     }
 
     /// Constant speed (Hz).
@@ -170,7 +115,7 @@ impl SpeedProfile {
 
     /// Times (s) at which the acceleration jumps.
     pub fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
-        self.intervals.iter().map(|interval| interval.time)
+        self.rotation.knot_times()
     }
 
     /// Angular speed at `time` (s), rad/s.
@@ -187,7 +132,7 @@ impl SpeedProfile {
         self.motion(time).acceleration
     }
 
-    /// Angle turned since t = 0 at `time` (s), rad.
+    /// Angle at `time` (s), rad, zero at time zero.
     #[must_use]
     #[inline]
     pub fn angle(&self, time: f64) -> f64 {
@@ -197,37 +142,15 @@ impl SpeedProfile {
     /// All three at `time` (s); O(log n).
     #[must_use]
     #[inline]
-    pub fn motion(&self, time: f64) -> ShaftMotion {
-        let started = self
-            .intervals
-            .partition_point(|interval| interval.time <= time);
-        self.interval(started).motion(time)
+    pub fn motion(&self, time: f64) -> RotationState {
+        self.rotation.at(time)
     }
 
-    /// All three at `time` (s), searching from where `cursor` was left: constant cost for times
-    /// that move in small steps, either way.
+    /// All three at `time` (s), searching from where `cursor` was left.
     #[must_use]
     #[inline]
-    pub fn motion_from(&self, cursor: &mut SpeedCursor, time: f64) -> ShaftMotion {
-        let mut started = cursor.interval.min(self.intervals.len());
-        while started < self.intervals.len() && self.intervals[started].time <= time {
-            started += 1;
-        }
-        while started > 0 && self.intervals[started - 1].time > time {
-            started -= 1;
-        }
-        cursor.interval = started;
-        self.interval(started).motion(time)
-    }
-
-    /// The interval in force once `started` knots have passed.
-    #[inline]
-    fn interval(&self, started: usize) -> &Interval {
-        if started == 0 {
-            &self.before
-        } else {
-            &self.intervals[started - 1]
-        }
+    pub fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+        self.rotation.at_from(cursor, time)
     }
 }
 

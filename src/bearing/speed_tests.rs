@@ -80,7 +80,7 @@ proptest! {
     #[test]
     fn cursor_agrees_with_search(times in proptest::collection::vec(-2.0..4.0_f64, 1..40)) {
         let profile = varied();
-        let mut cursor = SpeedCursor::default();
+        let mut cursor = RotationCursor::default();
         for time in times.into_iter().chain([-0.5, 0.7, 2.001, 2.0]) {
             prop_assert_eq!(profile.motion_from(&mut cursor, time), profile.motion(time));
         }
@@ -89,7 +89,7 @@ proptest! {
 
 #[test]
 fn cursor_of_another_profile_is_harmless() {
-    let mut cursor = SpeedCursor::default();
+    let mut cursor = RotationCursor::default();
     let _ = varied().motion_from(&mut cursor, 10.0);
     let short = SpeedProfile::constant(1.0).unwrap();
     assert_eq!(short.motion_from(&mut cursor, 1.0), short.motion(1.0));

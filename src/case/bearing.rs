@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::defect::Defect;
+use super::slip::Slip;
 use super::union::{Loose, Mismatch, written_as};
 
 /// A deep-groove ball bearing, its outer ring fixed to the housing. Lengths in m.
@@ -51,9 +52,9 @@ pub struct Bearing {
     /// Angle of the first ball at t = 0 and for linearisation, in degrees; 270 puts a ball under the load.
     #[serde(default = "under_the_load")]
     pub first_ball_deg: f64,
-    /// Share of the cage's rolling speed that is lost by slip, >= 0 and < 1; 0: pure rolling.
+    /// Share of the cage's rolling speed that is lost by slip; 0: pure rolling.
     #[serde(default)]
-    pub slip: f64,
+    pub slip: Slip,
     /// Localised defects; may be empty.
     #[serde(default)]
     pub defects: Vec<Defect>,

@@ -39,6 +39,7 @@ mod path;
 mod ring;
 mod sensor;
 mod set;
+mod slip;
 #[cfg(test)]
 mod tests;
 mod transient;
@@ -67,13 +68,14 @@ pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
 pub use mode_checks::{ComparedModes, ConvergenceMeshes};
 pub use modes::{Expected, Linearise, ModeExtent, Modes, Variant};
-pub use motion::{Damping, Load, RatioAt, Shaft, Speed, SpeedPoint};
+pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed, SpeedPoint};
 pub use nearest::Choices;
 pub use ring::{
     Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
 };
 pub use sensor::{Sensor, SensorSpot};
 pub use set::SetProblem;
+pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
 pub use transient::{Accuracy, Analysis, Method, ModesKept, StepLength, Transient, Window};
 
 /// One case: everything that a command computes from, but the mesh.

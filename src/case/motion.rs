@@ -16,7 +16,7 @@ pub struct Shaft {
     /// Gravity along x and y in m/s^2.
     #[serde(default = "downwards")]
     pub gravity: [f64; 2],
-    /// Constant forces on the shaft; may be empty.
+    /// Forces on the shaft, added up; may be empty.
     #[serde(default)]
     pub loads: Vec<Load>,
 }
@@ -25,12 +25,58 @@ fn downwards() -> [f64; 2] {
     [0.0, -9.81]
 }
 
-/// A constant force.
+/// A force.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Load {
+    /// Always the same, along x and y in N.
+    Constant([f64; 2]),
+    /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
+    Profile(Vec<LoadPoint>),
+}
+
+/// A force at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Load {
+pub struct LoadPoint {
+    /// In s.
+    pub time: f64,
     /// Along x and y in N.
     pub force: [f64; 2],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LoadForm {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    force: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    profile: Option<Vec<LoadPoint>>,
+}
+
+written_as!(Load, LoadForm);
+
+impl TryFrom<LoadForm> for Load {
+    type Error = Mismatch;
+
+    fn try_from(form: LoadForm) -> Result<Self, Mismatch> {
+        const ONE: &str = "`force` = [x, y], or `profile` = [{ time, force }, ...]";
+        match (form.force, form.profile) {
+            (Some(force), None) => Ok(Self::Constant(force)),
+            (None, Some(points)) => Ok(Self::Profile(points)),
+            (None, None) => Err(Mismatch::form("neither", ONE)),
+            (Some(_), Some(_)) => Err(Mismatch::form("both", ONE)),
+        }
+    }
+}
+
+impl From<Load> for LoadForm {
+    fn from(load: Load) -> Self {
+        let (force, profile) = match load {
+            Load::Constant(force) => (Some(force), None),
+            Load::Profile(points) => (None, Some(points)),
+        };
+        Self { force, profile }
+    }
 }
 
 /// Damping of housing and ring.
@@ -125,6 +171,6 @@ pub struct Speed {
 pub struct SpeedPoint {
     /// In s.
     pub time: f64,
-    /// Revolutions per second, >= 0, positive from +x towards +y.
+    /// Revolutions per second, positive from +x towards +y.
     pub hz: f64,
 }

@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{
     BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold,
-    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method,
-    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Source, StepLength,
+    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Load, Material, Method,
+    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Slip, Source, StepLength,
 };
 
 /// A case with every table and every form of value.
@@ -600,5 +600,66 @@ fn a_group_that_the_mesh_lacks_is_named_with_the_nearest() {
             .parse()
             .unwrap();
         assert!(FULL.lines().nth(line - 1).unwrap().contains(missing));
+    }
+}
+
+#[test]
+fn slip_is_a_number_or_a_table_over_time_or_speed() {
+    let slip = |set: &str| {
+        read(FULL, &[&format!("bearing.slip={set}")]).map(|case| case.bearing.unwrap().slip)
+    };
+    assert!(matches!(slip("0.5").unwrap(), Slip::Constant(slip) if near(slip, 0.5)));
+    let over = slip("{profile=[{time=0,slip=0.1},{time=1,slip=0}]}").unwrap();
+    assert!(matches!(over, Slip::OverTime(points) if near(points[1].time, 1.0)));
+    let over = slip("{profile=[{hz=0,slip=0.1},{hz=20,slip=0}]}").unwrap();
+    assert!(matches!(over, Slip::OverSpeed(points) if near(points[1].hz, 20.0)));
+    for (set, message) in [
+        (
+            "{profile=[{hz=0,slip=0.1},{time=20,slip=0}]}",
+            "found points with neither, both, or now the one and now the other, expected `time` in every point, or `hz` in every point",
+        ),
+        (
+            "[0,0.1]",
+            "found an array, expected a number, or { profile = [{ time or hz, slip }, ...] }",
+        ),
+        (
+            "{profile=[{hz=-1,slip=0.1}]}",
+            "`bearing.slip.profile[0].hz`: found -1, expected a number not below 0",
+        ),
+        (
+            "{profile=[{hz=1,slip=1}]}",
+            "`bearing.slip.profile[0].slip`: found 1, expected a number from 0 to below 1",
+        ),
+        (
+            "{profile=[{time=1,slip=0},{time=1,slip=0}]}",
+            "`bearing.slip.profile[1].time`: found 1, expected more than the one before it (1)",
+        ),
+        ("{profile=[]}", "expected at least one point"),
+    ] {
+        let error = slip(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_load_is_constant_or_over_time() {
+    let loads = |set: &str| {
+        read(FULL, &[&format!("shaft.loads={set}")]).map(|case| case.shaft.unwrap().loads)
+    };
+    let two =
+        loads("[{force=[1,2]},{profile=[{time=0,force=[0,0]},{time=2,force=[3,4]}]}]").unwrap();
+    assert!(matches!(two[0], Load::Constant([x, _]) if near(x, 1.0)));
+    assert!(matches!(&two[1], Load::Profile(points) if near(points[1].force[1], 4.0)));
+    for (set, message) in [
+        ("[{}]", "neither"),
+        ("[{force=[0,1],profile=[]}]", "both"),
+        ("[{profile=[]}]", "`shaft.loads[0].profile`: "),
+        (
+            "[{profile=[{time=1,force=[0,0]},{time=0,force=[0,0]}]}]",
+            "`shaft.loads[0].profile[1].time`: found 0, expected more than the time before it (1)",
+        ),
+    ] {
+        let error = loads(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
     }
 }

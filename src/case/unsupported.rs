@@ -12,8 +12,6 @@ enum Extent {
     Key,
     /// This word.
     Word(&'static str),
-    /// A table, or an array of tables.
-    Table,
     /// A table or an array.
     Compound,
 }
@@ -41,16 +39,11 @@ const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\
 const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 13] = [
+const UNSUPPORTED: [Unsupported; 11] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
         "use balls_inertia = \"dynamic\"",
-    ),
-    refused(
-        &["bearing", "slip"],
-        Extent::Compound,
-        "give one constant number",
     ),
     refused(
         &["bearing", "defects", "*", "on"],
@@ -71,11 +64,6 @@ const UNSUPPORTED: [Unsupported; 13] = [
         &["bearing", "defects", "*", "profile"],
         Extent::Compound,
         OTHER_PROFILE,
-    ),
-    refused(
-        &["shaft", "loads", "*", "force"],
-        Extent::Table,
-        "give one constant force, [x, y] in N",
     ),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
     refused(
@@ -114,7 +102,7 @@ pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
                 place: document.marked(Some(mark)),
                 key: match entry.extent {
                     Extent::Word(word) => format!("{path} = \"{word}\""),
-                    Extent::Key | Extent::Table | Extent::Compound => path,
+                    Extent::Key | Extent::Compound => path,
                 },
                 instead: entry.instead,
             });
@@ -134,13 +122,6 @@ fn find(
         let matches = match extent {
             Extent::Key => true,
             Extent::Word(word) => matches!(&node.value, Value::Text(text) if text == word),
-            Extent::Table => match &node.value {
-                Value::Table(_) => true,
-                Value::List(items) => {
-                    (items.iter()).any(|item| matches!(item.value, Value::Table(_)))
-                }
-                _ => false,
-            },
             Extent::Compound => matches!(node.value, Value::Table(_) | Value::List(_)),
         };
         return matches.then_some(node.mark);
@@ -172,7 +153,6 @@ mod tests {
             "bearing.balls_inertia=quasi-static",
             "bearing.balls_inertia = \"quasi-static\"",
         ),
-        ("bearing.slip={time=[0,1],slip=[0,0.1]}", "bearing.slip"),
         (
             "bearing.defects[0].on=inner",
             "bearing.defects[0].on = \"inner\"",
@@ -188,10 +168,6 @@ mod tests {
         (
             "bearing.defects[0].profile={csv='profile.csv'}",
             "bearing.defects[0].profile",
-        ),
-        (
-            "shaft.loads=[{force=[{time=0,x=1}]}]",
-            "shaft.loads[0].force",
         ),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),

@@ -53,7 +53,8 @@ fn verdict(result: &RunResult) -> Verdict {
 }
 
 fn summary(result: &RunResult) -> String {
-    let mut lines = vec![format!(
+    let mut lines = vec![result.bearing_table().plain()];
+    lines.push(format!(
         "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
         crate::report::significant(result.simulated_s, 4),
         result.stepping_s,
@@ -68,7 +69,7 @@ fn summary(result: &RunResult) -> String {
             ""
         },
         result.realtime_factor(),
-    )];
+    ));
     for window in &result.windows {
         lines.push(format!(
             "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",

@@ -112,6 +112,39 @@ pub struct HertzStiffness {
     pub ellipticity: f64,
     /// δ*, dimensionless approach; 1 for a circular patch.
     pub approach: f64,
+    /// a*, dimensionless longer half-axis of the patch; 1 for a circular one.
+    pub half_axis: f64,
+}
+
+/// The patch in which two bodies touch, and its pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactPatch {
+    /// Longer half-axis a, m: across the rolling direction on a race.
+    pub longer: f64,
+    /// Shorter half-axis b, m.
+    pub shorter: f64,
+    /// Largest pressure, in the middle, Pa.
+    pub peak_pressure: f64,
+}
+
+impl HertzStiffness {
+    /// Patch under a `force` (N, zero or positive); all zero without force.
+    ///
+    /// ```text
+    /// a = a* (3 Q / (2 Σρ E*))^{1/3},   a* = (2 κ² E / π)^{1/3},   b = a / κ,   p_max = 3 Q / (2 π a b)
+    /// ```
+    #[must_use]
+    pub fn patch(&self, force: f64) -> ContactPatch {
+        let scale = 1.5 * force / (self.curvature_sum * self.effective_modulus);
+        let longer = self.half_axis * scale.cbrt();
+        let shorter = longer / self.ellipticity;
+        let area = std::f64::consts::PI * longer * shorter;
+        ContactPatch {
+            longer,
+            shorter,
+            peak_pressure: if area > 0.0 { 1.5 * force / area } else { 0.0 },
+        }
+    }
 }
 
 /// Effective modulus E* of two bodies, Pa: `1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂`.
@@ -186,6 +219,7 @@ pub fn stiffness(
         curvature_difference,
         ellipticity: patch.ellipticity,
         approach,
+        half_axis: patch.half_axis(),
     })
 }
 
@@ -226,6 +260,11 @@ impl Patch {
             (1.0 - complement) * ratio * self.integrals.second_difference,
             2.0 * complement * ratio * self.integrals.difference,
         )
+    }
+
+    fn half_axis(&self) -> f64 {
+        let square = self.ellipticity * self.ellipticity;
+        (2.0 * square * self.integrals.second / std::f64::consts::PI).cbrt()
     }
 
     fn approach(&self) -> f64 {

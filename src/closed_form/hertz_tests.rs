@@ -170,3 +170,40 @@ proptest! {
         prop_assert!((printed - difference).abs() < 1e-12);
     }
 }
+
+/// A sphere on a flat: a³ = 3 Q R / (4 E*), p_max = (6 Q E*² / (π³ R²))^{1/3} (Johnson, Contact Mechanics, (4.22) to
+/// (4.24)).
+#[test]
+fn patch_of_a_sphere_on_a_flat() {
+    let (radius, modulus, force) = (5e-3, 1.2e11, 30.0_f64);
+    let patch = sphere_on_flat(radius, modulus).unwrap().patch(force);
+    let a = (0.75 * force * radius / modulus).cbrt();
+    let pressure =
+        (6.0 * force * modulus * modulus / (std::f64::consts::PI.powi(3) * radius * radius)).cbrt();
+    assert_relative_eq!(patch.longer, a, max_relative = 1e-14);
+    assert_relative_eq!(patch.shorter, a, max_relative = 1e-14);
+    assert_relative_eq!(patch.peak_pressure, pressure, max_relative = 1e-13);
+    let unloaded = sphere_on_flat(radius, modulus).unwrap().patch(0.0);
+    assert_relative_eq!(unloaded.peak_pressure, 0.0);
+}
+
+/// The pressure p_max sqrt(1 − x²/a² − y²/b²) flattens the gap: its deflection at the middle is the approach, and the
+/// curvatures of the deflection are those of the gap. With p_max, a and b of the patch, E* δ = p_max b K(e) and
+/// E* A = p_max b / (e² a²) (K − E) for the smaller relative curvature 2 A (Johnson, (4.26)).
+#[test]
+fn patch_of_an_ellipse_supports_its_own_shape() {
+    let ball = PrincipalCurvatures::sphere(BALL);
+    let contact = stiffness(ball, INNER, steel()).unwrap();
+    let force = 12.0;
+    let patch = contact.patch(force);
+    let parameter = 1.0 - 1.0 / (contact.ellipticity * contact.ellipticity);
+    let k = elliptic::from_complement(parameter, 1.0 - parameter);
+    let approach = patch.peak_pressure * patch.shorter * k.first / contact.effective_modulus;
+    let by_stiffness = (force / contact.stiffness).powf(2.0 / 3.0);
+    // κ is found to 1e-12
+    assert_relative_eq!(approach, by_stiffness, max_relative = 1e-11);
+    let smaller = 1.0 / BALL - 1.0 / 1.04e-3;
+    let flattened = 2.0 * patch.peak_pressure * patch.shorter * (k.first - k.second)
+        / (parameter * patch.longer * patch.longer * contact.effective_modulus);
+    assert_relative_eq!(flattened, smaller, max_relative = 1e-10);
+}

@@ -21,6 +21,7 @@ mod html;
 mod layout;
 mod matrix;
 mod number;
+mod plain;
 mod plot;
 mod shapes;
 mod svg;

@@ -1,13 +1,13 @@
 //! Envelope analysis of a run's signal in the windows that the case names.
 
 use super::StageError;
-use crate::bearing::SpeedProfile;
 use crate::case::Case;
 use crate::closed_form::race::DefectOrders;
 use crate::series::TimeSeries;
 use crate::signal::{
     EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, envelope_peaks,
 };
+use crate::system::BearingSetup;
 use std::f64::consts::TAU;
 
 /// Harmonics of each fault line that peaks are matched to.
@@ -57,8 +57,7 @@ pub fn analyse(
     case: &Case,
     sensor: &str,
     signal: &TimeSeries,
-    speed: &SpeedProfile,
-    orders: &DefectOrders,
+    setup: &BearingSetup,
 ) -> Result<Vec<WindowAnalysis>, StageError> {
     if case.analysis.envelope.is_empty() {
         return Ok(Vec::new());
@@ -74,10 +73,11 @@ pub fn analyse(
         .map(|window| {
             let (from, to) = (window.from, window.to);
             let part = signal.window(from, to)?;
-            let turned = speed.angle(to) - speed.angle(from);
+            let turned = setup.cage.shaft().angle(to) - setup.cage.shaft().angle(from);
             let speed_hz = (turned / (to - from) / TAU).abs();
             let spectrum = settings.window_of(&envelope, from, to)?;
-            let lines = lines(speed_hz, orders)?;
+            let orders = slipping_orders(setup, from, to);
+            let lines = lines(speed_hz, &orders)?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),
                 ..PeakSearch::default()
@@ -109,6 +109,19 @@ pub fn analyse(
             })
         })
         .collect()
+}
+
+/// Defect orders between two times with the cage's slip: outer `N r`, inner `N (1 - r)` for a cage order r. The
+/// ball's own spin is not prescribed; its order stays that of pure rolling.
+fn slipping_orders(setup: &BearingSetup, from: f64, to: f64) -> DefectOrders {
+    let balls = f64::from(setup.geometry.balls());
+    let cage = setup.cage.ratio_between(from, to);
+    DefectOrders {
+        cage,
+        outer: balls * cage,
+        inner: balls * (1.0 - cage),
+        ..setup.geometry.orders()
+    }
 }
 
 fn lines(speed_hz: f64, orders: &DefectOrders) -> Result<Vec<NamedLine>, StageError> {

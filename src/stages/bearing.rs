@@ -1,20 +1,20 @@
 //! The bearing of a case.
 
 use super::StageError;
+use super::bearing_motion::{shaft, slip, speed};
 use crate::bearing::dent::{DentCurvature, DentShape, OuterDent, reduced};
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
-    SpeedKnot, SpeedProfile,
 };
 use crate::case::{self, Case};
-use crate::system::{BearingSetup, Formulation, Shaft};
+use crate::system::{BearingSetup, Formulation};
 
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
 ///
 /// # Errors
 /// [`StageError`] naming what is out of range.
 pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
-    let (Some(asked), Some(shaft)) = (&case.bearing, &case.shaft) else {
+    let (Some(asked), Some(asked_shaft)) = (&case.bearing, &case.shaft) else {
         return Ok(None);
     };
     let geometry = geometry(case, asked)?;
@@ -42,25 +42,13 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
         })
         .collect::<Result<Vec<_>, _>>()?;
     check_apart(&dents)?;
-    let speed = match &case.speed {
-        Some(speed) => {
-            let knots: Vec<SpeedKnot> = speed
-                .profile
-                .iter()
-                .map(|point| SpeedKnot {
-                    time: point.time,
-                    frequency_hz: point.hz,
-                })
-                .collect();
-            SpeedProfile::new(&knots)?
-        }
-        None => SpeedProfile::constant(0.0)?,
-    };
-    let force = shaft.loads.iter().fold([0.0; 2], |sum, load| {
-        [sum[0] + load.force[0], sum[1] + load.force[1]]
-    });
     Ok(Some(BearingSetup {
-        cage: Cage::new(&geometry, asked.slip, asked.first_ball_deg.to_radians())?,
+        cage: Cage::new(
+            &geometry,
+            speed(case)?,
+            slip(&asked.slip)?,
+            asked.first_ball_deg.to_radians(),
+        )?,
         geometry,
         stiffness,
         contact_damping: asked.contact_damping,
@@ -68,14 +56,9 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
             case::Formulation::Consistent => Formulation::Consistent,
             case::Formulation::Printed => Formulation::Printed,
         },
-        speed,
         dents,
-        shaft: Shaft {
-            mass: shaft.mass,
-            unbalance: shaft.unbalance,
-            force,
-        },
-        gravity: shaft.gravity,
+        gravity: asked_shaft.gravity,
+        shaft: shaft(asked_shaft),
     }))
 }
 
@@ -98,11 +81,11 @@ fn check_apart(dents: &[OuterDent]) -> Result<(), StageError> {
     Ok(())
 }
 
-/// The stiffness of both contacts from geometry, whichever the case uses.
+/// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.
 ///
 /// # Errors
 /// [`StageError`] naming what is out of range.
-pub fn contact_table(case: &Case) -> Result<Option<RaceContacts>, StageError> {
+pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, StageError> {
     let Some(asked) = &case.bearing else {
         return Ok(None);
     };

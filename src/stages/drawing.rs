@@ -145,7 +145,7 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
         .transient
         .as_ref()
         .map_or(0.0, |transient| transient.start);
-    let cage = setup.cage.motion(setup.speed.motion(start));
+    let cage = setup.cage.motion(start);
     for ball in 0..geometry.balls() {
         let angle = setup.cage.ball_angle(cage.angle, ball);
         drawing.balls.push(Circle {

@@ -2,7 +2,7 @@
 
 use super::ImportError;
 use crate::bearing::dent::DentError;
-use crate::bearing::{CageError, GeometryError, SpeedError, StiffnessError};
+use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError};
 use crate::case::{CaseError, ModeExtent};
 use crate::element::ElementError;
 use crate::exchange::{CsvError, NpzError, ReadModesError, UffError};
@@ -158,6 +158,9 @@ pub enum StageError {
     /// Cage.
     #[error("bearing: {0}")]
     Cage(#[from] CageError),
+    /// Slip of the cage.
+    #[error(transparent)]
+    Slip(#[from] SlipError),
     /// A sensor that is nowhere.
     #[error(
         "sensor \"{name}\": the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",

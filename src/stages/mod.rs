@@ -6,6 +6,8 @@
 
 mod analysis;
 mod bearing;
+mod bearing_motion;
+mod bearing_table;
 mod comparison;
 mod condense;
 mod condense_report;
@@ -51,7 +53,8 @@ mod tables;
 mod tie_price;
 
 pub use analysis::{WindowAnalysis, analyse};
-pub use bearing::{bearing_setup, contact_table};
+pub use bearing::{bearing_setup, race_contacts};
+pub use bearing_table::bearing_table;
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense};
 pub use condense_report::condense_report;

@@ -11,7 +11,7 @@ use crate::case::{Case, Expected, Linearise, ModeExtent};
 use crate::exchange::ModeShapes;
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
-use crate::system::{Equilibrium, LoadedMode, LoadedModes};
+use crate::system::{Equilibrium, LoadedMode, LoadedModes, StaticCondition};
 use serde::Serialize;
 
 /// An expected frequency and what was found.
@@ -215,7 +215,8 @@ fn reading(
                 .transient
                 .as_ref()
                 .map_or(0.0, |transient| transient.start);
-            let equilibrium = Equilibrium::find(&stage.structure, &setup, t)?;
+            let equilibrium =
+                Equilibrium::find(&stage.structure, &setup, StaticCondition::at(&setup, t))?;
             let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
             (Some(loaded), Some(equilibrium))
         }

@@ -8,10 +8,8 @@ use super::modal_tables::{
 };
 use super::mode_checks_report::{comparison_section, convergence_section, headlines};
 use super::shape_view::shape_view;
-use super::tables::{
-    assumptions, bearing_table, equilibrium_table, expected_table, mode_table, model_facts,
-};
-use super::{ModesResult, Reading, StageError, bearing_setup, contact_table};
+use super::tables::{assumptions, equilibrium_table, expected_table, mode_table, model_facts};
+use super::{ModesResult, Reading, StageError, bearing_setup, bearing_table, race_contacts};
 use crate::case::Case;
 use crate::report::{
     Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,
@@ -73,13 +71,13 @@ pub fn modes_report(
         );
     }
     let setup = bearing_setup(case)?;
-    if let Some(setup) = &setup {
-        let mut section =
-            Section::new("Bearing").table(bearing_table(setup, contact_table(case)?.as_ref()));
-        if let Some(equilibrium) = &result.base.equilibrium {
-            section = section.table(equilibrium_table(equilibrium));
-        }
-        report = report.section(section);
+    if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
+        let equilibrium = result.base.equilibrium.as_ref();
+        let section = Section::new("Bearing").table(bearing_table(setup, &contacts, equilibrium));
+        report = report.section(match equilibrium {
+            Some(equilibrium) => section.table(equilibrium_table(equilibrium)),
+            None => section,
+        });
     }
     for text in assumptions(case, setup.as_ref()) {
         report = report.assumption(text);

@@ -3,12 +3,14 @@
 use super::damping::{damping, refuse_structural_damping};
 use super::structure::MODELLED;
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
+use super::{bearing_table, race_contacts};
+use crate::bearing::RaceContacts;
 use crate::case::{self, Case, ModesKept, StepLength};
-use crate::closed_form::race::DefectOrders;
+use crate::report::Table;
 use crate::series::TimeSeries;
 use crate::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeSelection, Recorder,
-    RunRecord,
+    RunRecord, StaticCondition,
 };
 use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
 use std::time::Instant;
@@ -39,6 +41,8 @@ pub struct RunResult {
     pub stage: StructureStage,
     /// The bearing.
     pub setup: BearingSetup,
+    /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
+    pub contacts: RaceContacts,
     /// Where it started.
     pub equilibrium: Equilibrium,
     /// Modes linearised there.
@@ -73,6 +77,11 @@ impl RunResult {
         self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
     }
 
+    /// Everything about the bearing in one table.
+    pub fn bearing_table(&self) -> Table {
+        bearing_table(&self.setup, &self.contacts, Some(&self.equilibrium))
+    }
+
     /// A sensor's acceleration as a series, m/s^2.
     ///
     /// # Errors
@@ -97,8 +106,9 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     refuse_structural_damping(case)?;
     let stage = StructureStage::build(case, watch)?;
     // a run without ring, bearing, shaft or transient was refused with the case
-    let (Some(stage), Some(setup), Some(asked)) =
-        (stage, bearing_setup(case)?, case.transient.as_ref())
+    let bearing = (bearing_setup(case)?, race_contacts(case)?);
+    let (Some(stage), (Some(setup), Some(contacts)), Some(asked)) =
+        (stage, bearing, case.transient.as_ref())
     else {
         return Err(crate::system::SystemError::NotSupported.into());
     };
@@ -106,7 +116,11 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         imported.refuse_structural_damping()?;
     }
     watch.stage("equilibrium");
-    let equilibrium = Equilibrium::find(&stage.structure, &setup, asked.start)?;
+    let equilibrium = Equilibrium::find(
+        &stage.structure,
+        &setup,
+        StaticCondition::at(&setup, asked.start),
+    )?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
     let method = match asked.method {
@@ -180,6 +194,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         residual,
         stage,
         setup,
+        contacts,
         equilibrium,
         loaded,
         method,
@@ -200,29 +215,15 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
 impl RunResult {
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
-        let orders = slipping_orders(&self.setup);
         for (index, (name, _)) in self.record.sensors.clone().iter().enumerate() {
             let analysed = self
                 .signal(index)
-                .and_then(|signal| analyse(case, name, &signal, &self.setup.speed, &orders));
+                .and_then(|signal| analyse(case, name, &signal, &self.setup));
             match analysed {
                 Ok(windows) => self.windows.extend(windows),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),
             }
         }
-    }
-}
-
-/// Defect orders with the cage's slip: outer `N r`, inner `N (1 - r)` for a cage order r. The ball's
-/// own spin is not prescribed; its order stays that of pure rolling.
-fn slipping_orders(setup: &BearingSetup) -> DefectOrders {
-    let balls = f64::from(setup.geometry.balls());
-    let cage = setup.cage.ratio();
-    DefectOrders {
-        cage,
-        outer: balls * cage,
-        inner: balls * (1.0 - cage),
-        ..setup.geometry.orders()
     }
 }
 

@@ -1,10 +1,8 @@
 //! The report of `plummer run`.
 
 use super::drawing::draw;
-use super::tables::{
-    assumptions, bearing_table, equilibrium_table, expected_table, mode_table, model_facts,
-};
-use super::{ExpectedMode, RunEnd, RunResult, StageError, WindowAnalysis, contact_table};
+use super::tables::{assumptions, equilibrium_table, expected_table, mode_table, model_facts};
+use super::{ExpectedMode, RunEnd, RunResult, StageError, WindowAnalysis};
 use crate::case::Case;
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
@@ -40,7 +38,7 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
     );
     report = report.section(
         Section::new("Bearing")
-            .table(bearing_table(&result.setup, contact_table(case)?.as_ref()))
+            .table(result.bearing_table())
             .table(equilibrium_table(&result.equilibrium)),
     );
     report = report.section(Section::new("Computation").facts(computation(result)));

@@ -1,7 +1,6 @@
 //! Tables and texts that both reports show.
 
 use super::{ExpectedMode, StructureStage};
-use crate::bearing::{BearingGeometry, RaceContacts};
 use crate::case::Case;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
 use crate::system::{BearingSetup, Equilibrium, Formulation, LoadedModes};
@@ -87,113 +86,6 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) 
 
 fn on(value: bool) -> &'static str {
     if value { "on" } else { "off" }
-}
-
-/// Geometry, orders and contact stiffness of the bearing.
-pub(super) fn bearing_table(setup: &BearingSetup, hertz: Option<&RaceContacts>) -> Table {
-    let geometry: &BearingGeometry = &setup.geometry;
-    let orders = geometry.orders();
-    let row = |table: Table, name: &str, value: f64, digits: usize, unit: &str| {
-        table.row([
-            Cell::text(name),
-            Cell::number(value, digits),
-            Cell::text(unit),
-        ])
-    };
-    let columns = [
-        Column::text("Quantity"),
-        Column::number("Value", ""),
-        Column::text("Unit"),
-    ];
-    let mut table = Table::new("Bearing", columns);
-    table = table.row([
-        Cell::text("Balls"),
-        Cell::text(geometry.balls().to_string()),
-        Cell::text(""),
-    ]);
-    table = row(
-        table,
-        "Pitch radius",
-        geometry.pitch_radius() * 1e3,
-        6,
-        "mm",
-    );
-    table = row(
-        table,
-        "Radial play",
-        geometry.radial_play() * 1e6,
-        4,
-        "\u{b5}m",
-    );
-    table = row(
-        table,
-        "Diametral clearance",
-        geometry.diametral_clearance() * 1e6,
-        4,
-        "\u{b5}m",
-    );
-    table = row(table, "Cage order", orders.cage, 5, "per shaft turn");
-    table = row(
-        table,
-        "Outer-race defect order",
-        orders.outer,
-        5,
-        "per shaft turn",
-    );
-    table = row(
-        table,
-        "Inner-race defect order",
-        orders.inner,
-        5,
-        "per shaft turn",
-    );
-    table = row(
-        table,
-        "Ball defect order (two hits a spin)",
-        orders.ball_defect,
-        5,
-        "per shaft turn",
-    );
-    table = row(
-        table,
-        "k inner in use",
-        setup.stiffness.inner(),
-        4,
-        "N/m^1.5",
-    );
-    table = row(
-        table,
-        "k outer in use",
-        setup.stiffness.outer(),
-        4,
-        "N/m^1.5",
-    );
-    if let Some(hertz) = hertz {
-        table = row(
-            table,
-            "k inner by Hertz from the geometry",
-            hertz.inner.stiffness,
-            4,
-            "N/m^1.5",
-        );
-        table = row(
-            table,
-            "k outer by Hertz from the geometry",
-            hertz.outer.stiffness,
-            4,
-            "N/m^1.5",
-        );
-    }
-    for dent in &setup.dents {
-        table = row(
-            table,
-            "A ball at the dent's middle sinks by",
-            dent.drop() * 1e6,
-            4,
-            "\u{b5}m",
-        );
-    }
-    table
 }
 
 /// Forces and positions at rest.

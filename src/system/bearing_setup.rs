@@ -1,7 +1,8 @@
 //! The bearing as the coupled system takes it: geometry, contacts, motion and loads in one value.
 
+use super::load::LoadProfile;
 use crate::bearing::dent::OuterDent;
-use crate::bearing::{BearingGeometry, Cage, ContactStiffness, SpeedProfile};
+use crate::bearing::{BearingGeometry, Cage, ContactStiffness};
 
 /// Which reading of the ball position the equations follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -16,14 +17,14 @@ pub enum Formulation {
 }
 
 /// The rigid shaft with the inner ring.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
     /// Mass of shaft and inner ring, kg.
     pub mass: f64,
     /// Unbalance m e, kg m.
     pub unbalance: f64,
-    /// Constant force on the shaft besides its weight, N.
-    pub force: [f64; 2],
+    /// Forces on the shaft besides its weight.
+    pub loads: Vec<LoadProfile>,
 }
 
 /// Everything about the bearing that the structure does not know.
@@ -37,10 +38,8 @@ pub struct BearingSetup {
     pub contact_damping: f64,
     /// Which equations.
     pub formulation: Formulation,
-    /// Ball angles from the shaft angle.
+    /// Shaft angle and ball angles over time.
     pub cage: Cage,
-    /// Shaft speed over time.
-    pub speed: SpeedProfile,
     /// Dents of the outer race, none overlapping.
     pub dents: Vec<OuterDent>,
     /// The shaft and its loads.
@@ -55,13 +54,13 @@ impl BearingSetup {
         self.geometry.balls() as usize
     }
 
-    /// Constant force on the shaft, its weight included, N.
-    pub fn shaft_load(&self) -> [f64; 2] {
-        let Shaft { mass, force, .. } = self.shaft;
-        [
-            force[0] + mass * self.gravity[0],
-            force[1] + mass * self.gravity[1],
-        ]
+    /// Force on the shaft at `time` (s), its weight included, the rotating unbalance not, N.
+    pub fn shaft_load(&self, time: f64) -> [f64; 2] {
+        let weight = self.gravity.map(|g| self.shaft.mass * g);
+        self.shaft.loads.iter().fold(weight, |sum, load| {
+            let force = load.at(time);
+            [sum[0] + force[0], sum[1] + force[1]]
+        })
     }
 
     /// Distance from the ring's node radius out to the raceway, m; negative inside.

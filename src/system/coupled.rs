@@ -8,7 +8,7 @@ use super::outer::{OuterForce, OuterRace};
 use super::raceway::RacewayTable;
 use super::residual::ResidualFlexibility;
 use super::structure::{Structure, StructureModes};
-use crate::bearing::SpeedCursor;
+use crate::bearing::RotationCursor;
 use crate::dynamics::{LinearCoordinate, State};
 use std::f64::consts::TAU;
 
@@ -93,7 +93,8 @@ pub struct CoupledSystem {
     pub(super) centre: [Vec<f64>; 2],
     /// Sensor rows over kept modes.
     pub(super) sensors: Vec<(String, Vec<f64>)>,
-    pub(super) cursor: SpeedCursor,
+    /// Of shaft and cage.
+    pub(super) cursors: [RotationCursor; 2],
     pub(super) work: Work,
 }
 
@@ -203,7 +204,7 @@ impl CoupledSystem {
                 .iter()
                 .map(|sensor| (sensor.name.clone(), over_modes(&sensor.row)))
                 .collect(),
-            cursor: SpeedCursor::default(),
+            cursors: [RotationCursor::default(); 2],
             work: Work::new(balls, count),
             setup,
         })

@@ -4,7 +4,7 @@ use super::bearing_setup::Formulation;
 use super::coupled::CoupledSystem;
 use super::outer::OuterForce;
 use super::raceway::reduced_turn;
-use crate::bearing::ShaftMotion;
+use crate::bearing::RotationState;
 use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
 
 /// Sweeps over the balls that share the residual flexibility, far more than it takes.
@@ -27,8 +27,8 @@ impl SecondOrderSystem for CoupledSystem {
     }
 
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
-        let shaft = self.setup.speed.motion_from(&mut self.cursor, t);
-        let cage = self.setup.cage.motion(shaft);
+        let shaft = self.setup.cage.shaft().motion_from(&mut self.cursors[0], t);
+        let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
         self.place_balls(&cage);
         self.gaps(y);
         if self.setup.contact_damping > 0.0 {
@@ -39,7 +39,8 @@ impl SecondOrderSystem for CoupledSystem {
             None => self.outer_forces(y),
         }
         self.structure_force(g);
-        self.shaft_and_ball_force(&shaft, &cage, y, v, g);
+        let load = self.setup.shaft_load(t);
+        self.shaft_and_ball_force(load, &shaft, &cage, y, v, g);
     }
 
     fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
@@ -69,7 +70,7 @@ impl SecondOrderSystem for CoupledSystem {
 impl CoupledSystem {
     /// Ball angles, directions and mode rows at a cage angle: one sine and cosine, the others by
     /// rotation through the fixed spacing.
-    fn place_balls(&mut self, cage: &ShaftMotion) {
+    fn place_balls(&mut self, cage: &RotationState) {
         let modes = self.modes;
         let first = self.setup.cage.ball_angle(cage.angle, 0);
         let (sin, cos) = first.sin_cos();
@@ -101,7 +102,7 @@ impl CoupledSystem {
     /// Ball velocities relative to the race, for balls that touch or may touch: the race's radial
     /// velocity under a ball is `d/dt w(theta(t), t)`, with the part that comes from the ball moving
     /// along the deformed race. The static residual's part is added where it is known.
-    fn rates(&mut self, cage: &ShaftMotion, y: &[f64], v: &[f64]) {
+    fn rates(&mut self, cage: &RotationState, y: &[f64], v: &[f64]) {
         let modes = self.modes;
         for j in 0..self.work.gap.len() {
             self.work.rate[j] = if self.work.gap[j] > -REACH {
@@ -145,7 +146,7 @@ impl CoupledSystem {
     /// `G` is soft beside the contacts (a few percent), so each sweep gains nearly two digits; the
     /// start does not depend on the history. A force already known at nearly this displacement is
     /// continued along its tangent instead of being evaluated again.
-    fn outer_forces_with_residual(&mut self, cage: &ShaftMotion, y: &[f64]) {
+    fn outer_forces_with_residual(&mut self, cage: &RotationState, y: &[f64]) {
         let balls = self.work.gap.len();
         self.work.outer_radial.fill(0.0);
         if let Some(residual) = &mut self.residual {
@@ -196,7 +197,7 @@ impl CoupledSystem {
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the
     /// cage speed, with the forces on a race that gives way by each ball's own share alone. What
     /// changes with the forces in time, `G dF/dt`, is left out.
-    fn residual_rates(&mut self, cage: &ShaftMotion) {
+    fn residual_rates(&mut self, cage: &RotationState) {
         let Some(residual) = &self.residual else {
             return;
         };
@@ -262,8 +263,9 @@ impl CoupledSystem {
     /// Inner contacts, weight, unbalance and centrifugal load on shaft and balls.
     fn shaft_and_ball_force(
         &mut self,
-        shaft: &ShaftMotion,
-        cage: &ShaftMotion,
+        load: [f64; 2],
+        shaft: &RotationState,
+        cage: &RotationState,
         y: &[f64],
         v: &[f64],
         g: &mut [f64],
@@ -287,7 +289,7 @@ impl CoupledSystem {
         }
         let relative = [y[modes] - centre[0], y[modes + 1] - centre[1]];
         let velocity = [v[modes] - centre_rate[0], v[modes + 1] - centre_rate[1]];
-        let mut total = self.setup.shaft_load();
+        let mut total = load;
         let mass = self.setup.geometry.ball_mass();
         for j in 0..self.work.gap.len() {
             let e = self.work.direction[j];

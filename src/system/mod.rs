@@ -11,6 +11,7 @@ mod equilibrium;
 mod error;
 mod force;
 mod inner;
+mod load;
 mod loaded;
 mod outer;
 mod raceway;
@@ -21,8 +22,9 @@ mod structure;
 
 pub use bearing_setup::{BearingSetup, Formulation, Shaft};
 pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
-pub use equilibrium::{BallLoad, Equilibrium};
+pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
+pub use load::LoadProfile;
 pub use loaded::{LoadedMode, LoadedModes};
 
 pub use recorder::{Recorder, RunRecord};

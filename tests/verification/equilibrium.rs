@@ -16,7 +16,8 @@
 use plummer::dynamics::{NoRecord, State};
 use plummer::model::Fit;
 use plummer::system::{
-    CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Structure, StructureModes,
+    CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, StaticCondition,
+    Structure, StructureModes,
 };
 use plummer::transient::{Method, Schedule, Stepping, integrate};
 
@@ -27,7 +28,7 @@ const WEIGHT: f64 = 0.15 * 9.81;
 
 fn find(structure: &Structure, first_deg: f64, formulation: Formulation) -> Equilibrium {
     let setup = paper_bearing(first_deg, formulation);
-    Equilibrium::find(structure, &setup, 0.0).unwrap()
+    Equilibrium::find(structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap()
 }
 
 /// Largest changes over a run of 1000 steps from an equilibrium.
@@ -47,7 +48,8 @@ struct Case<'a> {
 impl Case<'_> {
     fn drift(&self, selection: ModeSelection, residual: bool, method: Method) -> Drift {
         let setup = paper_bearing(self.first_deg, Formulation::Consistent);
-        let rest = Equilibrium::find(self.structure, &setup, 0.0).unwrap();
+        let rest =
+            Equilibrium::find(self.structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
         let undamped = ModeDamping::Modal(0.0);
         let mut system = CoupledSystem::new(
             self.structure,
@@ -252,5 +254,70 @@ fn integrators_leave_a_tied_housing_in_equilibrium() {
         assert!(all.force < 1e-10, "{first_deg}: {:e} N", all.force);
         let few = case.drift(ModeSelection::UpTo(60e3), true, Method::Exponential);
         assert!(few.force < limit, "{first_deg}: {:e} N", few.force);
+    }
+}
+
+/// Ball 0 straight below: a saddle that carries the weight alone, and the shaft on either neighbour.
+#[test]
+fn every_equilibrium_over_one_ball_is_found() {
+    let structure = paper_structure(72, 0.0);
+    let setup = paper_bearing(270.0, Formulation::Consistent);
+    let condition = StaticCondition::at(&setup, 0.0);
+    let all = Equilibrium::find_all(&structure, &setup, condition).unwrap();
+    let (stable, others): (Vec<_>, Vec<_>) = all.iter().partition(|rest| rest.is_stable());
+    assert_eq!((stable.len(), others.len()), (2, 1));
+    let taken = Equilibrium::find(&structure, &setup, condition).unwrap();
+    assert!((taken.shaft[0] - all[0].shaft[0]).abs() < 1e-15 && all[0].is_stable());
+    let lean = |rest: &Equilibrium| rest.shaft[0] - others[0].shaft[0];
+    assert!(lean(stable[0]) * lean(stable[1]) < 0.0);
+    for rest in stable {
+        assert!(
+            (lean(rest).abs() / 0.8e-6 - 1.0).abs() < 0.02,
+            "{:e}",
+            lean(rest)
+        );
+    }
+    let saddle = others[0];
+    assert_eq!(saddle.directions_down, 1);
+    // balls on top of the inner race add 7e-4 N
+    assert!((saddle.balls[0].inner / WEIGHT - 1.0).abs() < 1e-3);
+    assert!(saddle.balls[1].inner.max(saddle.balls[6].inner) <= 0.0);
+    // F / chi = 1.47 N / 3.75 mm = 392 N/m
+    let aside = saddle.shaft_stiffness[0][0];
+    assert!(aside < -300.0 && aside > -400.0, "{aside}");
+    // where two balls share the load there is nothing else
+    let setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
+    let condition = StaticCondition::at(&setup, 0.0);
+    let all = Equilibrium::find_all(&structure, &setup, condition).unwrap();
+    assert_eq!(all.len(), 1);
+}
+
+/// A little more load moves the shaft by the load over the stiffness.
+#[test]
+fn the_stiffness_of_the_bearing_is_the_slope_of_its_load() {
+    let structure = paper_structure(72, 0.0);
+    for first_deg in [SYMMETRIC_DEG, 280.0] {
+        let setup = paper_bearing(first_deg, Formulation::Consistent);
+        let condition = StaticCondition::at(&setup, 0.0);
+        let shaft = |load: [f64; 2]| {
+            let condition = StaticCondition { load, ..condition };
+            Equilibrium::find(&structure, &setup, condition)
+                .unwrap()
+                .shaft
+        };
+        let rest = Equilibrium::find(&structure, &setup, condition).unwrap();
+        for direction in [[1.0, 0.0], [0.0, 1.0]] {
+            let change = 1e-4;
+            let moved =
+                |sign: f64| shaft([0, 1].map(|k| condition.load[k] + sign * change * direction[k]));
+            let (ahead, behind) = (moved(1.0), moved(-1.0));
+            for (i, row) in rest.shaft_stiffness.iter().enumerate() {
+                let force: f64 = (0..2).map(|j| row[j] * (ahead[j] - behind[j])).sum();
+                // F ~ x^1.5: 1e-4 of the load changes the slope by as much, squared in a central difference; 1e-11 of
+                // the load is left in the balance
+                let error = force / (2.0 * change) - direction[i];
+                assert!(error.abs() < 1e-5, "{first_deg}: {error:e}");
+            }
+        }
     }
 }

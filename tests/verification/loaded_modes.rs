@@ -20,7 +20,7 @@ use plummer::dynamics::{SecondOrderSystem, State};
 use plummer::linalg::{DenseMatrix, general_spectrum};
 use plummer::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeDamping, ModeSelection,
-    Structure, StructureModes,
+    StaticCondition, Structure, StructureModes,
 };
 
 use crate::setup::{
@@ -44,7 +44,7 @@ impl Scene {
         let structure = paper_structure(72, offset);
         let modes = structure.modes().unwrap();
         let setup = paper_bearing(first_deg, formulation);
-        let rest = Equilibrium::find(&structure, &setup, 0.0).unwrap();
+        let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
         let undamped = ModeDamping::Modal(0.0);
         let all = ModeSelection::All;
         let system =

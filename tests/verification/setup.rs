@@ -21,7 +21,8 @@ use std::path::Path;
 
 use plummer::assembly::{CoupledMatrices, SystemMatrices};
 use plummer::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SpeedProfile,
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile,
+    SpeedProfile,
 };
 use plummer::dynamics::State;
 use plummer::element::continuum::PlaneAssumption;
@@ -124,22 +125,28 @@ pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
         poisson: 0.3,
     };
     BearingSetup {
-        cage: Cage::new(&geometry, 0.0, first_deg.to_radians()).unwrap(),
+        cage: rolling_cage(&geometry, first_deg, 0.0),
         geometry,
         stiffness: RaceContacts::new(&geometry, steel, steel, steel)
             .unwrap()
             .stiffness(),
         contact_damping: 0.0,
         formulation,
-        speed: SpeedProfile::constant(0.0).unwrap(),
         dents: Vec::new(),
         shaft: Shaft {
             mass: 0.15,
             unbalance: 2e-5,
-            force: [0.0, 0.0],
+            loads: Vec::new(),
         },
         gravity: GRAVITY,
     }
+}
+
+/// Without slip, at constant speed.
+pub fn rolling_cage(geometry: &BearingGeometry, first_deg: f64, frequency_hz: f64) -> Cage {
+    let speed = SpeedProfile::constant(frequency_hz).unwrap();
+    let slip = SlipProfile::constant(0.0).unwrap();
+    Cage::new(geometry, speed, slip, first_deg.to_radians()).unwrap()
 }
 
 /// The preloaded variant: radial play -1.5 um keeps every ball in contact.
@@ -147,8 +154,8 @@ pub fn preloaded_bearing(first_deg: f64, frequency_hz: f64) -> BearingSetup {
     let plain = paper_bearing(first_deg, Formulation::Consistent);
     let geometry = plain.geometry.with_radial_play(-1.5e-6).unwrap();
     BearingSetup {
+        cage: rolling_cage(&geometry, first_deg, frequency_hz),
         geometry,
-        speed: SpeedProfile::constant(frequency_hz).unwrap(),
         ..plain
     }
 }

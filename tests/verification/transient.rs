@@ -12,16 +12,18 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use plummer::bearing::{HertzContact, SpeedProfile};
+use plummer::bearing::HertzContact;
 use plummer::dynamics::{Instant, NoRecord, Observer, State};
 use plummer::linalg::{DenseCholesky, DenseMatrix};
 use plummer::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Recorder,
-    Structure, StructureModes,
+    StaticCondition, Structure, StructureModes,
 };
 use plummer::transient::{Method, Schedule, Stepping, integrate};
 
-use crate::setup::{SYMMETRIC_DEG, column, paper_bearing, paper_structure, preloaded_bearing};
+use crate::setup::{
+    SYMMETRIC_DEG, column, paper_bearing, paper_structure, preloaded_bearing, rolling_cage,
+};
 
 fn run(
     system: &mut CoupledSystem,
@@ -92,14 +94,14 @@ impl<'a> NodalNewmark<'a> {
     fn force(&self, t: f64, y: &Nodal, v: &Nodal) -> (DenseMatrix, Vec<f64>) {
         let setup = self.setup;
         let geometry = &setup.geometry;
-        let shaft = setup.speed.motion(t);
-        let cage = setup.cage.motion(shaft);
+        let shaft = setup.cage.shaft().motion(t);
+        let cage = setup.cage.motion(t);
         let law = |stiffness| HertzContact {
             stiffness,
             damping: setup.contact_damping,
         };
         let mut ring = column(self.structure.gravity());
-        let mut total = setup.shaft_load();
+        let mut total = setup.shaft_load(t);
         let unbalance = setup.shaft.unbalance * shaft.speed * shaft.speed;
         total[0] += unbalance * shaft.angle.cos();
         total[1] += unbalance * shaft.angle.sin();
@@ -178,9 +180,9 @@ fn modal_newmark_is_nodal_newmark() {
     let structure = paper_structure(24, 0.0);
     let modes = structure.modes().unwrap();
     let mut setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
-    setup.speed = SpeedProfile::constant(20.0).unwrap();
+    setup.cage = rolling_cage(&setup.geometry, SYMMETRIC_DEG, 20.0);
     setup.contact_damping = 1.0;
-    let rest = Equilibrium::find(&structure, &setup, 0.0).unwrap();
+    let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let (ratio, h, count) = (0.03, 1e-7, 1000);
     let mut system = CoupledSystem::new(
         &structure,
@@ -246,13 +248,13 @@ impl Energy<'_> {
             let strain = self.modes.squared_frequencies[mode] * q * q;
             energy += 0.5 * (rate * rate + strain) - pull * q;
         }
-        let load = setup.shaft_load();
+        let load = setup.shaft_load(now.t);
         for component in 0..2 {
             let speed = now.v[n + component];
             energy += 0.5 * setup.shaft.mass * speed.powi(2) - load[component] * shaft[component];
         }
         let displaced = self.modes.shapes.subcols(0, n) * column(q);
-        let cage = setup.cage.motion(setup.speed.motion(now.t)).angle;
+        let cage = setup.cage.motion(now.t).angle;
         let mut closed = Vec::new();
         for (ball, &s) in balls.iter().enumerate() {
             let angle = setup.cage.ball_angle(cage, ball as u32);
@@ -309,7 +311,7 @@ fn energy_error(
 ) -> EnergyError {
     let structure = paper_structure(24, 0.0);
     let modes = structure.modes().unwrap();
-    let rest = Equilibrium::find(&structure, setup, 0.0).unwrap();
+    let rest = Equilibrium::find(&structure, setup, StaticCondition::at(setup, 0.0)).unwrap();
     let undamped = ModeDamping::Modal(0.0);
     let mut system = CoupledSystem::new(
         &structure,
@@ -425,7 +427,7 @@ fn smooth_signal(method: Method, h: f64, duration: f64) -> Vec<f64> {
     let modes = structure.modes().unwrap();
     let mut setup = preloaded_bearing(270.0, 20.0);
     setup.contact_damping = 1.0;
-    let rest = Equilibrium::find(&structure, &setup, 0.0).unwrap();
+    let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let damping = ModeDamping::Modal(0.03);
     let mut system = CoupledSystem::new(
         &structure,

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::super::{Bearing, Case, ContactStiffness};
-use super::range::{above, above_zero, below, known_isotropic, ratio, zero_or_more};
+use super::super::{Bearing, Case, ContactStiffness, Slip};
+use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
 
 pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
@@ -25,7 +25,28 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
         above_zero("bearing.stiffness.inner", inner)?;
         above_zero("bearing.stiffness.outer", outer)?;
     }
-    ratio("bearing.slip", bearing.slip)
+    slip(&bearing.slip)
+}
+
+fn slip(slip: &Slip) -> Result<(), BrokenRule> {
+    let (name, points): (_, Vec<(f64, f64)>) = match slip {
+        Slip::Constant(slip) => return ratio("bearing.slip", *slip),
+        Slip::OverTime(points) => ("time", points.iter().map(|p| (p.time, p.slip)).collect()),
+        Slip::OverSpeed(points) => ("hz", points.iter().map(|p| (p.hz, p.slip)).collect()),
+    };
+    let key = "bearing.slip.profile";
+    not_empty(key, points.len(), "at least one point")?;
+    for (index, &(place, slip)) in points.iter().enumerate() {
+        if name == "hz" {
+            zero_or_more(format!("{key}[{index}].hz"), place)?;
+        }
+        ratio(format!("{key}[{index}].slip"), slip)?;
+    }
+    for (index, pair) in points.windows(2).enumerate() {
+        let key = format!("{key}[{}].{name}", index + 1);
+        above(key, pair[1].0, "the one before it", pair[0].0)?;
+    }
+    Ok(())
 }
 
 fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {

@@ -94,7 +94,6 @@ fn what_may_be_zero_is_not_below() {
         "ring.supports[0].spring.y",
         "bearing.contact_damping",
         "shaft.unbalance",
-        "speed.profile[0].hz",
         "accuracy.band_hz[0]",
         "transient.start",
     ] {

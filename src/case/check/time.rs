@@ -1,7 +1,7 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, ModeExtent, ModesKept,
+    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Load, ModeExtent, ModesKept,
     SensorSpot, StepLength,
 };
 use super::range::{
@@ -24,6 +24,14 @@ pub(super) fn shaft(case: &Case) -> Result<(), BrokenRule> {
     if let Some(shaft) = &case.shaft {
         above_zero("shaft.mass", shaft.mass)?;
         zero_or_more("shaft.unbalance", shaft.unbalance)?;
+        for (index, load) in shaft.loads.iter().enumerate() {
+            let Load::Profile(points) = load else {
+                continue;
+            };
+            let key = format!("shaft.loads[{index}].profile");
+            not_empty(key.as_str(), points.len(), "at least one point")?;
+            increasing(&key, points.iter().map(|point| point.time))?;
+        }
     }
     Ok(())
 }
@@ -57,12 +65,18 @@ pub(super) fn speed(case: &Case) -> Result<(), BrokenRule> {
         return Ok(());
     };
     not_empty("speed.profile", speed.profile.len(), "at least one point")?;
-    for (index, point) in speed.profile.iter().enumerate() {
-        zero_or_more(format!("speed.profile[{index}].hz"), point.hz)?;
-    }
-    for (index, pair) in speed.profile.windows(2).enumerate() {
-        let key = format!("speed.profile[{}].time", index + 1);
-        above(key, pair[1].time, "the time before it", pair[0].time)?;
+    increasing(
+        "speed.profile",
+        speed.profile.iter().map(|point| point.time),
+    )
+}
+
+/// Times of the points under `key`.
+fn increasing(key: &str, times: impl Iterator<Item = f64>) -> Result<(), BrokenRule> {
+    let times: Vec<f64> = times.collect();
+    for (index, pair) in times.windows(2).enumerate() {
+        let key = format!("{key}[{}].time", index + 1);
+        above(key, pair[1], "the time before it", pair[0])?;
     }
     Ok(())
 }

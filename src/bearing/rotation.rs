@@ -1,0 +1,144 @@
+//! Rotation with piecewise polynomial speed: angle, speed and acceleration at any time, without integration error.
+//!
+//! ```text
+//! ω(t) = ω_k + α_k (t − t_k) + j_k (t − t_k)² / 2        t_k ≤ t < t_{k+1}
+//! θ(t) = θ_k + ω_k (t − t_k) + α_k (t − t_k)² / 2 + j_k (t − t_k)³ / 6
+//! ```
+//!
+//! Before the first and after the last knot the speed is constant. The acceleration may jump at a knot: there it is that of
+//! the piece to the right.
+
+/// Angle and its derivatives at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotationState {
+    /// Angle, rad, not reduced to one turn.
+    pub angle: f64,
+    /// Angular speed, rad/s.
+    pub speed: f64,
+    /// Angular acceleration, rad/s².
+    pub acceleration: f64,
+}
+
+/// Remembers the piece of the last call: successive times cost no search.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RotationCursor {
+    piece: usize,
+}
+
+/// A polynomial from `time` on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Piece {
+    time: f64,
+    angle: f64,
+    speed: f64,
+    acceleration: f64,
+    jerk: f64,
+}
+
+impl Piece {
+    #[inline]
+    fn at(&self, time: f64) -> RotationState {
+        let dt = time - self.time;
+        let acceleration = self.acceleration + self.jerk * dt;
+        let gained = dt * (self.acceleration + 0.5 * self.jerk * dt);
+        let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt / 6.0);
+        RotationState {
+            angle: self.angle + dt * (self.speed + gained_mean),
+            speed: self.speed + gained,
+            acceleration,
+        }
+    }
+}
+
+/// Speed from a knot on: value, first and second derivative by time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SpeedPiece {
+    /// Time of the knot, s.
+    pub time: f64,
+    /// Angular speed there, rad/s.
+    pub speed: f64,
+    /// Angular acceleration there, rad/s².
+    pub acceleration: f64,
+    /// Its rate, rad/s³, constant.
+    pub jerk: f64,
+}
+
+/// A rotation over all time.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rotation {
+    /// Constant speed before the first knot; its reference time is the first knot's.
+    before: Piece,
+    /// One piece a knot.
+    pieces: Vec<Piece>,
+}
+
+impl Rotation {
+    /// A rotation by `angle_at_zero` (rad) at time zero from `pieces`, at least one, times ascending; the first one's speed
+    /// holds before it.
+    pub fn new(first: SpeedPiece, rest: &[SpeedPiece], angle_at_zero: f64) -> Self {
+        let mut pieces: Vec<Piece> = Vec::with_capacity(1 + rest.len());
+        for piece in std::iter::once(&first).chain(rest) {
+            let angle = pieces.last().map_or(0.0, |last| last.at(piece.time).angle);
+            pieces.push(Piece {
+                time: piece.time,
+                angle,
+                speed: piece.speed,
+                acceleration: piece.acceleration,
+                jerk: piece.jerk,
+            });
+        }
+        let mut rotation = Self {
+            before: Piece {
+                time: first.time,
+                angle: 0.0,
+                speed: first.speed,
+                acceleration: 0.0,
+                jerk: 0.0,
+            },
+            pieces,
+        };
+        let shift = angle_at_zero - rotation.at(0.0).angle;
+        rotation.before.angle += shift;
+        for piece in &mut rotation.pieces {
+            piece.angle += shift;
+        }
+        rotation
+    }
+
+    /// Times (s) of the knots.
+    pub fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.pieces.iter().map(|piece| piece.time)
+    }
+
+    /// State at `time` (s); O(log n).
+    #[inline]
+    pub fn at(&self, time: f64) -> RotationState {
+        let started = self.pieces.partition_point(|piece| piece.time <= time);
+        self.piece(started).at(time)
+    }
+
+    /// State at `time` (s), searching from where `cursor` was left: constant cost for times that move in small steps,
+    /// either way.
+    #[inline]
+    pub fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+        let mut started = cursor.piece.min(self.pieces.len());
+        while started < self.pieces.len() && self.pieces[started].time <= time {
+            started += 1;
+        }
+        while started > 0 && self.pieces[started - 1].time > time {
+            started -= 1;
+        }
+        cursor.piece = started;
+        self.piece(started).at(time)
+    }
+
+    /// The piece in force once `started` knots have passed.
+    #[inline]
+    fn piece(&self, started: usize) -> &Piece {
+        if started == 0 {
+            &self.before
+        } else {
+            &self.pieces[started - 1]
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! The reduced potential of shaft and balls: its slope and curvature at given positions.
+
+use super::condition::StaticCondition;
+use super::rows::contact_rows;
+use super::search::{Found, HELD};
+use super::{BallLoad, Equilibrium};
+use crate::linalg::DenseMatrix;
+use crate::system::bearing_setup::{BearingSetup, Formulation};
+use crate::system::inner::InnerRace;
+use crate::system::outer::{OuterForce, OuterRace};
+use crate::system::{Structure, SystemError};
+use nalgebra::{DMatrix, DVector};
+
+/// One evaluation of the reduced potential.
+pub(super) struct Evaluation {
+    /// Force out of balance on the shaft's two displacements and the balls', N.
+    pub gradient: DVector<f64>,
+    /// N/m.
+    pub hessian: DMatrix<f64>,
+    inner: Vec<f64>,
+    outer: Vec<OuterForce>,
+}
+
+/// A bearing in its structure, the cage at rest.
+pub(super) struct Problem<'a> {
+    setup: &'a BearingSetup,
+    inner: InnerRace,
+    outer: OuterRace,
+    condition: StaticCondition,
+    angles: Vec<f64>,
+    /// Flexibility at the contacts [2 balls x 2 balls], radial then tangential a ball, m/N.
+    flexibility: DMatrix<f64>,
+    /// Displacement there under the structure's weight [2 balls], m.
+    weight: DVector<f64>,
+    /// Displacement of the race under the balls [2 balls], the start of the next inner solution.
+    race: DVector<f64>,
+}
+
+impl<'a> Problem<'a> {
+    /// The problem, and the loads behind it: unit contact forces, then the weight [dof x 2 balls + 1].
+    pub fn new(
+        structure: &Structure,
+        setup: &'a BearingSetup,
+        condition: StaticCondition,
+    ) -> Result<(Self, DenseMatrix), SystemError> {
+        let balls = setup.balls();
+        let angles: Vec<f64> = (0..balls)
+            .map(|j| setup.cage.ball_angle(condition.cage_angle, j as u32))
+            .collect();
+        let rows = contact_rows(structure, setup, &angles);
+        let weighted = setup.formulation == Formulation::Consistent;
+        let loads =
+            DenseMatrix::from_fn(structure.dof(), 2 * balls + 1, |row, column| {
+                match column.checked_sub(2 * balls) {
+                    None => rows[(row, column)],
+                    Some(_) if weighted => structure.gravity()[row],
+                    Some(_) => 0.0,
+                }
+            });
+        let responses = structure.static_response(&loads)?;
+        let at_contacts = rows.transpose() * &responses;
+        Ok((
+            Self {
+                inner: InnerRace::new(&setup.geometry, setup.stiffness.inner(), 0.0),
+                outer: OuterRace::new(setup),
+                setup,
+                angles,
+                condition,
+                flexibility: DMatrix::from_fn(2 * balls, 2 * balls, |i, j| at_contacts[(i, j)]),
+                weight: DVector::from_fn(2 * balls, |i, _| at_contacts[(i, 2 * balls)]),
+                race: DVector::zeros(2 * balls),
+            },
+            loads,
+        ))
+    }
+
+    /// Distance of a ball that touches the outer race from the bearing's centre, m.
+    pub fn touching_radius(&self) -> f64 {
+        self.inner.touching_radius
+    }
+
+    /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
+    /// bearing.
+    pub fn force_scale(&self) -> f64 {
+        let [x, y] = self.condition.load;
+        x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
+    }
+
+    pub fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
+        let balls = self.angles.len();
+        let (outer, stiffness) = self.outer_forces(z);
+        let mut gradient = DVector::zeros(2 + balls);
+        let mut hessian = DMatrix::zeros(2 + balls, 2 + balls);
+        gradient[0] = -self.condition.load[0];
+        gradient[1] = -self.condition.load[1];
+        let mass = self.setup.geometry.ball_mass();
+        let mut inner = vec![0.0; balls];
+        for j in 0..balls {
+            let (sin, cos) = self.angles[j].sin_cos();
+            let e = [cos, sin];
+            let s = z[2 + j];
+            let rho = self.inner.touching_radius + s;
+            let weight = mass * (self.setup.gravity[0] * cos + self.setup.gravity[1] * sin);
+            let spin = self.condition.cage_speed.powi(2);
+            gradient[2 + j] = outer[j].radial - weight - mass * spin * rho;
+            hessian[(2 + j, 2 + j)] -= mass * spin;
+            for k in 0..balls {
+                hessian[(2 + j, 2 + k)] += stiffness[(j, k)];
+            }
+            let gap = self.inner.gap(e, s, [z[0], z[1]]);
+            let force = self.inner.law.linearised(gap.penetration, 0.0);
+            inner[j] = force.force;
+            if force.force > 0.0 {
+                // chi over (x, y, s_j): gradient a, Hessian (t t^T) / chi with t across the normal
+                let n = gap.normal;
+                let along = [-n[0], -n[1], n[0] * e[0] + n[1] * e[1]];
+                let across = [n[1], -n[0], n[0] * e[1] - n[1] * e[0]];
+                let place = [0, 1, 2 + j];
+                for a in 0..3 {
+                    gradient[place[a]] -= force.force * along[a];
+                    for b in 0..3 {
+                        hessian[(place[a], place[b])] += force.by_penetration * along[a] * along[b]
+                            - force.force / gap.distance * across[a] * across[b];
+                    }
+                }
+            }
+        }
+        Evaluation {
+            gradient,
+            hessian,
+            inner,
+            outer,
+        }
+    }
+
+    /// Outer contact forces for given ball positions, and their derivatives [balls x balls] with
+    /// the structure following.
+    fn outer_forces(&mut self, z: &DVector<f64>) -> (Vec<OuterForce>, DMatrix<f64>) {
+        let balls = self.angles.len();
+        let at = |race: &DVector<f64>| -> (Vec<OuterForce>, DVector<f64>) {
+            let forces: Vec<OuterForce> = (0..balls)
+                .map(|j| {
+                    let s = z[2 + j];
+                    let shift = race[2 * j + 1] / (self.inner.touching_radius + s);
+                    let angle = self.angles[j] - shift;
+                    self.outer.force(angle, s - race[2 * j], [0.0; 2])
+                })
+                .collect();
+            let vector = DVector::from_fn(2 * balls, |i, _| match i % 2 {
+                0 => forces[i / 2].radial,
+                _ => forces[i / 2].tangential,
+            });
+            let error = race - &self.weight - &self.flexibility * &vector;
+            (forces, error)
+        };
+        let mut race = self.race.clone();
+        let (mut forces, mut error) = at(&race);
+        let mut tangent = self.tangent(&forces);
+        for _ in 0..60 {
+            // 1e-20 m is below round-off of any displacement that matters here
+            if error.amax() <= 1e-13 * race.amax() + 1e-20 {
+                break;
+            }
+            let jacobian = DMatrix::identity(2 * balls, 2 * balls) + &self.flexibility * &tangent;
+            let Some(mut step) = jacobian.lu().solve(&error) else {
+                break;
+            };
+            let size = error.norm();
+            // the error falls along Newton's direction; past round-off any step is as good
+            loop {
+                let trial = &race - &step;
+                let (trial_forces, trial_error) = at(&trial);
+                if trial_error.norm() < size || step.amax() < 1e-18 {
+                    (race, forces, error) = (trial, trial_forces, trial_error);
+                    break;
+                }
+                step *= 0.5;
+            }
+            tangent = self.tangent(&forces);
+        }
+        let follow = DMatrix::identity(2 * balls, 2 * balls) + &tangent * &self.flexibility;
+        let stiffness = follow.lu().solve(&tangent).unwrap_or(tangent);
+        self.race = race;
+        let radial = DMatrix::from_fn(balls, balls, |i, j| {
+            0.5 * (stiffness[(2 * i, 2 * j)] + stiffness[(2 * j, 2 * i)])
+        });
+        (forces, radial)
+    }
+
+    fn tangent(&self, forces: &[OuterForce]) -> DMatrix<f64> {
+        let mut tangent = DMatrix::zeros(2 * forces.len(), 2 * forces.len());
+        for (j, force) in forces.iter().enumerate() {
+            tangent[(2 * j, 2 * j)] = force.tangent[0];
+            tangent[(2 * j, 2 * j + 1)] = force.tangent[1];
+            tangent[(2 * j + 1, 2 * j)] = force.tangent[1];
+            tangent[(2 * j + 1, 2 * j + 1)] = force.tangent[2];
+        }
+        tangent
+    }
+
+    /// The equilibrium that a search found; `loads` as [`Problem::new`] gives them.
+    pub fn result(&self, found: &Found, loads: &DenseMatrix, structure: &Structure) -> Equilibrium {
+        let Found { z, evaluation, .. } = found;
+
+        let balls = self.angles.len();
+        let structure_load: Vec<f64> = (0..structure.dof())
+            .map(|row| {
+                let contacts: f64 = (0..balls)
+                    .map(|j| {
+                        let force = &evaluation.outer[j];
+                        loads[(row, 2 * j)] * force.radial
+                            + loads[(row, 2 * j + 1)] * force.tangential
+                    })
+                    .sum();
+                contacts + loads[(row, 2 * balls)]
+            })
+            .collect();
+        let centre = match self.setup.formulation {
+            Formulation::Consistent => [0.0; 2],
+            Formulation::Printed => self.mean_displacement(structure, &structure_load),
+        };
+        Equilibrium {
+            shaft: [z[0] + centre[0], z[1] + centre[1]],
+            balls: (0..balls)
+                .map(|j| BallLoad {
+                    angle: self.angles[j],
+                    displacement: z[2 + j],
+                    inner: evaluation.inner[j],
+                    outer: evaluation.outer[j].magnitude,
+                })
+                .collect(),
+            structure_load,
+            iterations: found.iterations,
+            residual_n: evaluation.gradient.amax(),
+            least_curvature: found.least_curvature(),
+            directions_down: found.directions_down,
+            shaft_stiffness: shaft_stiffness(&evaluation.hessian),
+            centre,
+            cage_speed: self.condition.cage_speed,
+        }
+    }
+
+    fn mean_displacement(&self, structure: &Structure, load: &[f64]) -> [f64; 2] {
+        let column = DenseMatrix::from_fn(load.len(), 1, |row, _| load[row]);
+        let nodes = structure.ring().nodes();
+        structure
+            .static_response(&column)
+            .map(|response| {
+                [0, 1].map(|component| {
+                    let sum: f64 = (0..nodes)
+                        .map(|node| response[(3 * node + component, 0)])
+                        .sum();
+                    sum / nodes as f64
+                })
+            })
+            .unwrap_or([0.0; 2])
+    }
+}
+
+/// Stiffness that a force on the shaft meets while the balls find their own balance, N/m:
+/// `H_ss - H_sb H_bb^-1 H_bs`; balls that nothing holds do not take part.
+fn shaft_stiffness(hessian: &DMatrix<f64>) -> [[f64; 2]; 2] {
+    let balls = hessian.nrows() - 2;
+    let of_balls = hessian.view((2, 2), (balls, balls)).symmetric_eigen();
+    let coupling = of_balls.eigenvectors.transpose() * hessian.view((2, 0), (balls, 2));
+    let mut stiffness = [0, 1].map(|i| [0, 1].map(|j| hessian[(i, j)]));
+    for (mode, &curvature) in of_balls.eigenvalues.iter().enumerate() {
+        if curvature.abs() > HELD {
+            for (i, row) in stiffness.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    *entry -= coupling[(mode, i)] * coupling[(mode, j)] / curvature;
+                }
+            }
+        }
+    }
+    stiffness
+}

@@ -1,0 +1,198 @@
+//! Newton's method on the reduced potential: down to a minimum, or to the next point without slope.
+
+use super::problem::{Evaluation, Problem};
+use crate::system::SystemError;
+use nalgebra::{DVector, Dyn, SymmetricEigen};
+
+type Eigen = SymmetricEigen<f64, Dyn>;
+
+/// Newton steps before it gives up; 15 to 40 are typical, each costs microseconds.
+const MAX_ITERATIONS: usize = 400;
+
+/// Longest step of any coordinate, m: a fifth of a usual clearance.
+const LONGEST_STEP: f64 = 0.5e-6;
+
+/// Force out of balance that counts as none, relative to the load on the shaft.
+const FORCE_TOLERANCE: f64 = 1e-11;
+
+/// Least curvature in a step, N/m: a ball between the races has none, and its weight of 1e-4 N
+/// shall not throw it farther than the longest step.
+const LEAST_CURVATURE: f64 = 100.0;
+
+/// Curvature below which a direction counts as held by nothing, N/m.
+pub(super) const HELD: f64 = 1e-3 * LEAST_CURVATURE;
+
+/// Halvings of a step: 2^-30 of the longest one is below round-off of a displacement.
+const HALVINGS: usize = 30;
+
+/// Where a search ended.
+pub(super) struct Found {
+    /// Shaft relative to the centre that its position is measured from, then the balls' displacements, m.
+    pub z: DVector<f64>,
+    pub evaluation: Evaluation,
+    pub iterations: usize,
+    /// Curvatures of the potential, N/m.
+    pub curvatures: DVector<f64>,
+    /// How many of them make the potential fall.
+    pub directions_down: usize,
+}
+
+impl Found {
+    fn new(
+        z: DVector<f64>,
+        evaluation: Evaluation,
+        iterations: usize,
+        eigen: &Eigen,
+        falling: f64,
+    ) -> Self {
+        let curvatures = eigen.eigenvalues.iter();
+        Self {
+            z,
+            evaluation,
+            iterations,
+            directions_down: curvatures.filter(|&&value| value < falling).count(),
+            curvatures: eigen.eigenvalues.clone(),
+        }
+    }
+
+    /// Smallest curvature among directions that a contact holds, N/m.
+    pub fn least_curvature(&self) -> f64 {
+        let held = self.curvatures.iter().copied();
+        held.filter(|value| value.abs() > HELD)
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Problem<'_> {
+    /// Walks downhill from `z` to a minimum; where nothing is out of balance but a direction curves downwards, along it.
+    ///
+    /// # Errors
+    /// [`SystemError::NoEquilibrium`].
+    pub fn descend(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
+        let mut evaluation = self.evaluate(&z);
+        let mut iterations = 0;
+        loop {
+            let eigen = evaluation.hessian.clone().symmetric_eigen();
+            let (softest, _) = eigen.eigenvalues.argmin();
+            let saddle = eigen.eigenvalues[softest] < self.falling();
+            let balanced = self.balanced(&evaluation);
+            if balanced && !saddle {
+                return Ok(Found::new(
+                    z,
+                    evaluation,
+                    iterations,
+                    &eigen,
+                    self.falling(),
+                ));
+            }
+            go_on(&evaluation, iterations)?;
+            let step = if balanced {
+                eigen.eigenvectors.column(softest) * LONGEST_STEP
+            } else {
+                newton(&eigen, &evaluation.gradient, |curvature| {
+                    curvature.abs().max(LEAST_CURVATURE)
+                })
+            };
+            evaluation = self.walk(&mut z, step, &evaluation);
+            iterations += 1;
+        }
+    }
+
+    /// Goes from `z` to the next point without slope, a saddle as well as a minimum.
+    ///
+    /// # Errors
+    /// [`SystemError::NoEquilibrium`].
+    pub fn settle(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
+        let mut evaluation = self.evaluate(&z);
+        let mut iterations = 0;
+        loop {
+            let eigen = evaluation.hessian.clone().symmetric_eigen();
+            if self.balanced(&evaluation) {
+                return Ok(Found::new(
+                    z,
+                    evaluation,
+                    iterations,
+                    &eigen,
+                    self.falling(),
+                ));
+            }
+            go_on(&evaluation, iterations)?;
+            let mut step = newton(&eigen, &evaluation.gradient, |curvature| {
+                curvature.abs().max(LEAST_CURVATURE).copysign(curvature)
+            });
+            let before = evaluation.gradient.norm();
+            for _ in 0..HALVINGS {
+                evaluation = self.evaluate(&(&z + &step));
+                // along Newton's direction the force out of balance falls at first
+                if evaluation.gradient.norm() < before {
+                    break;
+                }
+                step *= 0.5;
+            }
+            z += &step;
+            iterations += 1;
+        }
+    }
+
+    /// Curvature below which the potential falls, N/m: a hundredth of what a force on the shaft has without a contact, -F / chi.
+    fn falling(&self) -> f64 {
+        -0.01 * self.force_scale() / self.touching_radius()
+    }
+
+    /// Whether no force is out of balance.
+    fn balanced(&self, evaluation: &Evaluation) -> bool {
+        evaluation.gradient.amax() <= FORCE_TOLERANCE * self.force_scale()
+    }
+
+    /// Goes along `step`, shortened until the potential's slope along it says that the minimum was
+    /// not overrun by more than half.
+    fn walk(
+        &mut self,
+        z: &mut DVector<f64>,
+        mut step: DVector<f64>,
+        before: &Evaluation,
+    ) -> Evaluation {
+        let slope = before.gradient.dot(&step).abs();
+        for _ in 0..HALVINGS {
+            let trial = &*z + &step;
+            let evaluation = self.evaluate(&trial);
+            let overrun = evaluation.gradient.dot(&step);
+            // a slope lost in round-off cannot judge: Newton's step is then as good as any
+            if overrun <= 0.5 * slope || step.amax() < 1e-16 {
+                *z = trial;
+                return evaluation;
+            }
+            step *= 0.5;
+        }
+        *z += &step;
+        self.evaluate(z)
+    }
+}
+
+fn go_on(evaluation: &Evaluation, iterations: usize) -> Result<(), SystemError> {
+    let residual_n = evaluation.gradient.amax();
+    if iterations == MAX_ITERATIONS || !residual_n.is_finite() {
+        return Err(SystemError::NoEquilibrium {
+            iterations,
+            residual_n,
+        });
+    }
+    Ok(())
+}
+
+/// Newton's step with the curvatures as `used` makes them, at most [`LONGEST_STEP`] in any coordinate.
+fn newton(eigen: &Eigen, gradient: &DVector<f64>, used: impl Fn(f64) -> f64) -> DVector<f64> {
+    let mut step = DVector::zeros(gradient.len());
+    let pairs = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter());
+    for (&curvature, direction) in pairs {
+        step -= direction * (direction.dot(gradient) / used(curvature));
+    }
+    let longest = step.amax();
+    if longest > LONGEST_STEP {
+        step *= LONGEST_STEP / longest;
+    }
+    step
+}

@@ -1,0 +1,67 @@
+//! A force over time: straight lines between points, constant beyond them.
+
+/// Force in the bearing's plane, N.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LoadProfile {
+    /// Time (s) and force (N); times ascending.
+    points: Vec<(f64, [f64; 2])>,
+}
+
+impl LoadProfile {
+    /// The same force always.
+    pub fn constant(force: [f64; 2]) -> Self {
+        Self {
+            points: vec![(0.0, force)],
+        }
+    }
+
+    /// Through points (s, N); those that do not come after the one before are left out. Without points there is no force.
+    pub fn through(points: &[(f64, [f64; 2])]) -> Self {
+        let mut kept: Vec<(f64, [f64; 2])> = Vec::with_capacity(points.len());
+        for &point in points {
+            if kept.last().is_none_or(|last| point.0 > last.0) {
+                kept.push(point);
+            }
+        }
+        Self { points: kept }
+    }
+
+    /// Force at `time` (s), N.
+    #[inline]
+    pub fn at(&self, time: f64) -> [f64; 2] {
+        let after = self.points.partition_point(|point| point.0 <= time);
+        match (after.checked_sub(1), self.points.get(after)) {
+            (Some(before), Some((end, last))) => {
+                let (start, first) = self.points[before];
+                let share = (time - start) / (end - start);
+                [0, 1].map(|k| first[k] + share * (last[k] - first[k]))
+            }
+            (Some(before), None) => self.points[before].1,
+            (None, Some(&(_, first))) => first,
+            (None, None) => [0.0; 2],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn straight_between_points_and_constant_beyond() {
+        let load = LoadProfile::through(&[(1.0, [0.0, -2.0]), (3.0, [4.0, 0.0])]);
+        for (time, force) in [
+            (0.0, [0.0, -2.0]),
+            (1.5, [1.0, -1.5]),
+            (3.0, [4.0, 0.0]),
+            (9.0, [4.0, 0.0]),
+        ] {
+            for (found, expected) in load.at(time).into_iter().zip(force) {
+                assert_relative_eq!(found, expected, epsilon = 1e-15);
+            }
+        }
+        assert_relative_eq!(LoadProfile::constant([1.0, 2.0]).at(-7.0)[1], 2.0);
+        assert_relative_eq!(LoadProfile::default().at(0.0)[0], 0.0);
+    }
+}
