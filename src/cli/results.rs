@@ -80,8 +80,14 @@ pub(super) fn run_json(
             "outer_force_n": balls(|ball| ball.outer),
             "residual_n": equilibrium.residual_n,
             "least_curvature_n_per_m": equilibrium.least_curvature,
+            "shaft_stiffness_n_per_m": equilibrium.shaft_stiffness,
             "iterations": equilibrium.iterations,
         },
+        "other_equilibria": result.statics.equilibria.iter().skip(1).map(|other| json!({
+            "shaft_m": other.shaft,
+            "inner_force_n": other.balls.iter().map(|ball| ball.inner).collect::<Vec<_>>(),
+            "stable": other.is_stable(),
+        })).collect::<Vec<_>>(),
         "defect_orders": {
             "cage": orders.cage,
             "outer": orders.outer,

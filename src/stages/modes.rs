@@ -6,12 +6,13 @@ use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use super::modal_system::{UnloadedModes, unloaded_modes};
 use super::mode_shapes::mode_shapes;
+use super::statics::Statics;
 use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
 use crate::case::{Case, Expected, Linearise, ModeExtent};
 use crate::exchange::ModeShapes;
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
-use crate::system::{Equilibrium, LoadedMode, LoadedModes, StaticCondition};
+use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
 use serde::Serialize;
 
 /// An expected frequency and what was found.
@@ -46,8 +47,6 @@ pub struct Reading {
     pub condensation_difference: Option<f64>,
     /// Modes linearised at the static equilibrium, if asked for, with the housing condensed.
     pub loaded: Option<LoadedModes>,
-    /// The equilibrium that they belong to.
-    pub equilibrium: Option<Equilibrium>,
     /// Expected frequencies against these.
     pub expected: Vec<ExpectedMode>,
 }
@@ -69,6 +68,8 @@ pub struct ModesResult {
     pub comparisons: Vec<FileComparison>,
     /// The same modes on other meshes.
     pub convergence: Option<MeshConvergence>,
+    /// The bearing at rest, if modes are linearised with it.
+    pub statics: Option<Statics>,
 }
 
 impl ModesResult {
@@ -150,6 +151,10 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         rigid: survey.basis.rigid_modes,
     };
     let base = reading(case, &stage, unloaded, String::new(), Vec::new())?;
+    let statics = match linearised_setup(case)? {
+        Some(setup) => Some(Statics::compute(&stage, &setup, start_time(case))?),
+        None => None,
+    };
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
@@ -171,6 +176,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         housing: None,
         comparisons: Vec::new(),
         convergence: None,
+        statics,
     })
 }
 
@@ -187,7 +193,6 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         unloaded_hz: survey.basis.frequencies_hz.clone(),
         condensation_difference: None,
         loaded: None,
-        equilibrium: None,
         expected: Vec::new(),
     };
     base.expected = judge(&base, &case.modes.expected);
@@ -199,7 +204,22 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         housing: Some((mesh, model)),
         comparisons: Vec::new(),
         convergence: None,
+        statics: None,
     })
+}
+
+/// The bearing, if modes are linearised with it.
+fn linearised_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
+    match case.modes.linearise {
+        Linearise::Static => bearing_setup(case),
+        Linearise::None => Ok(None),
+    }
+}
+
+/// When the bearing is looked at, s.
+fn start_time(case: &Case) -> f64 {
+    let transient = case.transient.as_ref();
+    transient.map_or(0.0, |transient| transient.start)
 }
 
 fn reading(
@@ -209,18 +229,14 @@ fn reading(
     what: String,
     set: Vec<String>,
 ) -> Result<Reading, StageError> {
-    let (loaded, equilibrium) = match (case.modes.linearise, bearing_setup(case)?) {
-        (Linearise::Static, Some(setup)) => {
-            let t = case
-                .transient
-                .as_ref()
-                .map_or(0.0, |transient| transient.start);
-            let equilibrium =
-                Equilibrium::find(&stage.structure, &setup, StaticCondition::at(&setup, t))?;
-            let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
-            (Some(loaded), Some(equilibrium))
+    let loaded = match linearised_setup(case)? {
+        Some(setup) => {
+            let condition = StaticCondition::at(&setup, start_time(case));
+            let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+            let modes = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
+            Some(modes)
         }
-        _ => (None, None),
+        None => None,
     };
     let mut reading = Reading {
         what,
@@ -228,7 +244,6 @@ fn reading(
         condensation_difference: condensation_difference(stage, &unloaded, case.modes.extent),
         unloaded_hz: unloaded.frequencies_hz,
         loaded,
-        equilibrium,
         expected: Vec::new(),
     };
     reading.expected = judge(&reading, &case.modes.expected);

@@ -8,7 +8,8 @@ use super::modal_tables::{
 };
 use super::mode_checks_report::{comparison_section, convergence_section, headlines};
 use super::shape_view::shape_view;
-use super::tables::{assumptions, equilibrium_table, expected_table, mode_table, model_facts};
+use super::statics_report::statics_section;
+use super::tables::{assumptions, expected_table, mode_table, model_facts};
 use super::{ModesResult, Reading, StageError, bearing_setup, bearing_table, race_contacts};
 use crate::case::Case;
 use crate::report::{
@@ -72,12 +73,15 @@ pub fn modes_report(
     }
     let setup = bearing_setup(case)?;
     if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
-        let equilibrium = result.base.equilibrium.as_ref();
-        let section = Section::new("Bearing").table(bearing_table(setup, &contacts, equilibrium));
-        report = report.section(match equilibrium {
-            Some(equilibrium) => section.table(equilibrium_table(equilibrium)),
-            None => section,
-        });
+        let equilibria = result
+            .statics
+            .iter()
+            .flat_map(|statics| &statics.equilibria);
+        let table = bearing_table(setup, &contacts, equilibria.clone().next());
+        report = report.section(Section::new("Bearing").table(table));
+        if let Some(statics) = &result.statics {
+            report = report.section(statics_section(setup, statics));
+        }
     }
     for text in assumptions(case, setup.as_ref()) {
         report = report.assumption(text);

@@ -1,6 +1,7 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
 use super::damping::{damping, refuse_structural_damping};
+use super::statics::Statics;
 use super::structure::MODELLED;
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use super::{bearing_table, race_contacts};
@@ -45,6 +46,8 @@ pub struct RunResult {
     pub contacts: RaceContacts,
     /// Where it started.
     pub equilibrium: Equilibrium,
+    /// That equilibrium among the others, and over a ball pass.
+    pub statics: Statics,
     /// Modes linearised there.
     pub loaded: LoadedModes,
     /// Method used.
@@ -116,11 +119,9 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         imported.refuse_structural_damping()?;
     }
     watch.stage("equilibrium");
-    let equilibrium = Equilibrium::find(
-        &stage.structure,
-        &setup,
-        StaticCondition::at(&setup, asked.start),
-    )?;
+    let statics = Statics::compute(&stage, &setup, asked.start)?;
+    let condition = StaticCondition::at(&setup, asked.start);
+    let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
     let method = match asked.method {
@@ -196,6 +197,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         setup,
         contacts,
         equilibrium,
+        statics,
         loaded,
         method,
         schedule,

@@ -1,7 +1,8 @@
 //! The report of `plummer run`.
 
 use super::drawing::draw;
-use super::tables::{assumptions, equilibrium_table, expected_table, mode_table, model_facts};
+use super::statics_report::statics_section;
+use super::tables::{assumptions, expected_table, mode_table, model_facts};
 use super::{ExpectedMode, RunEnd, RunResult, StageError, WindowAnalysis};
 use crate::case::Case;
 use crate::report::{
@@ -36,11 +37,8 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
             .drawing(draw(case, &result.stage, Some(&result.setup)))
             .facts(model_facts(case, &result.stage, true)),
     );
-    report = report.section(
-        Section::new("Bearing")
-            .table(result.bearing_table())
-            .table(equilibrium_table(&result.equilibrium)),
-    );
+    report = report.section(Section::new("Bearing").table(result.bearing_table()));
+    report = report.section(statics_section(&result.setup, &result.statics));
     report = report.section(Section::new("Computation").facts(computation(result)));
     let imported = result.stage.imported.iter();
     for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {

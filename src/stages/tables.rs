@@ -3,7 +3,7 @@
 use super::{ExpectedMode, StructureStage};
 use crate::case::Case;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
-use crate::system::{BearingSetup, Equilibrium, Formulation, LoadedModes};
+use crate::system::{BearingSetup, Formulation, LoadedModes};
 
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
@@ -86,40 +86,6 @@ pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) 
 
 fn on(value: bool) -> &'static str {
     if value { "on" } else { "off" }
-}
-
-/// Forces and positions at rest.
-pub(super) fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
-    let mut table = Table::new(
-        format!(
-            "Static equilibrium: shaft at ({}, {}) \u{b5}m, least curvature {} N/m ({})",
-            significant(equilibrium.shaft[0] * 1e6, 4),
-            significant(equilibrium.shaft[1] * 1e6, 4),
-            significant(equilibrium.least_curvature, 3),
-            if equilibrium.least_curvature > 0.0 {
-                "stable"
-            } else {
-                "not stable"
-            }
-        ),
-        [
-            Column::number("Ball", ""),
-            Column::number("Angle", "deg"),
-            Column::number("Outward displacement", "\u{b5}m"),
-            Column::number("Inner force", "N"),
-            Column::number("Outer force", "N"),
-        ],
-    );
-    for (index, ball) in equilibrium.balls.iter().enumerate() {
-        table = table.row([
-            Cell::text(index.to_string()),
-            Cell::number(ball.angle.to_degrees().rem_euclid(360.0), 5),
-            Cell::number(ball.displacement * 1e6, 4),
-            Cell::number(ball.inner, 4),
-            Cell::number(ball.outer, 4),
-        ]);
-    }
-    table
 }
 
 /// Loaded and unloaded frequencies side by side.
