@@ -1,6 +1,6 @@
 //! The bearing as the coupled system takes it: geometry, contacts, motion and loads in one value.
 
-use crate::bearing::dent::OuterDent;
+use crate::bearing::defect::Dent;
 use crate::bearing::{BearingGeometry, Cage, ContactStiffness, SpeedProfile};
 
 /// Which reading of the ball position the equations follow.
@@ -42,7 +42,7 @@ pub struct BearingSetup {
     /// Shaft speed over time.
     pub speed: SpeedProfile,
     /// Dents of the outer race, none overlapping.
-    pub dents: Vec<OuterDent>,
+    pub dents: Vec<Dent>,
     /// The shaft and its loads.
     pub shaft: Shaft,
     /// Gravity, m/s^2.
