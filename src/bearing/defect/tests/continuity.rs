@@ -87,7 +87,7 @@ fn force_and_stiffness_are_continuous_in_position() {
 #[test]
 fn the_race_begins_where_the_arc_ends() {
     for (name, subject) in subjects() {
-        let (circles, edge) = (subject.circles(), subject.half_angle());
+        let (circles, edge) = (subject.circles, subject.half_angle());
         let outward = subject.contacts(3e-6, 1.5 * subject.contact_half_angle());
         let [plain] = outward.as_slice() else {
             panic!("{name}: one contact beside the arc")
@@ -128,11 +128,11 @@ fn mirror_image() {
         .map(|&(s, d)| (length - s, d))
         .collect();
     for (name, subject) in subjects() {
-        let image = match subject {
-            Subject::Race(RaceDefect::Measured(measured)) if *name == "scratched pit" => {
-                Subject::Race(RaceDefect::Measured(profile(measured.race(), &turned)))
+        let image = match &subject.kind {
+            Kind::Race(RaceDefect::Measured(measured)) if *name == "scratched pit" => {
+                Subject::race(RaceDefect::Measured(profile(measured.race(), &turned)))
             }
-            other => other.clone(),
+            _ => subject.clone(),
         };
         for _ in 0..300 {
             let offset = 1.1 * subject.contact_half_angle() * numbers.next();

@@ -9,7 +9,7 @@ const RACES: [Race; 2] = [Race::Outer, Race::Inner];
 
 /// Place of a ball that overlaps the undamaged race by `sunk`.
 fn at(dent: &Dent, sunk: f64, offset: f64) -> PolarPosition {
-    let subject = Subject::Race(RaceDefect::Dent(dent.clone()));
+    let subject = Subject::race(RaceDefect::Dent(dent.clone()));
     PolarPosition {
         radius: subject.distance(sunk),
         angle: MIDDLE + offset,
@@ -47,9 +47,9 @@ fn ball_sinks_to_the_bottom_of_the_source_dents() {
 #[test]
 fn drop_is_where_the_deepest_contact_just_touches() {
     for (name, subject) in &subjects()[..14] {
-        let drop = match subject {
-            Subject::Race(defect) => defect.drop(),
-            Subject::Ball(flat, race) => flat.drop(*race),
+        let drop = match &subject.kind {
+            Kind::Race(defect) => defect.drop(),
+            Kind::Ball(flat, race) => flat.drop(*race),
         };
         let deepest = |sunk: f64| {
             let found = subject.contacts(sunk, 0.0);

@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 const RACES: [Race; 2] = [Race::Outer, Race::Inner];
 
 fn subject(race: Race, samples: &[(f64, f64)]) -> Subject {
-    Subject::Race(RaceDefect::Measured(profile(race, samples)))
+    Subject::race(RaceDefect::Measured(profile(race, samples)))
 }
 
 /// The middle of the samples lies at the angle given, arc length grows counter-clockwise, depth goes into the race.
@@ -53,7 +53,7 @@ fn samples_of_a_dent_give_its_contacts() {
             .collect();
         let (told, given) = (
             subject(race, &samples),
-            Subject::Race(RaceDefect::Dent(dent.clone())),
+            Subject::race(RaceDefect::Dent(dent.clone())),
         );
         for i in -5..=5 {
             let offset = 0.1 * f64::from(i) * dent.half_angle();
@@ -87,9 +87,9 @@ fn samples_of_a_dent_give_its_contacts() {
 }
 
 fn told_drop(subject: &Subject) -> f64 {
-    match subject {
-        Subject::Race(defect) => defect.drop(),
-        Subject::Ball(flat, race) => flat.drop(*race),
+    match &subject.kind {
+        Kind::Race(defect) => defect.drop(),
+        Kind::Ball(flat, race) => flat.drop(*race),
     }
 }
 
@@ -117,7 +117,7 @@ fn a_ball_bridges_what_it_cannot_follow() {
             assert!(deepest(drop + 2.5e-6) > 0.5e-6);
         }
         // half way between two crests, 0.1 mm apart
-        let between = 0.05e-3 / subject.circles().carrier;
+        let between = 0.05e-3 / subject.circles.carrier;
         let found = subject.contacts(drop + 1e-7, between);
         let sides: Vec<f64> = found
             .pressing()
@@ -183,7 +183,7 @@ fn steep_profiles_name_their_samples() {
     let message = refused(0.0, &samples).to_string();
     assert!(
         message.starts_with("defect profile is as steep as ")
-            && message.contains("between samples 30 and 31, at most 1 is possible"),
+            && message.contains("between samples 31 and 32, at most 1 is possible"),
         "{message}"
     );
     samples[30].1 = f64::NAN;

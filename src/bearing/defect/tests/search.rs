@@ -9,8 +9,8 @@ use super::*;
 
 /// Intervals of the angle to begin with; each is halved where the profile turns by more than [`TURN`] in it.
 const SAMPLES: u32 = 1000;
-const TURN: f64 = 2e-3;
-const HALVINGS: u32 = 7;
+const TURN: f64 = 3e-4;
+const HALVINGS: u32 = 9;
 
 /// A dense sample of one subject's profile.
 struct Dense<'a> {
@@ -29,7 +29,7 @@ impl<'a> Dense<'a> {
         let step = 2.0 * wide / f64::from(SAMPLES);
         let mut dense = Self {
             subject,
-            circles: subject.circles(),
+            circles: subject.circles,
             places: vec![-wide],
             points: Vec::new(),
         };
@@ -70,6 +70,20 @@ impl<'a> Dense<'a> {
         self.circles.side * bend / (here * here + first * first).powf(1.5)
     }
 
+    /// Whether the profile comes to be as concave as the roller within a sample of a contact.
+    fn folds_near(&self, contact: &DefectContact, offset: f64) -> bool {
+        let Circles {
+            carrier, roller, ..
+        } = self.circles;
+        let across =
+            roller.signum() * contact.normal_tangential * (roller - contact.delta) / carrier;
+        let place = offset + across;
+        let step = self.places[1] - self.places[0];
+        let near = (-4..=4).map(|i| place + 0.25 * step * f64::from(i));
+        near.into_iter()
+            .any(|phi| self.concavity(phi) > 0.98 / roller)
+    }
+
     /// All pressing contacts in order of angle, and whether one is too near an edge to call.
     fn contacts(&self, sunk: f64, offset: f64) -> (Vec<Found>, bool) {
         let distance = self.subject.distance(sunk);
@@ -92,8 +106,8 @@ impl<'a> Dense<'a> {
                     let into = self.point(phi).minus(centre);
                     let normal = into.scaled(1.0 / into.length());
                     // from the ball into the race: the carrier's outward normal if the ball carries the defect
-                    let normal = match self.subject {
-                        Subject::Ball(_, Race::Inner) => normal.scaled(-1.0),
+                    let normal = match self.subject.kind {
+                        Kind::Ball(_, Race::Inner) => normal.scaled(-1.0),
                         _ => normal,
                     };
                     found.push((
@@ -105,6 +119,11 @@ impl<'a> Dense<'a> {
                     ));
                 }
             }
+        }
+        while found.len() > MOST_CONTACTS {
+            let shallower = |a: &(usize, &Found), b: &(usize, &Found)| a.1.0.total_cmp(&b.1.0);
+            let least = found.iter().enumerate().min_by(shallower).unwrap().0;
+            found.remove(least);
         }
         (found, doubtful)
     }
@@ -141,7 +160,6 @@ struct Tally {
 impl Tally {
     fn compare(&mut self, name: &str, subject: &Subject, positions: u32, numbers: &mut Numbers) {
         let dense = Dense::new(subject);
-        let race_stiffness = subject.circles().stiffness;
         for _ in 0..positions {
             let sunk = -1e-6 + 25e-6 * numbers.next();
             let offset = 1.15 * subject.contact_half_angle() * (2.0 * numbers.next() - 1.0);
@@ -149,8 +167,8 @@ impl Tally {
             let found = subject.contacts(sunk, offset);
             let computed: Vec<_> = found.pressing().collect();
             self.positions += 1;
-            // Near a fold the minimum is shallower than the samples resolve; its stiffness is fading there.
-            doubtful |= computed.iter().any(|c| c.stiffness < 0.02 * race_stiffness);
+            // Near a fold the minimum is shallower than the samples resolve.
+            doubtful |= computed.iter().any(|c| dense.folds_near(c, offset));
             if computed.len() != expected.len() && doubtful {
                 self.skipped += 1;
                 continue;
@@ -191,7 +209,7 @@ impl Tally {
         );
         assert!(
             *several >= fewest_several,
-            "{name}: only {several} with several contacts"
+            "{name}: only {several} of {positions} with several contacts"
         );
     }
 }
@@ -203,7 +221,7 @@ fn same_contacts_as_a_dense_search() {
         let mut tally = Tally::default();
         tally.compare(name, subject, 800, &mut numbers);
         let single = name.starts_with("smooth")
-            || matches!(subject, Subject::Ball(_, Race::Inner))
+            || matches!(subject.kind, Kind::Ball(_, Race::Inner))
             || *name == "source's flat";
         tally.check(name, if single { 0 } else { 10 });
     }
@@ -221,7 +239,7 @@ fn random_dents_agree_with_the_search() {
         let Ok(dent) = Dent::new(&source_bearing(), race, shape, source_stiffness()) else {
             continue;
         };
-        let subject = Subject::Race(RaceDefect::Dent(dent));
+        let subject = Subject::race(RaceDefect::Dent(dent));
         tally.compare("random dent", &subject, 60, &mut numbers);
     }
     tally.check("random dents", 100);
@@ -242,7 +260,7 @@ fn random_flats_agree_with_the_search() {
         let Ok(flat) = BallFlat::new(&source_bearing(), shape, source_stiffness()) else {
             continue;
         };
-        let subject = Subject::Ball(flat, race);
+        let subject = Subject::ball(flat, race);
         tally.compare("random flat", &subject, 60, &mut numbers);
     }
     tally.check("random flats", 20);
@@ -255,9 +273,9 @@ fn random_profiles_agree_with_the_search() {
     for i in 0..50 {
         let race = [Race::Outer, Race::Inner][i % 2];
         let length = numbers.between(0.3e-3, 2e-3);
-        let count = numbers.between(6.0, 60.0) as u32;
+        let count = numbers.between(10.0, 80.0) as u32;
         let depth = numbers.between(2e-6, 20e-6);
-        let rough = numbers.between(0.02e-6, 1e-6);
+        let rough = numbers.between(0.1e-6, 3e-6);
         let noise: Vec<f64> = (0..=count).map(|_| numbers.next() - 0.5).collect();
         let samples = sampled(length, count, |x| {
             let i = (x * f64::from(count)).round() as usize;
@@ -267,7 +285,7 @@ fn random_profiles_agree_with_the_search() {
         let Ok(measured) = MeasuredProfile::new(&bearing, race, MIDDLE, &samples, stiffness) else {
             continue;
         };
-        let subject = Subject::Race(RaceDefect::Measured(measured));
+        let subject = Subject::race(RaceDefect::Measured(measured));
         tally.compare("random profile", &subject, 60, &mut numbers);
     }
     tally.check("random profiles", 500);
