@@ -188,7 +188,7 @@ pub(super) fn bearing_table(setup: &BearingSetup, hertz: Option<&RaceContacts>) 
         table = row(
             table,
             "A ball at the dent's middle sinks by",
-            dent.drop() * 1e6,
+            dent.ball_drop() * 1e6,
             4,
             "\u{b5}m",
         );

@@ -149,8 +149,8 @@ impl Dent {
     /// How far, m, a ball at the dent's middle sinks beyond its place on the race: the depth, or less
     /// when the rims hold it.
     #[must_use]
-    pub fn drop(&self) -> f64 {
-        self.profile.drop()
+    pub fn ball_drop(&self) -> f64 {
+        self.profile.ball_drop()
     }
 
     /// Distance (m) from the race's centre to the profile at `angle` (rad, any turn, in the race's frame).

@@ -119,7 +119,7 @@ impl Depression {
 
     /// How far, m, a roller at the middle sinks beyond its place on the undamaged circle: the depth, or less
     /// when the rims hold it.
-    pub fn drop(&self) -> f64 {
+    pub fn ball_drop(&self) -> f64 {
         let circles = &self.circles;
         let depth = circles.side * (self.floor.at(0.0).point.outward - circles.carrier);
         let bridged = self.rim.bridged(circles);

@@ -36,9 +36,9 @@ pub struct FlatShape {
 /// A flat on a ball of one bearing, ready for contact queries with both races.
 ///
 /// The `spin_angle` of all queries is the angle (rad, counter-clockwise, any turn) from the ball's radius vector
-/// about the race's centre to the middle of the flat: 0 faces the outer race, π the inner one. In the frame of
-/// the cage a ball that rolls turns against the shaft, `(D_p/D_b)(1 − (D_b/D_p)²)/2` times a turn of the shaft
-/// relative to the cage's; at the inner race the radius vector starts from the displaced shaft.
+/// about the race's centre to the middle of the flat: 0 faces the outer race, π the inner one. Seen from the cage
+/// a ball that rolls turns against the shaft, [`ball_spin`](crate::closed_form::race::DefectOrders::ball_spin)
+/// times in one of its turns; at the inner race the radius vector starts from the displaced shaft.
 ///
 /// `∂δ/∂spin_angle = −ρ n_t` at fixed position: what the spin adds to δ̇ and takes from its drive.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,8 +122,8 @@ impl BallFlat {
     /// How far, m, the ball moves towards `race` when the flat faces it: the depth, or less when its rims
     /// hold it.
     #[must_use]
-    pub fn drop(&self, race: Race) -> f64 {
-        self.on(race).drop()
+    pub fn ball_drop(&self, race: Race) -> f64 {
+        self.on(race).ball_drop()
     }
 
     /// Distance (m) from the ball's centre to its contour at `angle` (rad, any turn) from the flat's middle.

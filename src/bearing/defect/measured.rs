@@ -125,7 +125,7 @@ impl MeasuredProfile {
     /// How far, m, a ball sinks beyond its place on the race at the angle where it sinks deepest; searched anew
     /// on every call, in milliseconds.
     #[must_use]
-    pub fn drop(&self) -> f64 {
+    pub fn ball_drop(&self) -> f64 {
         sinking::deepest(&self.profile, self.half_angle)
     }
 

@@ -65,10 +65,10 @@ impl RaceDefect {
 
     /// How far, m, a ball sinks beyond its place on the race where it sinks deepest.
     #[must_use]
-    pub fn drop(&self) -> f64 {
+    pub fn ball_drop(&self) -> f64 {
         match self {
-            Self::Dent(dent) => dent.drop(),
-            Self::Measured(profile) => profile.drop(),
+            Self::Dent(dent) => dent.ball_drop(),
+            Self::Measured(profile) => profile.ball_drop(),
         }
     }
 

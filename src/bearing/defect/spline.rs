@@ -62,7 +62,7 @@ pub(super) fn through(knots: &[(f64, f64)]) -> Vec<Piece> {
     });
     pieces.push(Piece {
         ends: [middle, knots[1].0],
-        coefficients: end.from_half(1.0, end.c + end.e),
+        coefficients: end.past_half(1.0, end.c + end.e),
         sample: 0,
     });
     for i in 1..last - 1 {
@@ -93,7 +93,7 @@ pub(super) fn through(knots: &[(f64, f64)]) -> Vec<Piece> {
     });
     pieces.push(Piece {
         ends: [middle, knots[last].0],
-        coefficients: end.from_half(-1.0, -end.c),
+        coefficients: end.past_half(-1.0, -end.c),
         sample: last - 1,
     });
     pieces
@@ -118,7 +118,7 @@ impl EndPair {
     }
 
     /// Coefficients from the middle knot on, `way` +1 away from the start of the profile, −1 towards its end.
-    fn from_half(&self, way: f64, third: f64) -> [f64; 4] {
+    fn past_half(&self, way: f64, third: f64) -> [f64; 4] {
         let x = 0.5 * self.h;
         let slope = 3.0 * self.c * x * x;
         [self.c * x * x * x, way * slope, 3.0 * self.c * x, third]

@@ -38,7 +38,7 @@ fn steel_stiffness(race: Race, in_plane: f64) -> f64 {
 fn ball_sinks_to_the_bottom_of_the_source_dents() {
     for (race, radius) in [(Race::Outer, -3.16e-3), (Race::Inner, 3.71e-3)] {
         let dent = solved(race, source_shape(race));
-        assert_relative_eq!(dent.drop(), 15e-6, max_relative = 1e-12);
+        assert_relative_eq!(dent.ball_drop(), 15e-6, max_relative = 1e-12);
         assert_relative_eq!(1.0 / dent.bottom_curvature(), radius, max_relative = 2e-3);
     }
 }
@@ -48,8 +48,8 @@ fn ball_sinks_to_the_bottom_of_the_source_dents() {
 fn drop_is_where_the_deepest_contact_just_touches() {
     for (name, subject) in &subjects()[..14] {
         let drop = match &subject.kind {
-            Kind::Race(defect) => defect.drop(),
-            Kind::Ball(flat, race) => flat.drop(*race),
+            Kind::Race(defect) => defect.ball_drop(),
+            Kind::Ball(flat, race) => flat.ball_drop(*race),
         };
         let deepest = |sunk: f64| {
             let found = subject.contacts(sunk, 0.0);
@@ -62,9 +62,9 @@ fn drop_is_where_the_deepest_contact_just_touches() {
     for race in RACES {
         let bridged = solved(race, dent_shape(0.2e-3, 15e-6, 20e-6));
         assert!(
-            bridged.drop() > 3e-6 && bridged.drop() < 12e-6,
+            bridged.ball_drop() > 3e-6 && bridged.ball_drop() < 12e-6,
             "{}",
-            bridged.drop()
+            bridged.ball_drop()
         );
     }
 }

@@ -30,7 +30,7 @@ fn the_source_flat() {
     assert_relative_eq!(flat.contour_radius(0.0), 0.99e-3, max_relative = 1e-13);
     assert_relative_eq!(flat.contour_radius(7.0), 1e-3);
     for race in RACES {
-        assert_relative_eq!(flat.drop(race), 10e-6, max_relative = 1e-10);
+        assert_relative_eq!(flat.ball_drop(race), 10e-6, max_relative = 1e-10);
     }
 }
 
@@ -41,11 +41,15 @@ fn a_plane_is_bridged_by_the_outer_race() {
         radius: 0.1,
         ..source_flat()
     });
-    assert_relative_eq!(plane.drop(Race::Inner), 10e-6, max_relative = 1e-6);
+    assert_relative_eq!(plane.ball_drop(Race::Inner), 10e-6, max_relative = 1e-6);
     // chord of the rims' contacts under the race's sagitta: c²/2 (1/ρ_b − 1/R_0) with c near the flat's half length
     let half = 1e-3 * (0.5 * plane.included_angle()).sin();
     let sagitta = 0.5 * half * half / 4.7565e-3;
-    assert_relative_eq!(plane.drop(Race::Outer), 10e-6 - sagitta, max_relative = 0.1);
+    assert_relative_eq!(
+        plane.ball_drop(Race::Outer),
+        10e-6 - sagitta,
+        max_relative = 0.1
+    );
     let found = plane.contacts(Race::Outer, 0.0, touching(Race::Outer) + 10e-6);
     let features: Vec<_> = found.pressing().map(|c| c.feature).collect();
     assert_eq!(features, [Feature::RimBefore, Feature::RimAfter]);

@@ -88,8 +88,8 @@ fn samples_of_a_dent_give_its_contacts() {
 
 fn told_drop(subject: &Subject) -> f64 {
     match &subject.kind {
-        Kind::Race(defect) => defect.drop(),
-        Kind::Ball(flat, race) => flat.drop(*race),
+        Kind::Race(defect) => defect.ball_drop(),
+        Kind::Ball(flat, race) => flat.ball_drop(*race),
     }
 }
 

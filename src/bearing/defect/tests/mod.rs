@@ -22,7 +22,7 @@ const MIDDLE: f64 = -1.3;
 #[derive(Debug, Clone)]
 enum Kind {
     Race(RaceDefect),
-    Ball(BallFlat, Race),
+    Ball(Box<BallFlat>, Race),
 }
 
 /// A defect and the circle that rolls over it.
@@ -45,7 +45,7 @@ impl Subject {
         let (bearing, stiffness) = (source_bearing(), source_stiffness());
         Self {
             circles: Circles::ball(&bearing, race, stiffness),
-            kind: Kind::Ball(flat, race),
+            kind: Kind::Ball(Box::new(flat), race),
         }
     }
 

@@ -25,7 +25,7 @@ type Found = (f64, [f64; 2]);
 
 impl<'a> Dense<'a> {
     fn new(subject: &'a Subject) -> Self {
-        let wide = 0.3 * subject.half_angle() + 1.1 * subject.contact_half_angle();
+        let wide = 0.3 * subject.half_angle() + 1.2 * subject.contact_half_angle();
         let step = 2.0 * wide / f64::from(SAMPLES);
         let mut dense = Self {
             subject,
@@ -219,7 +219,7 @@ fn same_contacts_as_a_dense_search() {
     let mut numbers = Numbers(20_110_417);
     for (name, subject) in subjects() {
         let mut tally = Tally::default();
-        tally.compare(name, subject, 800, &mut numbers);
+        tally.compare(name, subject, 1500, &mut numbers);
         let single = name.starts_with("smooth")
             || matches!(subject.kind, Kind::Ball(_, Race::Inner))
             || *name == "source's flat";
@@ -231,7 +231,7 @@ fn same_contacts_as_a_dense_search() {
 fn random_dents_agree_with_the_search() {
     let mut numbers = Numbers(3);
     let mut tally = Tally::default();
-    for i in 0..60 {
+    for i in 0..150 {
         let race = [Race::Outer, Race::Inner][i % 2];
         let length = numbers.between(0.1e-3, 2e-3);
         let depth = numbers.between(1e-6, 40e-6);
@@ -249,7 +249,7 @@ fn random_dents_agree_with_the_search() {
 fn random_flats_agree_with_the_search() {
     let mut numbers = Numbers(4);
     let mut tally = Tally::default();
-    for i in 0..40 {
+    for i in 0..100 {
         let race = [Race::Outer, Race::Inner][i % 2];
         let shape = FlatShape {
             radius: numbers.between(1.2e-3, 50e-3),
@@ -270,7 +270,7 @@ fn random_flats_agree_with_the_search() {
 fn random_profiles_agree_with_the_search() {
     let mut numbers = Numbers(5);
     let mut tally = Tally::default();
-    for i in 0..50 {
+    for i in 0..100 {
         let race = [Race::Outer, Race::Inner][i % 2];
         let length = numbers.between(0.3e-3, 2e-3);
         let count = numbers.between(10.0, 80.0) as u32;
