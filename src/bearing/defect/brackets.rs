@@ -18,6 +18,9 @@ const STRETCH: f64 = 0.02;
 /// Contacts are gone at this fraction of the ball's curvature below it.
 const EARLY: f64 = 2e-3;
 
+/// Relative rounding of a squared distance, a hundred times over.
+const ROUNDING: f64 = 1e-14;
+
 /// Parts of a piece in which a change from touchable to not is looked for.
 const PARTS: usize = 12;
 
@@ -42,29 +45,24 @@ impl Profile {
     }
 }
 
-/// One end of a stretch.
+/// An end of a stretch, or of two; both share it to the bit, so that a foot on it is found once.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct End {
+struct Node {
     point: Vector,
     first: Vector,
+    angle: f64,
+    /// The piece on which a stretch begins here; none where the ball cannot touch what follows.
+    piece: Option<usize>,
 }
 
-/// A stretch of one piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Bracket {
-    ends: [End; 2],
-    angles: [f64; 2],
-    piece: usize,
-}
-
-/// All stretches that a ball can touch.
+/// All stretches that a ball can touch: each from a node with a piece to the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Brackets {
-    brackets: Vec<Bracket>,
+    nodes: Vec<Node>,
     /// Half the arc of ball angles in which any of them is pressed, rad.
     pub half_angle: f64,
     cells_per_radian: f64,
-    /// First stretch and the one behind the last that come into question, cell by cell.
+    /// First node and the one behind the last that come into question, cell by cell.
     cells: Vec<[usize; 2]>,
 }
 
@@ -76,33 +74,34 @@ pub(super) fn fade(circles: &Circles) -> Fade {
 impl Brackets {
     /// Finds the stretches of `profile`, whose ends lie `half_angle` (rad) from its middle.
     pub fn new(profile: &Profile, half_angle: f64) -> Self {
-        let mut brackets = Vec::new();
+        let mut nodes = Vec::new();
         for (number, piece) in profile.pieces.iter().enumerate() {
             for stretch in touchable(profile, piece) {
-                cut(profile, number, stretch, &mut brackets);
+                cut(profile, number, stretch, &mut nodes);
             }
         }
-        let windows: Vec<[f64; 2]> = brackets
-            .iter()
-            .map(|bracket| window(&profile.circles, bracket))
+        let windows: Vec<Option<[f64; 2]>> = nodes
+            .windows(2)
+            .map(|pair| pair[0].piece.map(|_| window(&profile.circles, pair)))
             .collect();
         let half_angle = windows
             .iter()
             .flatten()
+            .flatten()
             .fold(half_angle, |most, angle| most.max(angle.abs()));
-        let count = (2 * brackets.len()).clamp(16, 4096);
-        let cells_per_radian = count as f64 / (2.0 * half_angle);
+        let count = (2 * nodes.len()).clamp(16, 4096);
         let mut found = Self {
-            brackets,
+            nodes,
             half_angle,
-            cells_per_radian,
+            cells_per_radian: count as f64 / (2.0 * half_angle),
             cells: vec![[usize::MAX, 0]; count],
         };
-        for (number, window) in windows.into_iter().enumerate() {
+        for (low, window) in windows.into_iter().enumerate() {
+            let Some(window) = window else { continue };
             // a cell more on both sides covers rounding
             let [from, to] = window.map(|angle| found.cell(angle));
             for cell in &mut found.cells[from.saturating_sub(1)..(to + 2).min(count)] {
-                *cell = [cell[0].min(number), cell[1].max(number + 1)];
+                *cell = [cell[0].min(low), cell[1].max(low + 2)];
             }
         }
         found
@@ -114,7 +113,8 @@ impl Brackets {
         (place as usize).min(self.cells.len() - 1)
     }
 
-    /// Calls `touched` for every foot of `centre`, which lies at `offset` (rad) within the half angle, in order.
+    /// Calls `touched` for every foot of `centre`, which lies at `offset` (rad) within the half angle, in order;
+    /// feet that are seen to be out of the ball's reach are left out.
     #[inline]
     pub fn feet(
         &self,
@@ -124,19 +124,42 @@ impl Brackets {
         mut touched: impl FnMut(CurvePoint),
     ) {
         let [first, past] = self.cells[self.cell(offset)];
-        for bracket in self.brackets.get(first..past).unwrap_or(&[]) {
-            let g = bracket
-                .ends
-                .map(|end| end.point.minus(centre).dot(end.first));
-            if g[0] <= 0.0 && g[1] > 0.0 {
-                let piece = &profile.pieces[bracket.piece];
-                let [low, high] = bracket.angles;
-                let start = low + (high - low) * (g[0] / (g[0] - g[1]));
-                let curve = |angle: f64| profile.at(piece, angle);
-                touched(curve::foot(centre, [low, high], start, curve).1);
+        let nodes = self.nodes.get(first..past).unwrap_or(&[]);
+        let reach = 0.5 * profile.circles.roller * profile.circles.roller * (1.0 + ROUNDING);
+        let slope = |node: &Node| node.point.minus(centre).dot(node.first);
+        let mut g_low = nodes.first().map_or(0.0, slope);
+        for pair in nodes.windows(2) {
+            let g_high = slope(&pair[1]);
+            let g = [g_low, g_high];
+            g_low = g_high;
+            if g[0] <= 0.0
+                && g[1] > 0.0
+                && let Some(number) = pair[0].piece
+            {
+                let (low, high) = (&pair[0], &pair[1]);
+                if nearest(centre, [low, high], g) <= reach {
+                    let ends = [low.angle, high.angle];
+                    let start = ends[0] + (ends[1] - ends[0]) * (g[0] / (g[0] - g[1]));
+                    let piece = &profile.pieces[number];
+                    let curve = |angle: f64| profile.at(piece, angle);
+                    touched(curve::foot(centre, ends, start, curve).1);
+                }
             }
         }
     }
+}
+
+/// Lower bound of half the squared distance from `centre` to a stretch with derivatives `g` at its ends: the
+/// distance is convex along a stretch, and no less than where its end tangents meet.
+#[inline]
+fn nearest(centre: Vector, [low, high]: [&Node; 2], g: [f64; 2]) -> f64 {
+    let half_square = |node: &Node| {
+        let gap = node.point.minus(centre);
+        0.5 * gap.dot(gap)
+    };
+    let (at_low, at_high) = (half_square(low), half_square(high));
+    let x = (at_high - at_low - g[1] * (high.angle - low.angle)) / (g[0] - g[1]);
+    at_low + g[0] * x
 }
 
 /// Parts of `piece` less concave than the ball.
@@ -166,41 +189,44 @@ fn touchable(profile: &Profile, piece: &Piece) -> Vec<[f64; 2]> {
     found
 }
 
-/// Cuts a stretch into short ones and appends them; an end shared with the one before is the same to the bit,
-/// so that a foot on it is found once.
-fn cut(profile: &Profile, number: usize, [low, high]: [f64; 2], brackets: &mut Vec<Bracket>) {
+/// Cuts a stretch into short ones and appends their nodes.
+fn cut(profile: &Profile, number: usize, [low, high]: [f64; 2], nodes: &mut Vec<Node>) {
     let piece = &profile.pieces[number];
-    let end = |angle: f64| {
+    let node = |angle: f64, piece_behind| {
         let CurvePoint { point, first, .. } = profile.at(piece, angle);
-        End { point, first }
+        Node {
+            point,
+            first,
+            angle,
+            piece: piece_behind,
+        }
     };
+    match nodes.last_mut() {
+        Some(last) if last.angle.to_bits() == low.to_bits() => last.piece = Some(number),
+        _ => nodes.push(node(low, Some(number))),
+    }
     let longest = STRETCH * profile.circles.roller / profile.circles.carrier;
     let parts = ((high - low) / longest).ceil().max(1.0);
-    let mut from = match brackets.last() {
-        Some(last) if last.angles[1].to_bits() == low.to_bits() => (low, last.ends[1]),
-        _ => (low, end(low)),
-    };
-    for i in 1..=parts as usize {
+    for i in 1..parts as usize {
         let angle = low + (high - low) * (i as f64 / parts);
-        let angle = if i as f64 >= parts { high } else { angle };
-        let to = (angle, end(angle));
-        brackets.push(Bracket {
-            ends: [from.1, to.1],
-            angles: [from.0, to.0],
-            piece: number,
-        });
-        from = to;
+        nodes.push(node(angle, Some(number)));
     }
+    nodes.push(node(high, None));
 }
 
 /// Ball angles from which a ball can press on a stretch: its centre lies on the normal, at most its radius away.
-fn window(circles: &Circles, bracket: &Bracket) -> [f64; 2] {
+fn window(circles: &Circles, ends: &[Node]) -> [f64; 2] {
     let angle = |vector: Vector| vector.along.atan2(vector.outward);
-    let mut window = bracket.angles;
-    for end in &bracket.ends {
-        let inward = end.first.normal().scaled(circles.side / end.first.length());
-        let farthest = angle(end.point.minus(inward.scaled(circles.roller)));
-        window = [window[0].min(farthest), window[1].max(farthest)];
+    let mut window = [f64::INFINITY, f64::NEG_INFINITY];
+    for node in ends {
+        let inward = node
+            .first
+            .normal()
+            .scaled(circles.side / node.first.length());
+        let farthest = angle(node.point.minus(inward.scaled(circles.roller)));
+        for angle in [node.angle, farthest] {
+            window = [window[0].min(angle), window[1].max(angle)];
+        }
     }
     window
 }

@@ -6,25 +6,24 @@ use super::vector::Vector;
 /// Ball positions that are tried first.
 const POSITIONS: usize = 200;
 
-/// Points of each piece.
-const POINTS: usize = 8;
+/// Longest way from point to point in ball radii: a ball between two sinks 5e-7 of its radius too deep.
+const SPACING: f64 = 2e-3;
 
 /// Steps of the golden section about the deepest of them.
 const SECTIONS: usize = 40;
 
 /// Greatest displacement (m) of a ball beyond its place on the race that some angle within `half_angle` (rad) of
-/// the middle allows: everywhere the nearest part of the profile holds it. Zero or more, to about 1e-9 m.
+/// the middle allows: everywhere the nearest part of the profile holds it. Zero or more.
 pub(super) fn deepest(profile: &Profile, half_angle: f64) -> f64 {
-    let points: Vec<Vector> = profile
-        .pieces
-        .iter()
-        .flat_map(|piece| {
-            let [start, end] = piece.ends;
-            let place = move |i: usize| start + (end - start) * (i as f64 / POINTS as f64);
-            (0..POINTS).map(move |i| profile.at(piece, place(i)).point)
-        })
-        .collect();
     let circles = &profile.circles;
+    let longest = SPACING * circles.roller / circles.carrier;
+    let mut points = Vec::new();
+    for piece in &profile.pieces {
+        let [start, end] = piece.ends;
+        let parts = ((end - start) / longest).ceil().max(2.0);
+        let place = |i: usize| start + (end - start) * (i as f64 / parts);
+        points.extend((0..parts as usize).map(|i| profile.at(piece, place(i)).point));
+    }
     let held = |offset: f64| {
         let e = Vector::radial(offset);
         let plain = circles.side * circles.carrier - circles.roller;

@@ -133,8 +133,8 @@ fn mirror_image() {
         .collect();
     for (name, subject) in subjects() {
         let image = match &subject.kind {
-            Kind::Race(RaceDefect::Measured(measured)) if *name == "scratched pit" => {
-                Subject::race(RaceDefect::Measured(profile(measured.race(), &turned)))
+            Kind::Race(pit) if *name == "scratched pit" => {
+                Subject::race(RaceDefect::Measured(profile(pit.race(), &turned)))
             }
             _ => subject.clone(),
         };

@@ -21,7 +21,7 @@ const MIDDLE: f64 = -1.3;
 /// A defect.
 #[derive(Debug, Clone)]
 enum Kind {
-    Race(RaceDefect),
+    Race(Box<RaceDefect>),
     Ball(Box<BallFlat>, Race),
 }
 
@@ -37,7 +37,7 @@ impl Subject {
         let (bearing, stiffness) = (source_bearing(), source_stiffness());
         Self {
             circles: Circles::race(&bearing, defect.race(), stiffness),
-            kind: Kind::Race(defect),
+            kind: Kind::Race(Box::new(defect)),
         }
     }
 
@@ -262,8 +262,12 @@ impl Numbers {
 #[test]
 fn subjects_are_what_they_are_said_to_be() {
     for (place, (name, subject)) in subjects()[..10].iter().enumerate() {
-        let Kind::Race(RaceDefect::Dent(dent)) = &subject.kind else {
-            panic!("{name} is a dent")
+        let dent = match &subject.kind {
+            Kind::Race(defect) => match &**defect {
+                RaceDefect::Dent(dent) => dent,
+                other => panic!("{name} is {other:?}"),
+            },
+            other => panic!("{name} is {other:?}"),
         };
         let reach = dent.profile.reach;
         match place % 5 {
