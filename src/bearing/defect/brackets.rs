@@ -21,7 +21,7 @@ const EARLY: f64 = 2e-3;
 /// Relative rounding of a squared distance, a hundred times over.
 const ROUNDING: f64 = 1e-14;
 
-/// Parts of a piece in which a change from touchable to not is looked for.
+/// Parts of a piece in which a change from touchable to not is looked for: curvature is nearly linear on a piece.
 const PARTS: usize = 12;
 
 /// A profile's curve: polynomials of the angle over a circle.

@@ -171,6 +171,7 @@ pub(super) fn smoothstep(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::arc::Arc;
     use super::super::ellipse::Ellipse;
     use super::*;
     use crate::bearing::Race;
@@ -223,6 +224,74 @@ mod tests {
         let rim = Rim::new(&circles, &floor, 5e-5);
         assert_relative_eq!(rim.joint.cos(), 0.1350, epsilon = 1e-3);
         assert_relative_eq!(rim.sine_end, 0.2817, epsilon = 2e-3);
+    }
+
+    /// Against all contacts on the arc by angle and overlap; a deep short dent has a rim that turns beyond the
+    /// line of sight from the race's centre.
+    #[test]
+    fn no_centre_lies_farther_than_said() {
+        let (bearing, stiffness) = (source_bearing(), source_stiffness());
+        let steep = |race: Race| {
+            let circles = Circles::race(&bearing, race, stiffness);
+            let floor = Floor::Ellipse(Ellipse {
+                carrier: circles.carrier,
+                side: circles.side,
+                half_length: 0.1e-3,
+                depth: 50e-6,
+            });
+            (circles, floor, 1e-6)
+        };
+        let flat = |race: Race| {
+            let circles = Circles::ball(&bearing, race, stiffness);
+            (circles, Floor::Arc(Arc::new(1e-3, 2e-3, 10e-6, 0.0)), 5e-5)
+        };
+        let mut turning = 0;
+        for (circles, floor, radius) in [
+            steep(Race::Outer),
+            steep(Race::Inner),
+            flat(Race::Outer),
+            flat(Race::Inner),
+        ] {
+            let rim = Rim::new(&circles, &floor, radius);
+            let end = rim.sine_end.asin();
+            let mut farthest = f64::NEG_INFINITY;
+            for i in 0..=2000 {
+                let tilt = end * f64::from(i) / 2000.0;
+                let inward = rim
+                    .circle_tangent
+                    .normal()
+                    .scaled(circles.side * tilt.cos())
+                    .plus(rim.circle_tangent.scaled(tilt.sin()));
+                for overlap in [0.0, 5e-6, 50e-6] {
+                    let arm = circles.roller + radius - overlap;
+                    let centre = rim.centre.minus(inward.scaled(arm)).scaled(circles.sign());
+                    let offset = centre.along.atan2(centre.outward);
+                    turning += u32::from(i == 2000 && -offset < farthest - 1e-3);
+                    farthest = farthest.max(-offset);
+                }
+            }
+            assert_relative_eq!(rim.farthest_centre(&circles), farthest, epsilon = 1e-6);
+        }
+        assert!(turning > 0, "no rim turns beyond the line of sight");
+    }
+
+    /// Such a centre is on the edge of having its foot on the arc: rounding decides, and nothing is divided by zero.
+    #[test]
+    fn a_centre_on_that_of_the_arc_has_a_unit_normal() {
+        let mut found = 0;
+        for race in [Race::Outer, Race::Inner] {
+            let (circles, floor) = source(race);
+            for i in 1..40 {
+                let radius = 5e-6 * f64::from(i);
+                let rim = Rim::new(&circles, &floor, radius);
+                if let Some(contact) = rim.contact(&circles, rim.centre) {
+                    assert_relative_eq!(contact.inward.length(), 1.0, max_relative = 1e-14);
+                    assert_relative_eq!(contact.delta, 1e-3 + radius, max_relative = 1e-14);
+                    found += 1;
+                }
+            }
+        }
+        assert!(found > 0);
     }
 
     #[test]

@@ -275,3 +275,42 @@ fn a_conforming_reading_of_the_inner_race_is_refused() {
     );
     assert!(hertz, "{error}");
 }
+
+/// In that reading the contact has faded where the ellipse alone is as tight as the ball, though the ball goes on
+/// touching the floor there.
+#[test]
+fn the_reading_that_conforms_first_is_what_fades() {
+    let dent = solved(
+        Race::Inner,
+        DentShape {
+            curvature: CurvatureReading::Paper,
+            ..source_shape(Race::Inner)
+        },
+    );
+    let (profile, steps) = (&dent.profile, 4000);
+    let limit = profile.reach.unwrap().parameter;
+    let mut conforming = 0;
+    for i in 0..steps {
+        // a ball pressed in by 10 um at each foot in turn
+        let t = limit * f64::from(i) / f64::from(steps);
+        let foot = profile.floor.at(t);
+        let centre = foot.point.minus(foot.inward(-1.0).scaled(0.99e-3));
+        let angle = MIDDLE + centre.along.atan2(centre.outward);
+        let found = dent.contacts(PolarPosition {
+            radius: centre.length(),
+            angle,
+        });
+        let Some(floor) = found.pressing().find(|c| c.feature == Feature::Floor) else {
+            continue;
+        };
+        // the curvature that is touched differs from race and ellipse together by half a percent
+        let relative = profile.floor_curvature(t);
+        if relative < -10.0 {
+            conforming += 1;
+            assert!(floor.stiffness < 1e-3, "{} at {t}", floor.stiffness);
+        } else if relative > 10.0 {
+            assert!(floor.stiffness > 1e3, "{} at {t}", floor.stiffness);
+        }
+    }
+    assert!(conforming > 20, "only {conforming}");
+}

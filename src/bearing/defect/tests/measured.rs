@@ -127,6 +127,24 @@ fn a_ball_bridges_what_it_cannot_follow() {
     }
 }
 
+/// The drop is the deepest place of all: nanometres higher there is an angle at which nothing presses (tried every
+/// 25 nm, on flanks as steep as 0.1), a nanometre deeper there is none.
+#[test]
+fn the_drop_is_that_of_the_deepest_angle() {
+    for race in RACES {
+        let subject = subject(race, &scratched(60));
+        let drop = told_drop(&subject);
+        let free = |sunk: f64| {
+            (-20_000..20_000).any(|i| {
+                let offset = subject.half_angle() * f64::from(i) / 20_000.0;
+                subject.contacts(sunk, offset).pressing().count() == 0
+            })
+        };
+        assert!(free(drop - 4e-9), "{race}");
+        assert!(!free(drop + 1e-9), "{race}");
+    }
+}
+
 /// A raised lip is met by a ball beside the profile, before it is over the first sample.
 #[test]
 fn a_lip_is_met_from_beside() {

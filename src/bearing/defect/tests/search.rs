@@ -266,6 +266,31 @@ fn random_flats_agree_with_the_search() {
     tally.check("random flats", 20);
 }
 
+/// Few samples, slopes up to the limit: polynomials on which curvature is far from linear.
+#[test]
+fn random_coarse_profiles_agree_with_the_search() {
+    let mut numbers = Numbers(6);
+    let mut tally = Tally::default();
+    for i in 0..200 {
+        let race = [Race::Outer, Race::Inner][i % 2];
+        let length = numbers.between(0.2e-3, 3e-3);
+        let count = numbers.between(4.0, 9.0) as u32;
+        let depth = length * numbers.between(1e-3, 0.2);
+        let noise: Vec<f64> = (0..=count).map(|_| numbers.next() - 0.3).collect();
+        let samples = sampled(length, count, |x| {
+            let i = (x * f64::from(count)).round() as usize;
+            depth * noise[i]
+        });
+        let (bearing, stiffness) = (source_bearing(), source_stiffness());
+        let Ok(measured) = MeasuredProfile::new(&bearing, race, MIDDLE, &samples, stiffness) else {
+            continue;
+        };
+        let subject = Subject::race(RaceDefect::Measured(measured));
+        tally.compare("coarse profile", &subject, 60, &mut numbers);
+    }
+    tally.check("coarse profiles", 100);
+}
+
 #[test]
 fn random_profiles_agree_with_the_search() {
     let mut numbers = Numbers(5);
