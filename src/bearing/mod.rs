@@ -2,7 +2,8 @@
 //!
 //! [`BearingGeometry`] -> [`ContactStiffness`] (Hertz, or given) -> force law [`contact`];
 //! [`SpeedProfile`] -> shaft angle -> [`Cage`] -> ball angles; [`defect::RaceDefect`] takes the
-//! place of a race where a ball meets a dent or a measured profile, [`defect::BallFlat`] that of both where a ball has a flat.
+//! place of a race where a ball meets a dent or a measured profile, [`defect::BallFlat`] that of both
+//! races where a ball has a flat.
 //!
 //! Frames: x right, y up, angles counter-clockwise from x, radians. A penetration δ is positive
 //! when ball and race overlap. SI throughout.

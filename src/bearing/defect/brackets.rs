@@ -8,6 +8,7 @@
 use super::circles::Circles;
 use super::curve::{self, CurvePoint};
 use super::fade::Fade;
+use super::profile::Profile;
 use super::spline::Piece;
 use super::vector::Vector;
 
@@ -22,28 +23,7 @@ const EARLY: f64 = 2e-3;
 const ROUNDING: f64 = 1e-14;
 
 /// Parts of a piece in which a change from touchable to not is looked for: curvature is nearly linear on a piece.
-const PARTS: usize = 12;
-
-/// A profile's curve: polynomials of the angle over a circle.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Profile {
-    pub circles: Circles,
-    pub pieces: Vec<Piece>,
-}
-
-impl Profile {
-    /// Point of `piece` at `angle` (rad) from the middle; the parameter is the angle.
-    #[inline]
-    pub fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
-        let [depth, slope, bend] = piece.at(angle);
-        let Circles { carrier, side, .. } = self.circles;
-        CurvePoint::polar(
-            Vector::radial(angle),
-            [carrier + side * depth, side * slope, side * bend],
-            [1.0, 0.0],
-        )
-    }
-}
+const PARTS: usize = 4;
 
 /// An end of a stretch, or of two; both share it to the bit, so that a foot on it is found once.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,12 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::angle::{offset_from, reduced, within};
-use super::brackets::{self, Brackets, Profile};
+use super::brackets::{self, Brackets};
 use super::circles::Circles;
 use super::contacts::{DefectContacts, Feature};
 use super::dent::PolarPosition;
 use super::error::{DefectError, finite_angle};
 use super::fade::{Fade, LEAST_RELATIVE};
+use super::profile::Profile;
 use super::samples_check;
 use super::sinking;
 use super::spline;

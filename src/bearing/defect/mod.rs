@@ -44,10 +44,11 @@
 //! # Limitations
 //! Contacts are Hertzian and independent of each other, although at 10 N a patch (0.055 mm on the source's race)
 //! is half as long as the distance between rim and floor. A rim's arc, or an asperity of a measured profile, may
-//! be shorter than the patch that Hertz theory gives on it: smooth a measurement to the patch's length. The
+//! be shorter than the patch that Hertz theory gives on it: smooth a measurement to the patch's length. On scratches
+//! of a micron a contact fades within nanometres of the ball's way, continuous and yet a jump for a time step. The
 //! stiffness follows the position, so that a contact moving along the profile exchanges a little energy that no
 //! potential accounts for: with k held the force is the gradient of `(2/5) k δ^{5/2}`, and what is missing is
-//! `(2/5) δ^{5/2} ∇k`.
+//! `(2/5) δ^{5/2} ∇k`. The width of a defect does not enter.
 
 mod angle;
 mod arc;
@@ -63,6 +64,7 @@ mod fade;
 mod flat;
 mod floor;
 mod measured;
+mod profile;
 mod query;
 mod race_defect;
 mod rim;
