@@ -145,6 +145,15 @@ impl ContactStiffness {
         self.outer
     }
 
+    /// Ball on the given race, N/m^{3/2}.
+    #[must_use]
+    pub fn at(&self, race: Race) -> f64 {
+        match race {
+            Race::Inner => self.inner,
+            Race::Outer => self.outer,
+        }
+    }
+
     /// Both in series, N/m^{3/2}: `(k_i^{-2/3} + k_o^{-2/3})^{-3/2}`, shaft against outer race through one ball.
     #[must_use]
     pub fn series(&self) -> f64 {

@@ -1,19 +1,20 @@
-//! The ball bearing by itself: geometry, contact, kinematics and dents. Knows nothing of finite elements.
+//! The ball bearing by itself: geometry, contact, kinematics and defects. Knows nothing of finite elements.
 //!
 //! [`BearingGeometry`] -> [`ContactStiffness`] (Hertz, or given) -> force law [`contact`];
-//! [`SpeedProfile`] and [`SlipProfile`] -> [`Cage`] -> ball angles; [`dent::OuterDent`] takes the place
-//! of the outer race where a ball meets a dent.
+//! [`SpeedProfile`] and [`SlipProfile`] -> [`Cage`] -> ball angles; [`defect::RaceDefect`] takes the
+//! place of a race where a ball meets a dent or a measured profile, [`defect::BallFlat`] that of both
+//! races where a ball has a flat.
 //!
 //! Frames: x right, y up, angles counter-clockwise from x, radians. A penetration δ is positive
 //! when ball and race overlap. SI throughout.
 //!
 //! # Limitations
-//! Radial bearing in its own plane (contact angle zero); dents on the outer race only; no
-//! lubricant film.
+//! Radial bearing in its own plane (contact angle zero); defects in that plane only; no lubricant
+//! film.
 
 pub mod cage;
 pub mod contact;
-pub mod dent;
+pub mod defect;
 pub mod geometry;
 pub mod materials;
 pub mod rotation;

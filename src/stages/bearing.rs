@@ -2,9 +2,9 @@
 
 use super::StageError;
 use super::bearing_motion::{shaft, slip, speed};
-use crate::bearing::dent::{DentCurvature, DentShape, OuterDent, reduced};
+use crate::bearing::defect::{CurvatureReading, Dent, DentShape, reduced};
 use crate::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, Race, RaceContacts,
 };
 use crate::case::{self, Case};
 use crate::system::{BearingSetup, Formulation};
@@ -33,11 +33,11 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
                 depth: defect.depth,
                 rim_radius: defect.rim_radius,
                 curvature: match defect.curvature {
-                    case::DefectCurvature::Profile => DentCurvature::Total,
-                    case::DefectCurvature::Paper => DentCurvature::Paper,
+                    case::DefectCurvature::Profile => CurvatureReading::Total,
+                    case::DefectCurvature::Paper => CurvatureReading::Paper,
                 },
             };
-            OuterDent::new(&geometry, shape, stiffness)
+            Dent::new(&geometry, Race::Outer, shape, stiffness)
                 .map_err(|source| StageError::Dent { index, source })
         })
         .collect::<Result<Vec<_>, _>>()?;
@@ -63,7 +63,7 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
 }
 
 /// Two dents must not share a part of the race: a contact belongs to one of them.
-fn check_apart(dents: &[OuterDent]) -> Result<(), StageError> {
+fn check_apart(dents: &[Dent]) -> Result<(), StageError> {
     for (second, b) in dents.iter().enumerate() {
         for (first, a) in dents[..second].iter().enumerate() {
             let apart = reduced(a.shape().angle - b.shape().angle).abs();

@@ -52,7 +52,7 @@ pub fn bearing_table(
     }
     for (number, dent) in (1..).zip(&setup.dents) {
         let name = format!("Drop of a ball in the middle of dent {number}");
-        rows = rows.one(&name, "\u{b5}m", dent.drop() * 1e6, 4);
+        rows = rows.one(&name, "\u{b5}m", dent.ball_drop() * 1e6, 4);
     }
     rows.0
 }

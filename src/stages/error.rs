@@ -1,7 +1,7 @@
 //! What can go wrong on the way from a case to a result, and whose fault it is.
 
 use super::ImportError;
-use crate::bearing::dent::DentError;
+use crate::bearing::defect::DefectError;
 use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError};
 use crate::case::{CaseError, ModeExtent};
 use crate::element::ElementError;
@@ -108,7 +108,7 @@ pub enum StageError {
         /// Which one, from 0.
         index: usize,
         /// What is wrong with it.
-        source: DentError,
+        source: DefectError,
     },
     /// Two dents in one place.
     #[error(

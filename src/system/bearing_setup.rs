@@ -1,7 +1,7 @@
 //! The bearing as the coupled system takes it: geometry, contacts, motion and loads in one value.
 
 use super::load::LoadProfile;
-use crate::bearing::dent::OuterDent;
+use crate::bearing::defect::Dent;
 use crate::bearing::{BearingGeometry, Cage, ContactStiffness};
 
 /// Which reading of the ball position the equations follow.
@@ -41,7 +41,7 @@ pub struct BearingSetup {
     /// Shaft angle and ball angles over time.
     pub cage: Cage,
     /// Dents of the outer race, none overlapping.
-    pub dents: Vec<OuterDent>,
+    pub dents: Vec<Dent>,
     /// The shaft and its loads.
     pub shaft: Shaft,
     /// Gravity, m/s^2.

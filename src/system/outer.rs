@@ -2,7 +2,7 @@
 
 use super::BearingSetup;
 use crate::bearing::HertzContact;
-use crate::bearing::dent::{OuterDent, PolarPosition};
+use crate::bearing::defect::{Dent, PolarPosition};
 
 /// Force of a ball on the outer race, in the ball's polar frame (radial outward, tangential
 /// counter-clockwise).
@@ -30,7 +30,7 @@ pub(super) struct OuterRace {
 /// A dent with the arc in which a ball may feel it.
 #[derive(Debug, Clone)]
 struct DentArc {
-    dent: OuterDent,
+    dent: Dent,
     middle: [f64; 2],
     /// Cosine of half the arc.
     reach: f64,

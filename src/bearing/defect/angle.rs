@@ -1,4 +1,4 @@
-//! Reduction of an angle that has grown over many turns.
+//! Reduction of an angle that has grown over many turns, and its place relative to a defect's arc.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,6 +19,25 @@ pub fn reduced(angle: f64) -> f64 {
     }
     let turns = (angle * (1.0 / TAU)).round();
     (angle - turns * TAU_HIGH) - turns * TAU_LOW
+}
+
+/// `angle` (rad, any turn) less `middle` (within ±π), within ±π.
+#[inline]
+pub(super) fn offset_from(angle: f64, middle: f64) -> f64 {
+    let offset = reduced(angle) - middle;
+    if offset > PI {
+        offset - TAU
+    } else if offset < -PI {
+        offset + TAU
+    } else {
+        offset
+    }
+}
+
+/// `offset` in the half-open arc `[−half, half)`; false for NaN.
+#[inline]
+pub(super) fn within(offset: f64, half: f64) -> bool {
+    -half <= offset && offset < half
 }
 
 #[cfg(test)]

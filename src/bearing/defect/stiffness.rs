@@ -1,11 +1,13 @@
-//! Hertz stiffness of a ball on the outer race as a function of the in-plane curvature, from a table.
+//! Hertz stiffness of a ball on a race as a function of the in-plane curvature, from a table.
 //!
-//! The argument is the relative curvature in the rolling plane, `A = 1/ρ_b + κ` with κ the race side's
-//! curvature (convex positive); across it stays `1/ρ_b − 1/r_groove`. Elliptic integrals are evaluated at
+//! The argument is the relative curvature in the rolling plane, `A = κ_ball + κ_race`, convex positive, a defect
+//! on either included; across it stays `1/ρ_b − 1/r_groove`. Elliptic integrals are evaluated at
 //! the nodes only; between them k is a cubic Hermite polynomial in ln A. k falls with A: the sharper the
 //! curvature, the smaller the patch.
 
+use super::circles::{Circles, race_curvatures};
 use crate::bearing::geometry::BearingGeometry;
+use crate::bearing::materials::Race;
 use crate::closed_form::hertz::{self, HertzError, PrincipalCurvatures};
 
 /// Intervals of the table. Over a ratio of 2600 in A the largest relative error measured on the source's
@@ -33,24 +35,24 @@ pub(super) struct CurvatureStiffness {
 }
 
 impl CurvatureStiffness {
-    /// Table for A from `least` to `most` (1/m, positive) such that k on the undamaged race is
-    /// `race_stiffness` (N/m^{3/2}), computed or given.
+    /// Table for A from `least` to `most` (1/m, positive) at `race`, such that k of the undamaged pair `circles`
+    /// is its own, computed or given.
     ///
     /// # Errors
     /// [`HertzError`] if Hertz theory refuses a node.
     pub fn new(
         bearing: &BearingGeometry,
-        race_stiffness: f64,
-        least: f64,
-        most: f64,
+        race: Race,
+        circles: &Circles,
+        [least, most]: [f64; 2],
     ) -> Result<Self, HertzError> {
         let step = (most / least).ln() / INTERVALS as f64;
         let mut nodes = Vec::with_capacity(INTERVALS + 1);
         for i in 0..=INTERVALS {
             let log = least.ln() + step * i as f64;
-            let value = relative(bearing, log.exp())?;
-            let above = relative(bearing, (log + SLOPE_STEP).exp())?;
-            let below = relative(bearing, (log - SLOPE_STEP).exp())?;
+            let value = per_modulus(bearing, race, log.exp())?;
+            let above = per_modulus(bearing, race, (log + SLOPE_STEP).exp())?;
+            let below = per_modulus(bearing, race, (log - SLOPE_STEP).exp())?;
             nodes.push(Node {
                 value,
                 rise: (above - below) / (2.0 * SLOPE_STEP) * step,
@@ -63,8 +65,7 @@ impl CurvatureStiffness {
             per_log: 1.0 / step,
             nodes,
         };
-        let race = 1.0 / bearing.ball_radius() - 1.0 / bearing.outer_race_radius();
-        let scale = race_stiffness / table.at(race);
+        let scale = circles.stiffness / table.at(circles.relative);
         for node in &mut table.nodes {
             node.value *= scale;
             node.rise *= scale;
@@ -85,9 +86,17 @@ impl CurvatureStiffness {
     }
 }
 
-/// Hertz stiffness at unit modulus.
-fn relative(bearing: &BearingGeometry, curvature: f64) -> Result<f64, HertzError> {
-    let across = bearing.ball_curvatures().plane_1 + bearing.outer_curvatures().plane_1;
+/// Hertz stiffness of a ball on `race` over the effective modulus, at relative curvature `curvature` (1/m) in the
+/// rolling plane.
+///
+/// # Errors
+/// [`HertzError`] for a curvature that is zero or negative: the surfaces conform.
+pub(super) fn per_modulus(
+    bearing: &BearingGeometry,
+    race: Race,
+    curvature: f64,
+) -> Result<f64, HertzError> {
+    let across = bearing.ball_curvatures().plane_1 + race_curvatures(bearing, race).plane_1;
     let bodies = PrincipalCurvatures {
         plane_1: across,
         plane_2: curvature,
@@ -98,18 +107,27 @@ fn relative(bearing: &BearingGeometry, curvature: f64) -> Result<f64, HertzError
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::ContactStiffness;
     use crate::bearing::samples::{source_bearing, source_stiffness};
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
+    fn circles(stiffness: ContactStiffness) -> Circles {
+        Circles::race(&source_bearing(), Race::Outer, stiffness)
+    }
+
+    fn table_of(stiffness: ContactStiffness) -> CurvatureStiffness {
+        let range = [8.0, 21_000.0];
+        CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles(stiffness), range).unwrap()
+    }
+
     fn table() -> CurvatureStiffness {
-        CurvatureStiffness::new(&source_bearing(), source_stiffness().outer(), 8.0, 21_000.0)
-            .unwrap()
+        table_of(source_stiffness())
     }
 
     fn direct(curvature: f64) -> f64 {
         let modulus = hertz::effective_modulus([206e9; 2], [0.3; 2]).unwrap();
-        relative(&source_bearing(), curvature).unwrap() * modulus
+        per_modulus(&source_bearing(), Race::Outer, curvature).unwrap() * modulus
     }
 
     #[test]
@@ -120,7 +138,7 @@ mod tests {
             source_stiffness().outer(),
             max_relative = 1e-14
         );
-        let given = CurvatureStiffness::new(&source_bearing(), 3.867e9, 8.0, 21_000.0).unwrap();
+        let given = table_of(ContactStiffness::given(1e9, 3.867e9).unwrap());
         assert_relative_eq!(given.at(race), 3.867e9, max_relative = 1e-14);
         let ratio = given.at(5e3) / table().at(5e3);
         assert_relative_eq!(
@@ -128,6 +146,17 @@ mod tests {
             3.867e9 / source_stiffness().outer(),
             max_relative = 1e-12
         );
+    }
+
+    #[test]
+    fn a_conforming_pair_is_refused() {
+        let refused = per_modulus(&source_bearing(), Race::Inner, 0.0);
+        assert!(matches!(
+            refused,
+            Err(HertzError::CurvatureDifference { .. })
+        ));
+        let refused = per_modulus(&source_bearing(), Race::Inner, -50.0);
+        assert!(matches!(refused, Err(HertzError::CurvatureSum { .. })));
     }
 
     #[test]

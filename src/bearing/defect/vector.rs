@@ -1,6 +1,6 @@
-//! Plane vectors in the dent's frame: origin at the race's centre, axes fixed to the dent's middle.
+//! Plane vectors in a defect's frame: origin at the centre of the circle that carries it, axes fixed to its middle.
 
-/// `along` the race at the dent's middle (counter-clockwise), `outward` from the race's centre; m or 1.
+/// `along` the circle at the defect's middle (counter-clockwise), `outward` from its centre; m or 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Vector {
     pub along: f64,
@@ -8,7 +8,7 @@ pub(super) struct Vector {
 }
 
 impl Vector {
-    /// Unit vector from the race's centre at `angle` (rad) from the dent's middle.
+    /// Unit vector from the centre at `angle` (rad) from the defect's middle.
     #[inline]
     pub fn radial(angle: f64) -> Self {
         let (along, outward) = angle.sin_cos();
@@ -67,7 +67,7 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// Mirror image in the dent's middle.
+    /// Mirror image in the defect's middle.
     #[inline]
     pub fn mirrored(self) -> Self {
         Self {
