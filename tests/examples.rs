@@ -6,8 +6,8 @@ use plummer::stages::{Unwatched, compute_modes};
 use plummer::system::LoadedMode;
 
 use plummer::case::{
-    BallInertia, Case, Damping, Formulation, Hold, Linearise, Method, PerNodeOrGroup, Purpose,
-    RadiusRule, Variant,
+    BallInertia, Case, Damping, Defect, Formulation, Hold, Linearise, Method, PerNodeOrGroup,
+    Purpose, RadiusRule, Variant,
 };
 
 fn path(name: &str) -> PathBuf {
@@ -48,7 +48,7 @@ fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
     assert!((bearing.play() - 2.5e-6).abs() < 1e-12);
     assert!(matches!(bearing.ball_inertia(), BallInertia::Mass(mass) if near(mass, 3.29e-5)));
     assert!(near(bearing.contact_damping, 2.0));
-    assert!(near(bearing.defects[0].length, 0.75e-3));
+    assert!(matches!(&bearing.defects[0], Defect::Dent(dent) if near(dent.length, 0.75e-3)));
     assert!(matches!(case.damping, Some(Damping::Modal(ratio)) if near(ratio, 0.03)));
     let housing = case.meshed_housing().unwrap();
     assert_eq!(

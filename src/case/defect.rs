@@ -1,61 +1,294 @@
-//! `[[bearing.defects]]`: localised damage of a race.
+//! `[[bearing.defects]]`: localised damage of a race or a ball.
+
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// A dent in a race. Lengths in m, all > 0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Defect {
-    /// What carries it.
-    pub on: DefectPlace,
-    /// Angle of its middle in degrees, counted like the ring's.
+use super::union::{Loose, Mismatch, written_as};
+
+/// Damage in the plane of the bearing. Lengths in m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Defect {
+    /// Elliptic dent in a race.
+    Dent(DentDefect),
+    /// Measured profile of a race.
+    Measured(MeasuredDefect),
+    /// Flat on a ball.
+    Flat(FlatDefect),
+}
+
+/// Elliptic dent in a race; lengths > 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DentDefect {
+    /// The race that carries it.
+    pub on: RaceName,
+    /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero.
     pub angle_deg: f64,
     /// Extent along the rolling direction, below the race's circumference.
     pub length: f64,
-    /// Extent across the rolling direction.
-    pub width: f64,
+    /// Extent across the rolling direction; not felt in the plane.
+    pub width: Option<f64>,
     /// Greatest depth below the undeformed race, below the ball's radius.
     pub depth: f64,
-    /// Which of its dimensions a ball feels.
-    #[serde(default)]
-    pub profile: DefectProfile,
     /// Radius by which the edge is rounded, below half the length.
-    #[serde(default = "default_rim_radius")]
     pub rim_radius: f64,
     /// Curvature of the contact at its bottom.
-    #[serde(default)]
     pub curvature: DefectCurvature,
 }
 
-fn default_rim_radius() -> f64 {
-    // A choice of this program: the source paper's ellipse meets the race with a vertical wall.
-    0.05e-3
+/// Measured profile of a race.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredDefect {
+    /// The race that carries it.
+    pub on: RaceName,
+    /// Angle of its middle in degrees, counted like a dent's.
+    pub angle_deg: f64,
+    /// Table of arc length and depth.
+    pub csv: PathBuf,
 }
 
-/// What carries a defect.
+/// Flat on a ball; lengths > 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatDefect {
+    /// The ball, from 0.
+    pub ball: usize,
+    /// Angle of its middle from the ball's outward radius vector in degrees, when the shaft's angle is zero.
+    pub angle_deg: f64,
+    /// Radius of the flat in the rolling direction, above the ball's.
+    pub flat_radius: f64,
+    /// Depth at its middle, below the ball's radius.
+    pub depth: f64,
+    /// Radius by which its ends are rounded.
+    pub rim_radius: f64,
+    /// Curvature of the contact on it.
+    pub curvature: DefectCurvature,
+}
+
+/// A race.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum DefectPlace {
+pub enum RaceName {
+    /// The inner race: turns with the shaft.
+    Inner,
     /// The outer race: fixed in space.
     Outer,
 }
 
-/// Which dimensions of a dent a ball feels.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DefectProfile {
-    /// Length and depth; the groove's radius stays the race's (the source paper's).
-    #[default]
-    InPlane,
-}
-
-/// Curvature of the contact at a dent's bottom.
+/// Curvature that enters the stiffness of the contact on a defect.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DefectCurvature {
-    /// That of the race and that of the dent's profile together.
+    /// That of the profile as it is.
     #[default]
     Profile,
-    /// That of the dent alone, as the source paper prints it.
+    /// As the source paper prints it: of the dent alone, or of the ball for its flat.
     Paper,
+}
+
+impl Defect {
+    /// The file that it names.
+    pub(super) fn path_mut(&mut self) -> Option<&mut PathBuf> {
+        match self {
+            Self::Measured(measured) => Some(&mut measured.csv),
+            Self::Dent(_) | Self::Flat(_) => None,
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Place {
+    Inner,
+    Outer,
+    Ball,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ProfileFile<T> {
+    csv: T,
+}
+
+/// `"in-plane"`, or a file.
+#[derive(Clone, PartialEq)]
+enum Profile {
+    InPlane,
+    File(PathBuf),
+}
+
+written_as!(Profile, Loose<ProfileFile<PathBuf>>);
+
+impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
+    type Error = Mismatch;
+
+    fn try_from(form: Loose<ProfileFile<PathBuf>>) -> Result<Self, Mismatch> {
+        match form {
+            Loose::Word(word) if word == "in-plane" => Ok(Self::InPlane),
+            Loose::Word(found) => Err(Mismatch::Word {
+                found,
+                valid: &["in-plane"],
+            }),
+            Loose::Table(file) => Ok(Self::File(file.csv)),
+            other => Err(other.mismatch("\"in-plane\", or { csv = \"FILE\" }")),
+        }
+    }
+}
+
+impl From<Profile> for Loose<ProfileFile<PathBuf>> {
+    fn from(profile: Profile) -> Self {
+        match profile {
+            Profile::InPlane => Self::Word("in-plane".to_owned()),
+            Profile::File(csv) => Self::Table(ProfileFile { csv }),
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DefectForm {
+    on: Place,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    length: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    width: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    depth: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    profile: Option<Profile>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rim_radius: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    curvature: Option<DefectCurvature>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ball: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    flat_radius: Option<f64>,
+}
+
+written_as!(Defect, DefectForm);
+
+/// A choice of this program: the source paper's dents and flats end at an edge.
+const RIM_RADIUS: f64 = 0.05e-3;
+
+/// Refuses a key that this kind of defect does not have.
+fn without(present: bool, found: &'static str, expected: &'static str) -> Result<(), Mismatch> {
+    if present {
+        Err(Mismatch::form(found, expected))
+    } else {
+        Ok(())
+    }
+}
+
+fn given<T>(value: Option<T>, key: &'static str) -> Result<T, Mismatch> {
+    value.ok_or(Mismatch::Missing { key })
+}
+
+impl TryFrom<DefectForm> for Defect {
+    type Error = Mismatch;
+
+    fn try_from(form: DefectForm) -> Result<Self, Mismatch> {
+        let on = match form.on {
+            Place::Inner => RaceName::Inner,
+            Place::Outer => RaceName::Outer,
+            Place::Ball => return flat(form).map(Self::Flat),
+        };
+        const RACE: &str = "keys of a race's defect";
+        without(form.ball.is_some(), "`ball` beside a race", RACE)?;
+        without(
+            form.flat_radius.is_some(),
+            "`flat_radius` beside a race",
+            RACE,
+        )?;
+        let angle_deg = given(form.angle_deg, "angle_deg")?;
+        if let Some(Profile::File(csv)) = form.profile {
+            const FILE: &str = "the profile in the file alone";
+            without(form.length.is_some(), "`length` beside a file", FILE)?;
+            without(form.width.is_some(), "`width` beside a file", FILE)?;
+            without(form.depth.is_some(), "`depth` beside a file", FILE)?;
+            without(
+                form.rim_radius.is_some(),
+                "`rim_radius` beside a file",
+                FILE,
+            )?;
+            without(form.curvature.is_some(), "`curvature` beside a file", FILE)?;
+            return Ok(Self::Measured(MeasuredDefect { on, angle_deg, csv }));
+        }
+        Ok(Self::Dent(DentDefect {
+            on,
+            angle_deg,
+            length: given(form.length, "length")?,
+            width: form.width,
+            depth: given(form.depth, "depth")?,
+            rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
+            curvature: form.curvature.unwrap_or_default(),
+        }))
+    }
+}
+
+fn flat(form: DefectForm) -> Result<FlatDefect, Mismatch> {
+    const BALL: &str = "keys of a ball's flat";
+    without(form.length.is_some(), "`length` beside a ball", BALL)?;
+    without(form.width.is_some(), "`width` beside a ball", BALL)?;
+    let file = matches!(form.profile, Some(Profile::File(_)));
+    without(file, "a measured `profile` beside a ball", BALL)?;
+    Ok(FlatDefect {
+        ball: given(form.ball, "ball")?,
+        angle_deg: form.angle_deg.unwrap_or(0.0),
+        flat_radius: given(form.flat_radius, "flat_radius")?,
+        depth: given(form.depth, "depth")?,
+        rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
+        curvature: form.curvature.unwrap_or_default(),
+    })
+}
+
+impl From<Defect> for DefectForm {
+    fn from(defect: Defect) -> Self {
+        let empty = Self {
+            on: Place::Outer,
+            angle_deg: None,
+            length: None,
+            width: None,
+            depth: None,
+            profile: None,
+            rim_radius: None,
+            curvature: None,
+            ball: None,
+            flat_radius: None,
+        };
+        let race = |on| match on {
+            RaceName::Inner => Place::Inner,
+            RaceName::Outer => Place::Outer,
+        };
+        match defect {
+            Defect::Dent(dent) => Self {
+                on: race(dent.on),
+                angle_deg: Some(dent.angle_deg),
+                length: Some(dent.length),
+                width: dent.width,
+                depth: Some(dent.depth),
+                profile: Some(Profile::InPlane),
+                rim_radius: Some(dent.rim_radius),
+                curvature: Some(dent.curvature),
+                ..empty
+            },
+            Defect::Measured(measured) => Self {
+                on: race(measured.on),
+                angle_deg: Some(measured.angle_deg),
+                profile: Some(Profile::File(measured.csv)),
+                ..empty
+            },
+            Defect::Flat(flat) => Self {
+                on: Place::Ball,
+                angle_deg: Some(flat.angle_deg),
+                depth: Some(flat.depth),
+                rim_radius: Some(flat.rim_radius),
+                curvature: Some(flat.curvature),
+                ball: Some(flat.ball),
+                flat_radius: Some(flat.flat_radius),
+                ..empty
+            },
+        }
+    }
 }

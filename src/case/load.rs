@@ -8,7 +8,7 @@ use super::check::{BrokenRule, groups_of};
 use super::document::{Document, Source};
 use super::error::{CaseError, Place};
 use super::nearest::Choices;
-use super::{Case, HousingSource, Interface, Linearise, material, unsupported};
+use super::{Case, Defect, HousingSource, Interface, Linearise, material, unsupported};
 
 /// What a case is to be used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,8 +92,13 @@ impl Case {
         let housing = self.housing.iter_mut().map(HousingSource::path_mut);
         let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
         let meshes = self.modes.convergence.iter_mut();
+        let defects = self
+            .bearing
+            .iter_mut()
+            .flat_map(|bearing| &mut bearing.defects);
         housing
             .chain(compared)
+            .chain(defects.filter_map(Defect::path_mut))
             .chain(meshes.flat_map(|convergence| &mut convergence.meshes))
     }
 

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::{
-    BallInertia, Case, CaseError, ContactStiffness, Damping, FixedInterfaceModes, Hold,
+    BallInertia, Case, CaseError, ContactStiffness, Damping, Defect, FixedInterfaceModes, Hold,
     Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Load, Material, Method,
-    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, SensorSpot, Slip, Source, StepLength,
+    ModeExtent, ModesKept, PerNodeOrGroup, Purpose, RaceName, SensorSpot, Slip, Source, StepLength,
 };
 
 /// A case with every table and every form of value.
@@ -90,7 +90,7 @@ fn every_key_of_the_full_case_arrives() {
         bearing.stiffness,
         ContactStiffness::Given { inner, .. } if near(inner, 3.828e9)
     ));
-    assert!(near(bearing.defects[0].rim_radius, 0.04e-3));
+    assert!(matches!(&bearing.defects[0], Defect::Dent(dent) if near(dent.rim_radius, 0.04e-3)));
     assert!(matches!(case.damping, Some(Damping::Ratios(points)) if near(points[1].ratio, 0.03)));
     assert_eq!(case.sensors[1].spot, SensorSpot::RingDeg(90.0));
     assert_eq!(case.sensors[2].spot, SensorSpot::Point([0.0, 9e-3, 0.0]));
@@ -660,6 +660,60 @@ fn a_load_is_constant_or_over_time() {
         ),
     ] {
         let error = loads(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
+    let defects = |set: &str| {
+        read(FULL, &[&format!("bearing.defects=[{set}]")]).map(|case| case.bearing.unwrap().defects)
+    };
+    let dent = defects("{on='inner',angle_deg=10,length=0.8e-3,depth=15e-6}").unwrap();
+    assert!(matches!(&dent[0], Defect::Dent(dent)
+        if dent.on == RaceName::Inner && near(dent.rim_radius, 0.05e-3)));
+    let measured = defects("{on='outer',angle_deg=10,profile={csv='scan.csv'}}").unwrap();
+    assert!(matches!(&measured[0], Defect::Measured(measured)
+        if measured.csv == Path::new("folder/scan.csv")));
+    let flat = defects("{on='ball',ball=6,flat_radius=2e-3,depth=1e-5}").unwrap();
+    assert!(
+        matches!(&flat[0], Defect::Flat(flat) if flat.ball == 6 && flat.angle_deg.abs() < 1e-300)
+    );
+    for (set, message) in [
+        (
+            "{on='inner',length=1e-3,depth=1e-5}",
+            "`bearing.defects[0].angle_deg`",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,ball=1}",
+            "found `ball` beside a race, expected keys of a race's defect",
+        ),
+        (
+            "{on='outer',angle_deg=0,profile={csv='a.csv'},depth=1e-5}",
+            "found `depth` beside a file, expected the profile in the file alone",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5,length=1e-3}",
+            "found `length` beside a ball, expected keys of a ball's flat",
+        ),
+        (
+            "{on='ball',ball=7,flat_radius=2e-3,depth=1e-5}",
+            "`bearing.defects[0].ball`: found 7, expected the number of a ball, counted from 0",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=1e-3,depth=1e-5}",
+            "`bearing.defects[0].flat_radius`: found 0.001, expected more than `bearing.ball_radius` (0.001)",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5},{on='ball',ball=1,flat_radius=2e-3,depth=1e-5}",
+            "`bearing.defects[1].ball`",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=18e-3,depth=1e-5}",
+            "`bearing.defects[0].length`",
+        ),
+    ] {
+        let error = defects(set).unwrap_err().to_string();
         assert!(error.contains(message), "{set}: {error}");
     }
 }

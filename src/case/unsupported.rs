@@ -12,8 +12,6 @@ enum Extent {
     Key,
     /// This word.
     Word(&'static str),
-    /// A table or an array.
-    Compound,
 }
 
 /// A key path (`*`: every item of an array), what of it is refused, and what to write instead.
@@ -36,33 +34,17 @@ const fn refused(
 }
 
 const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\"";
-const OTHER_RACE: &str = "use on = \"outer\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 11] = [
+const UNSUPPORTED: [Unsupported; 8] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
         "use balls_inertia = \"dynamic\"",
     ),
     refused(
-        &["bearing", "defects", "*", "on"],
-        Extent::Word("inner"),
-        OTHER_RACE,
-    ),
-    refused(
-        &["bearing", "defects", "*", "on"],
-        Extent::Word("ball"),
-        OTHER_RACE,
-    ),
-    refused(
         &["bearing", "defects", "*", "profile"],
         Extent::Word("surface"),
-        OTHER_PROFILE,
-    ),
-    refused(
-        &["bearing", "defects", "*", "profile"],
-        Extent::Compound,
         OTHER_PROFILE,
     ),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
@@ -102,7 +84,7 @@ pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
                 place: document.marked(Some(mark)),
                 key: match entry.extent {
                     Extent::Word(word) => format!("{path} = \"{word}\""),
-                    Extent::Key | Extent::Compound => path,
+                    Extent::Key => path,
                 },
                 instead: entry.instead,
             });
@@ -122,7 +104,6 @@ fn find(
         let matches = match extent {
             Extent::Key => true,
             Extent::Word(word) => matches!(&node.value, Value::Text(text) if text == word),
-            Extent::Compound => matches!(node.value, Value::Table(_) | Value::List(_)),
         };
         return matches.then_some(node.mark);
     };
@@ -154,20 +135,8 @@ mod tests {
             "bearing.balls_inertia = \"quasi-static\"",
         ),
         (
-            "bearing.defects[0].on=inner",
-            "bearing.defects[0].on = \"inner\"",
-        ),
-        (
-            "bearing.defects[0]={on='ball',ball=1}",
-            "bearing.defects[0].on = \"ball\"",
-        ),
-        (
             "bearing.defects[0].profile=surface",
             "bearing.defects[0].profile = \"surface\"",
-        ),
-        (
-            "bearing.defects[0].profile={csv='profile.csv'}",
-            "bearing.defects[0].profile",
         ),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),
@@ -197,16 +166,16 @@ mod tests {
 
     #[test]
     fn the_line_of_the_second_of_two_defects_is_found() {
-        let second = "[[bearing.defects]]\non = \"ball\"\n\n[shaft]";
+        let second = "[[bearing.defects]]\nprofile = \"surface\"\n\n[shaft]";
         let text = FULL.replace("[shaft]", second);
         let line = 1 + text
             .lines()
-            .position(|line| line == "on = \"ball\"")
+            .position(|line| line == "profile = \"surface\"")
             .unwrap();
         assert_eq!(
             read(&text, &[]).unwrap_err().to_string(),
             format!(
-                "folder/case.toml:{line}: `bearing.defects[1].on = \"ball\"` is not supported yet by this version"
+                "folder/case.toml:{line}: `bearing.defects[1].profile = \"surface\"` is not supported yet by this version"
             )
         );
     }

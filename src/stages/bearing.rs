@@ -1,10 +1,10 @@
 //! The bearing of a case.
 
 use super::StageError;
+use super::bearing_defects::{Defects, defects};
 use super::bearing_motion::{shaft, slip, speed};
-use crate::bearing::defect::{CurvatureReading, Dent, DentShape, reduced};
 use crate::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, Race, RaceContacts,
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
 };
 use crate::case::{self, Case};
 use crate::system::{BearingSetup, Formulation};
@@ -22,26 +22,10 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
         case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
         case::ContactStiffness::Given { inner, outer } => ContactStiffness::given(inner, outer)?,
     };
-    let dents = asked
-        .defects
-        .iter()
-        .enumerate()
-        .map(|(index, defect)| {
-            let shape = DentShape {
-                angle: defect.angle_deg.to_radians(),
-                length: defect.length,
-                depth: defect.depth,
-                rim_radius: defect.rim_radius,
-                curvature: match defect.curvature {
-                    case::DefectCurvature::Profile => CurvatureReading::Total,
-                    case::DefectCurvature::Paper => CurvatureReading::Paper,
-                },
-            };
-            Dent::new(&geometry, Race::Outer, shape, stiffness)
-                .map_err(|source| StageError::Dent { index, source })
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    check_apart(&dents)?;
+    let Defects {
+        race_defects,
+        flats,
+    } = defects(&asked.defects, &geometry, stiffness)?;
     Ok(Some(BearingSetup {
         cage: Cage::new(
             &geometry,
@@ -56,29 +40,11 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
             case::Formulation::Consistent => Formulation::Consistent,
             case::Formulation::Printed => Formulation::Printed,
         },
-        dents,
+        race_defects,
+        flats,
         gravity: asked_shaft.gravity,
         shaft: shaft(asked_shaft),
     }))
-}
-
-/// Two dents must not share a part of the race: a contact belongs to one of them.
-fn check_apart(dents: &[Dent]) -> Result<(), StageError> {
-    for (second, b) in dents.iter().enumerate() {
-        for (first, a) in dents[..second].iter().enumerate() {
-            let apart = reduced(a.shape().angle - b.shape().angle).abs();
-            let needed = a.contact_half_angle() + b.contact_half_angle();
-            if apart < needed {
-                return Err(StageError::DentsOverlap {
-                    first,
-                    second,
-                    apart_deg: apart.to_degrees(),
-                    needed_deg: needed.to_degrees(),
-                });
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.

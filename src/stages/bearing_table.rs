@@ -1,6 +1,7 @@
 //! Everything about a bearing in one table: geometry, orders, contacts.
 
-use crate::bearing::{BearingGeometry, RaceContacts};
+use crate::bearing::defect::RaceDefect;
+use crate::bearing::{BearingGeometry, Race, RaceContacts};
 use crate::closed_form::hertz::HertzStiffness;
 use crate::report::{Cell, Column, Table, significant};
 use crate::system::{BearingSetup, Equilibrium};
@@ -50,9 +51,30 @@ pub fn bearing_table(
     if let Some(equilibrium) = equilibrium {
         rows = patch_rows(rows, contacts, equilibrium);
     }
-    for (number, dent) in (1..).zip(&setup.dents) {
-        let name = format!("Drop of a ball in the middle of dent {number}");
-        rows = rows.one(&name, "\u{b5}m", dent.ball_drop() * 1e6, 4);
+    for defect in &setup.race_defects {
+        let name = match defect {
+            RaceDefect::Dent(_) => "Drop of a ball in the dent",
+            RaceDefect::Measured(_) => "Drop of a ball in the measured profile",
+        };
+        let drop = Cell::number(1e6 * defect.ball_drop(), 4);
+        let cells = match defect.race() {
+            Race::Inner => [blank(), drop, blank()],
+            Race::Outer => [blank(), blank(), drop],
+        };
+        rows = rows.cells(name, "\u{b5}m", cells);
+    }
+    for flat in &setup.flats {
+        let drop = |race| 1e6 * flat.shape.ball_drop(race);
+        let angle = flat.shape.included_angle().to_degrees();
+        let name = |what: &str| format!("{what} of the flat on ball {}", flat.ball);
+        rows = rows
+            .both(
+                &name("Drop"),
+                "\u{b5}m",
+                [drop(Race::Inner), drop(Race::Outer)],
+                4,
+            )
+            .one(&name("Included angle"), "deg", angle, 4);
     }
     rows.0
 }

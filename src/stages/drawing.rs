@@ -1,6 +1,8 @@
 //! The picture of the model: mesh, ring, supports, balls, dents, sensors.
 
 use super::StructureStage;
+use crate::bearing::Race;
+use crate::bearing::defect::RaceDefect;
 use crate::case::{Case, SensorSpot};
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
@@ -130,21 +132,19 @@ fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &StructureStage) 
 fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
     let centre = Point { x: 0.0, y: 0.0 };
     let geometry = &setup.geometry;
-    let race = Circle {
+    let circle = |race: Race| Circle {
         centre,
-        radius: geometry.outer_race_radius(),
-    };
-    drawing.races = vec![
-        Circle {
-            centre,
-            radius: geometry.effective_inner_race_radius(),
+        radius: match race {
+            Race::Inner => geometry.effective_inner_race_radius(),
+            Race::Outer => geometry.outer_race_radius(),
         },
-        race,
-    ];
+    };
+    drawing.races = vec![circle(Race::Inner), circle(Race::Outer)];
     let start = case
         .transient
         .as_ref()
         .map_or(0.0, |transient| transient.start);
+    let shaft_angle = setup.cage.shaft().angle(start);
     let cage = setup.cage.motion(start);
     for ball in 0..geometry.balls() {
         let angle = setup.cage.ball_angle(cage.angle, ball);
@@ -153,17 +153,26 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
             radius: geometry.ball_radius(),
         });
     }
-    for dent in &setup.dents {
-        let shape = dent.shape();
+    for defect in &setup.race_defects {
+        let race = circle(defect.race());
+        let turned = match defect.race() {
+            Race::Inner => shaft_angle,
+            Race::Outer => 0.0,
+        };
+        let length = 2.0 * defect.half_angle() * race.radius;
+        let label = match defect {
+            RaceDefect::Dent(dent) => format!(
+                "dent {:.2} mm long, {:.0} \u{b5}m deep",
+                dent.shape().length * 1e3,
+                dent.shape().depth * 1e6
+            ),
+            RaceDefect::Measured(_) => format!("profile {:.2} mm long", length * 1e3),
+        };
         drawing.dents.push(Dent {
             race,
-            angle_rad: shape.angle,
-            length: shape.length,
-            label: format!(
-                "dent {:.2} mm long, {:.0} \u{b5}m deep",
-                shape.length * 1e3,
-                shape.depth * 1e6
-            ),
+            angle_rad: defect.angle() + turned,
+            length,
+            label,
         });
     }
 }

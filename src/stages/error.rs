@@ -104,17 +104,29 @@ pub enum StageError {
     Stiffness(#[from] StiffnessError),
     /// A defect that cannot be.
     #[error("bearing.defects[{index}]: {source}")]
-    Dent {
+    Defect {
         /// Which one, from 0.
         index: usize,
         /// What is wrong with it.
         source: DefectError,
     },
-    /// Two dents in one place.
+    /// A file with a profile that cannot be read.
+    #[error("{}{line}: {what} (bearing.defects[{index}].profile)", path.display())]
+    ProfileFile {
+        /// Which defect, from 0.
+        index: usize,
+        /// The file.
+        path: PathBuf,
+        /// Colon and line, or nothing.
+        line: String,
+        /// What was found, and what was expected.
+        what: String,
+    },
+    /// Two defects in one place.
     #[error(
         "bearing.defects[{first}] and bearing.defects[{second}] overlap (arcs {apart_deg:.2} degrees apart, {needed_deg:.2} needed): move one or make it shorter"
     )]
-    DentsOverlap {
+    DefectsOverlap {
         /// The one, from 0.
         first: usize,
         /// The other.

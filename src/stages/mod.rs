@@ -6,6 +6,7 @@
 
 mod analysis;
 mod bearing;
+mod bearing_defects;
 mod bearing_motion;
 mod bearing_table;
 mod comparison;

@@ -5,7 +5,7 @@ use super::statics::Statics;
 use super::structure::MODELLED;
 use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
 use super::{bearing_table, race_contacts};
-use crate::bearing::RaceContacts;
+use crate::bearing::{Race, RaceContacts};
 use crate::case::{self, Case, ModesKept, StepLength};
 use crate::report::Table;
 use crate::series::TimeSeries;
@@ -78,6 +78,12 @@ impl RunResult {
     /// Simulated time over wall time of the stepping.
     pub fn realtime_factor(&self) -> f64 {
         self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether the outer race has no defect.
+    pub fn outer_race_is_sound(&self) -> bool {
+        let mut defects = self.setup.race_defects.iter();
+        !defects.any(|defect| defect.race() == Race::Outer)
     }
 
     /// Everything about the bearing in one table.

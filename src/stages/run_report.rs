@@ -71,7 +71,7 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
             Verdict::None,
         );
         for (harmonic, (expected, found)) in (1..).zip(window.outer) {
-            if let (Some((hz, _)), false) = (found, result.setup.dents.is_empty()) {
+            if let (Some((hz, _)), false) = (found, result.outer_race_is_sound()) {
                 report = report.headline(
                     format!(
                         "Envelope line at {harmonic} x outer race ({} Hz)",

@@ -39,7 +39,7 @@ impl Statics {
         let equilibria = Equilibrium::find_all(&stage.structure, setup, condition)?;
         let point = |place: usize| {
             let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
-            let condition = condition.turned_to(condition.cage_angle + turned);
+            let condition = condition.turned_by(setup, turned);
             PassPoint {
                 turned,
                 equilibrium: Equilibrium::find(&stage.structure, setup, condition).ok(),

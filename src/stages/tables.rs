@@ -191,8 +191,11 @@ pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
                 setup.contact_damping
             ));
         }
-        if !setup.dents.is_empty() {
-            list.push("Dent in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's.".to_owned());
+        if !setup.race_defects.is_empty() || !setup.flats.is_empty() {
+            list.push("Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.".to_owned());
+        }
+        if !setup.flats.is_empty() {
+            list.push("A ball turns about its own axis as by pure rolling, whatever the cage's slip; where a race is damaged the ball's flat is not felt.".to_owned());
         }
     }
     if let Some(damping) = &case.damping {

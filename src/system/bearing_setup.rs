@@ -1,7 +1,7 @@
 //! The bearing as the coupled system takes it: geometry, contacts, motion and loads in one value.
 
 use super::load::LoadProfile;
-use crate::bearing::defect::Dent;
+use crate::bearing::defect::{BallFlat, RaceDefect};
 use crate::bearing::{BearingGeometry, Cage, ContactStiffness};
 
 /// Which reading of the ball position the equations follow.
@@ -27,6 +27,17 @@ pub struct Shaft {
     pub loads: Vec<LoadProfile>,
 }
 
+/// A ball with a flat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatOnBall {
+    /// Which ball, from 0.
+    pub ball: usize,
+    /// The flat.
+    pub shape: BallFlat,
+    /// Its angle from the ball's outward radius vector when the shaft's angle is zero, rad.
+    pub angle: f64,
+}
+
 /// Everything about the bearing that the structure does not know.
 #[derive(Debug, Clone)]
 pub struct BearingSetup {
@@ -40,8 +51,10 @@ pub struct BearingSetup {
     pub formulation: Formulation,
     /// Shaft angle and ball angles over time.
     pub cage: Cage,
-    /// Dents of the outer race, none overlapping.
-    pub dents: Vec<Dent>,
+    /// Defects of both races; none of one race overlap. Those of the inner one turn with the shaft.
+    pub race_defects: Vec<RaceDefect>,
+    /// Flats on balls, at most one a ball.
+    pub flats: Vec<FlatOnBall>,
     /// The shaft and its loads.
     pub shaft: Shaft,
     /// Gravity, m/s^2.
@@ -61,6 +74,15 @@ impl BearingSetup {
             let force = load.at(time);
             [sum[0] + force[0], sum[1] + force[1]]
         })
+    }
+
+    /// Number of the flat on `ball`, and its angle from the ball's radius vector when the shaft has turned to `shaft_angle`,
+    /// both rad: by pure rolling a ball turns [`ball_spin`](crate::closed_form::race::DefectOrders::ball_spin) times
+    /// against the shaft in one of its turns, seen from the cage.
+    pub fn spin(&self, ball: usize, shaft_angle: f64) -> Option<(usize, f64)> {
+        let number = self.flats.iter().position(|flat| flat.ball == ball)?;
+        let turned = self.geometry.orders().ball_spin * shaft_angle;
+        Some((number, self.flats[number].angle - turned))
     }
 
     /// Distance from the ring's node radius out to the raceway, m; negative inside.

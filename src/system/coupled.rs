@@ -4,11 +4,11 @@ use super::bearing_setup::{BearingSetup, Formulation};
 use super::equilibrium::Equilibrium;
 use super::error::SystemError;
 use super::inner::InnerRace;
-use super::outer::{OuterForce, OuterRace};
+use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
 use super::residual::ResidualFlexibility;
 use super::structure::{Structure, StructureModes};
-use crate::bearing::RotationCursor;
+use crate::bearing::{Race, RotationCursor};
 use crate::dynamics::{LinearCoordinate, State};
 use std::f64::consts::TAU;
 
@@ -78,8 +78,9 @@ impl ModeSelection {
 #[derive(Debug, Clone)]
 pub struct CoupledSystem {
     pub(super) setup: BearingSetup,
-    pub(super) inner: InnerRace,
-    pub(super) outer: OuterRace,
+    pub(super) inner_race: InnerRace,
+    pub(super) inner: RaceContact,
+    pub(super) outer: RaceContact,
     pub(super) linear: Vec<LinearCoordinate>,
     pub(super) modes: usize,
     /// Work of the weight on each kept mode, N kg^-1/2.
@@ -111,10 +112,14 @@ pub(super) struct Work {
     pub angle: Vec<f64>,
     /// The same in turns, 0 to 1.
     pub turn: Vec<f64>,
-    /// Dent that the ball may feel.
-    pub dent: Vec<Option<usize>>,
+    /// Number of the ball's flat.
+    pub flat: Vec<Option<usize>>,
+    /// Its angle from the ball's radius vector, rad, and its speed in the fixed frame, rad/s.
+    pub spin: Vec<[f64; 2]>,
+    /// What the ball may feel at the outer race.
+    pub damage: Vec<Damage>,
     /// Displacement of the last evaluation and its force.
-    pub known: Vec<(f64, OuterForce)>,
+    pub known: Vec<(f64, RaceForce)>,
     /// Displacement relative to the race, without the residual's part.
     pub gap: Vec<f64>,
     pub rate: Vec<[f64; 2]>,
@@ -186,12 +191,9 @@ impl CoupledSystem {
             Formulation::Printed => vec![0.0; count],
         };
         Ok(Self {
-            inner: InnerRace::new(
-                &setup.geometry,
-                setup.stiffness.inner(),
-                setup.contact_damping,
-            ),
-            outer: OuterRace::new(&setup),
+            inner_race: InnerRace::new(&setup.geometry),
+            inner: RaceContact::new(&setup, Race::Inner),
+            outer: RaceContact::new(&setup, Race::Outer),
             linear,
             modes: count,
             gravity,
@@ -205,7 +207,12 @@ impl CoupledSystem {
                 .map(|sensor| (sensor.name.clone(), over_modes(&sensor.row)))
                 .collect(),
             cursors: [RotationCursor::default(); 2],
-            work: Work::new(balls, count),
+            work: Work {
+                flat: (0..balls)
+                    .map(|ball| setup.spin(ball, 0.0).map(|(flat, _)| flat))
+                    .collect(),
+                ..Work::new(balls, count)
+            },
             setup,
         })
     }
@@ -265,8 +272,10 @@ impl Work {
             direction: vec![[0.0; 2]; balls],
             angle: zeros(),
             turn: zeros(),
-            dent: vec![None; balls],
-            known: vec![(0.0, OuterForce::default()); balls],
+            flat: vec![None; balls],
+            spin: vec![[0.0; 2]; balls],
+            damage: vec![Damage::None; balls],
+            known: vec![(0.0, RaceForce::default()); balls],
             gap: zeros(),
             rate: vec![[0.0; 2]; balls],
             outer_radial: zeros(),

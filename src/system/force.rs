@@ -2,7 +2,8 @@
 
 use super::bearing_setup::Formulation;
 use super::coupled::CoupledSystem;
-use super::outer::OuterForce;
+use super::inner::InnerGap;
+use super::race::{Damage, RaceForce, RacePlace};
 use super::raceway::reduced_turn;
 use crate::bearing::RotationState;
 use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
@@ -29,7 +30,7 @@ impl SecondOrderSystem for CoupledSystem {
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         let shaft = self.setup.cage.shaft().motion_from(&mut self.cursors[0], t);
         let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
-        self.place_balls(&cage);
+        self.place_balls(&shaft, &cage);
         self.gaps(y);
         if self.setup.contact_damping > 0.0 {
             self.rates(&cage, y, v);
@@ -70,7 +71,7 @@ impl SecondOrderSystem for CoupledSystem {
 impl CoupledSystem {
     /// Ball angles, directions and mode rows at a cage angle: one sine and cosine, the others by
     /// rotation through the fixed spacing.
-    fn place_balls(&mut self, cage: &RotationState) {
+    fn place_balls(&mut self, shaft: &RotationState, cage: &RotationState) {
         let modes = self.modes;
         let first = self.setup.cage.ball_angle(cage.angle, 0);
         let (sin, cos) = first.sin_cos();
@@ -80,13 +81,42 @@ impl CoupledSystem {
             let angle = self.setup.cage.ball_angle(cage.angle, j as u32);
             self.work.angle[j] = angle;
             self.work.turn[j] = reduced_turn(angle);
-            self.work.dent[j] = self.outer.dent_at(self.work.direction[j]);
+            self.work.damage[j] = self.damage_at_the_outer_race(j, shaft, cage);
             let row = &mut self.work.rows[j * modes..(j + 1) * modes];
             self.radial.values_into(self.work.turn[j], row);
             if let Some(residual) = &mut self.residual {
                 residual.place(j, self.work.turn[j]);
             }
         }
+    }
+
+    /// Turns the ball's flat to where it is, and says what the ball may feel at the outer race: a defect of the race before
+    /// a flat of its own.
+    #[inline]
+    fn damage_at_the_outer_race(
+        &mut self,
+        j: usize,
+        shaft: &RotationState,
+        cage: &RotationState,
+    ) -> Damage {
+        let mut damage = Damage::None;
+        if let Some(flat) = self.work.flat[j]
+            && let Some((_, angle)) = self.setup.spin(j, shaft.angle)
+        {
+            let speed = cage.speed - self.setup.geometry.orders().ball_spin * shaft.speed;
+            self.work.spin[j] = [angle, speed];
+            if self.outer.feels(flat, angle) {
+                damage = Damage::Flat(flat);
+            }
+        }
+        let defect = self.outer.defect_at(self.work.direction[j]);
+        defect.map_or(damage, Damage::Race)
+    }
+
+    /// Whether a ball is near enough to the race to be reached by what the other balls do, given its gap.
+    #[inline]
+    fn is_near(&self, j: usize) -> bool {
+        self.work.gap[j] > -REACH || self.work.damage[j] != Damage::None
     }
 
     /// Ball displacements relative to the race as the kept modes and the weight move it.
@@ -105,12 +135,12 @@ impl CoupledSystem {
     fn rates(&mut self, cage: &RotationState, y: &[f64], v: &[f64]) {
         let modes = self.modes;
         for j in 0..self.work.gap.len() {
-            self.work.rate[j] = if self.work.gap[j] > -REACH {
+            self.work.rate[j] = if self.is_near(j) {
                 let row = &self.work.rows[j * modes..(j + 1) * modes];
                 let slopes = &mut self.work.scratch_row;
                 self.radial.slopes_into(self.work.turn[j], slopes);
                 let race = dot(row, &v[..modes]) + cage.speed * dot(slopes, &y[..modes]);
-                let along = (self.inner.touching_radius + y[modes + 2 + j]) * cage.speed;
+                let along = (self.inner_race.touching_radius + y[modes + 2 + j]) * cage.speed;
                 [v[modes + 2 + j] - race, along]
             } else {
                 [0.0, 0.0]
@@ -120,18 +150,26 @@ impl CoupledSystem {
 
     /// Outer force of ball `j` at the displacement `s` relative to the race.
     #[inline]
-    fn outer_force(&mut self, j: usize, s: f64, y: &[f64]) -> OuterForce {
-        match self.work.dent[j] {
-            None => self.outer.plain_force(s, self.work.rate[j][0]),
-            Some(dent) => {
-                let row = &mut self.work.scratch_row;
-                self.tangential.values_into(self.work.turn[j], row);
-                let shift = dot(row, &y[..self.modes]);
-                let radius = self.inner.touching_radius + y[self.modes + 2 + j];
-                let angle = self.work.angle[j] - shift / radius;
-                self.outer.dented(dent, angle, s, self.work.rate[j])
-            }
+    fn outer_force(&mut self, j: usize, s: f64, y: &[f64]) -> RaceForce {
+        let [rate, along] = self.work.rate[j];
+        let damage = self.work.damage[j];
+        if damage == Damage::None {
+            return self.outer.plain_force(s, rate);
         }
+        let row = &mut self.work.scratch_row;
+        self.tangential.values_into(self.work.turn[j], row);
+        let radius = self.inner_race.touching_radius + y[self.modes + 2 + j];
+        let shift = dot(row, &y[..self.modes]) / radius;
+        let [spin, speed] = self.work.spin[j];
+        let place = RacePlace {
+            angle: self.work.angle[j] - shift,
+            penetration: s,
+            rate,
+            along,
+            spin: [spin + shift, speed],
+            turning: 0.0,
+        };
+        self.outer.force(damage, &place)
     }
 
     fn outer_forces(&mut self, y: &[f64]) {
@@ -150,13 +188,14 @@ impl CoupledSystem {
         let balls = self.work.gap.len();
         self.work.outer_radial.fill(0.0);
         if let Some(residual) = &mut self.residual {
-            residual.couple(|j| self.work.gap[j] > -REACH);
+            let work = &self.work;
+            residual.couple(|j| work.gap[j] > -REACH || work.damage[j] != Damage::None);
         }
         for j in 0..balls {
-            let force = if self.work.gap[j] > -REACH {
+            let force = if self.is_near(j) {
                 self.outer_force(j, self.work.gap[j], y)
             } else {
-                OuterForce::default()
+                RaceForce::default()
             };
             self.work.known[j] = (self.work.gap[j], force);
         }
@@ -166,7 +205,7 @@ impl CoupledSystem {
         for _ in 0..MAX_SWEEPS {
             let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
             for j in 0..balls {
-                if self.work.gap[j] <= -REACH {
+                if !self.is_near(j) {
                     continue;
                 }
                 let (own, others) = self.residual_shares(j);
@@ -203,7 +242,7 @@ impl CoupledSystem {
         };
         let work = &mut self.work;
         for j in 0..work.gap.len() {
-            if work.gap[j] <= -REACH {
+            if work.gap[j] <= -REACH && work.damage[j] == Damage::None {
                 continue;
             }
             let slopes = residual.contact_slope_row(j);
@@ -236,7 +275,7 @@ impl CoupledSystem {
         (row[j], others)
     }
 
-    fn keep_outer(&mut self, j: usize, force: &OuterForce) {
+    fn keep_outer(&mut self, j: usize, force: &RaceForce) {
         self.work.outer_radial[j] = force.radial;
         self.work.outer_tangential[j] = force.tangential;
         self.work.outer_magnitude[j] = force.magnitude;
@@ -290,25 +329,38 @@ impl CoupledSystem {
         let relative = [y[modes] - centre[0], y[modes + 1] - centre[1]];
         let velocity = [v[modes] - centre_rate[0], v[modes + 1] - centre_rate[1]];
         let mut total = load;
+        let damaged = self.inner.is_damaged();
         let mass = self.setup.geometry.ball_mass();
         for j in 0..self.work.gap.len() {
             let e = self.work.direction[j];
             let (s, s_rate) = (y[modes + 2 + j], v[modes + 2 + j]);
-            let gap = self.inner.gap(e, s, relative);
-            let rho = self.inner.touching_radius + s;
-            let mut force = 0.0;
+            let gap = self.inner_race.gap(e, s, relative);
+            let rho = self.inner_race.touching_radius + s;
             let mut along = 0.0;
-            if gap.penetration > 0.0 {
+            self.work.inner_force[j] = 0.0;
+            if gap.penetration > 0.0 || damaged {
                 let n = gap.normal;
                 let turn = rho * cage.speed;
-                let approach = n[0] * (s_rate * e[0] - turn * e[1] - velocity[0])
-                    + n[1] * (s_rate * e[1] + turn * e[0] - velocity[1]);
-                force = self.inner.law.force(gap.penetration, -approach);
-                along = force * (n[0] * e[0] + n[1] * e[1]);
-                total[0] -= force * n[0];
-                total[1] -= force * n[1];
+                let moving = [
+                    s_rate * e[0] - turn * e[1] - velocity[0],
+                    s_rate * e[1] + turn * e[0] - velocity[1],
+                ];
+                let approach = -(n[0] * moving[0] + n[1] * moving[1]);
+                let force = if damaged {
+                    let across = n[0] * moving[1] - n[1] * moving[0];
+                    self.damaged_inner_force(j, &gap, [approach, across], shaft)
+                } else {
+                    self.inner.plain_force(gap.penetration, approach)
+                };
+                let on_race = [
+                    force.radial * n[0] - force.tangential * n[1],
+                    force.radial * n[1] + force.tangential * n[0],
+                ];
+                along = -(on_race[0] * e[0] + on_race[1] * e[1]);
+                total[0] += on_race[0];
+                total[1] += on_race[1];
+                self.work.inner_force[j] = force.magnitude;
             }
-            self.work.inner_force[j] = force;
             let gravity = self.setup.gravity;
             let frame = e[0] * (gravity[0] - centre_acceleration[0])
                 + e[1] * (gravity[1] - centre_acceleration[1]);
@@ -327,6 +379,40 @@ impl CoupledSystem {
         }
         g[modes] = total[0] / self.setup.shaft.mass;
         g[modes + 1] = total[1] / self.setup.shaft.mass;
+    }
+}
+
+impl CoupledSystem {
+    /// Force of ball `j` on an inner race that carries defects, or that may meet the ball's flat, for rates of the ball
+    /// towards the race and along it, m/s.
+    fn damaged_inner_force(
+        &self,
+        j: usize,
+        gap: &InnerGap,
+        [rate, along]: [f64; 2],
+        shaft: &RotationState,
+    ) -> RaceForce {
+        let (e, n) = (self.work.direction[j], gap.normal);
+        // from the radius vector about the bearing's centre to that about the shaft's
+        let turned = (e[0] * n[1] - e[1] * n[0]).atan2(e[0] * n[0] + e[1] * n[1]);
+        let (sin, cos) = shaft.angle.sin_cos();
+        let in_the_race = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
+        let [spin, speed] = self.work.spin[j];
+        let flat = self.work.flat[j].filter(|&flat| self.inner.feels(flat, spin - turned));
+        let damage = match (self.inner.defect_at(in_the_race), flat) {
+            (Some(defect), _) => Damage::Race(defect),
+            (None, Some(flat)) => Damage::Flat(flat),
+            (None, None) => Damage::None,
+        };
+        let place = RacePlace {
+            angle: self.work.angle[j] + turned - shaft.angle,
+            penetration: gap.penetration,
+            rate,
+            along,
+            spin: [spin - turned, speed],
+            turning: shaft.speed,
+        };
+        self.inner.force(damage, &place)
     }
 }
 

@@ -1,6 +1,6 @@
-//! Contact of a ball with the inner race: penetration without loss of digits, force and tangent.
+//! Where a ball stands to the inner race: penetration without loss of digits.
 
-use crate::bearing::{BearingGeometry, HertzContact};
+use crate::bearing::BearingGeometry;
 
 /// Inner contact of one ball: position by the outward displacement `s` from touching the undeformed
 /// outer race, `rho = R_0 - rho_b + s`.
@@ -10,8 +10,6 @@ pub(super) struct InnerRace {
     pub touching_radius: f64,
     /// Radial play c, m.
     pub play: f64,
-    /// Force law.
-    pub law: HertzContact,
 }
 
 /// Where ball and inner race stand to each other.
@@ -26,11 +24,10 @@ pub(super) struct InnerGap {
 }
 
 impl InnerRace {
-    pub fn new(geometry: &BearingGeometry, stiffness: f64, damping: f64) -> Self {
+    pub fn new(geometry: &BearingGeometry) -> Self {
         Self {
             touching_radius: geometry.outer_race_radius() - geometry.ball_radius(),
             play: geometry.radial_play(),
-            law: HertzContact { stiffness, damping },
         }
     }
 
@@ -62,10 +59,6 @@ mod tests {
         let race = InnerRace {
             touching_radius: 3.7565e-3,
             play: 2.5e-6,
-            law: HertzContact {
-                stiffness: 1e10,
-                damping: 0.0,
-            },
         };
         let angle: f64 = 4.1;
         let e = [angle.cos(), angle.sin()];

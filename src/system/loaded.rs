@@ -3,8 +3,7 @@
 use super::bearing_setup::{BearingSetup, Formulation};
 use super::equilibrium::{Equilibrium, contact_rows};
 use super::error::SystemError;
-use super::inner::InnerRace;
-use super::outer::OuterRace;
+use super::resting::{RestingRaces, in_the_plane};
 use super::structure::{Structure, StructureModes};
 use crate::linalg::{DenseMatrix, general_spectrum, symmetric_eigen};
 use std::f64::consts::TAU;
@@ -123,8 +122,9 @@ impl Linearised {
         let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
         let rows = modes.shapes.transpose() * contact_rows(structure, setup, &angles);
         let centre = centre_rows(structure, modes, printed);
-        add_outer(&mut k, setup, structure, equilibrium, &rows, count);
-        add_inner(&mut k, setup, equilibrium, &centre, count);
+        let races = RestingRaces::new(setup, equilibrium.shaft_angle);
+        add_outer(&mut k, &races, setup, structure, equilibrium, &rows, count);
+        add_inner(&mut k, &races, setup, equilibrium, &centre, count);
         let mut masses = vec![1.0; count];
         masses.extend([setup.shaft.mass; 2]);
         masses.extend(vec![setup.geometry.ball_mass(); balls]);
@@ -220,19 +220,19 @@ fn centre_rows(structure: &Structure, modes: &StructureModes, printed: bool) -> 
 /// Outer contacts: the relative motion is s - w (radial) and -u (tangential).
 fn add_outer(
     k: &mut DenseMatrix,
+    races: &RestingRaces,
     setup: &BearingSetup,
     structure: &Structure,
     equilibrium: &Equilibrium,
     rows: &DenseMatrix,
     modes: usize,
 ) {
-    let race = OuterRace::new(setup);
     let response = race_displacement(structure, equilibrium, setup);
     let touching = setup.geometry.outer_race_radius() - setup.geometry.ball_radius();
     for (j, ball) in equilibrium.balls.iter().enumerate() {
         let shift = response[2 * j + 1] / (touching + ball.displacement);
         let s = ball.displacement - response[2 * j];
-        let force = race.force(ball.angle - shift, s, [0.0; 2]);
+        let force = races.outer_force(j, ball.angle, shift, s);
         let [rr, rt, tt] = force.tangent;
         let place = modes + 2 + j;
         let (w, u) = (rows.col(2 * j), rows.col(2 * j + 1));
@@ -270,30 +270,34 @@ fn race_displacement(
 /// relative to the ring's mean and the ring does not feel the force.
 fn add_inner(
     k: &mut DenseMatrix,
+    races: &RestingRaces,
     setup: &BearingSetup,
     equilibrium: &Equilibrium,
     centre: &DenseMatrix,
     modes: usize,
 ) {
-    let race = InnerRace::new(&setup.geometry, setup.stiffness.inner(), 0.0);
     let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
     let spin = equilibrium.cage_speed.powi(2);
     for (j, ball) in equilibrium.balls.iter().enumerate() {
         let (sin, cos) = ball.angle.sin_cos();
         k[(modes + 2 + j, modes + 2 + j)] -= setup.geometry.ball_mass() * spin;
-        let gap = race.gap([cos, sin], ball.displacement, relative);
-        let force = race.law.linearised(gap.penetration, 0.0);
-        if force.force <= 0.0 {
+        let gap = races
+            .inner_race
+            .gap([cos, sin], ball.displacement, relative);
+        let force = races.inner_force(j, ball.angle, &gap);
+        if force.magnitude <= 0.0 {
             continue;
         }
+        let curvature = in_the_plane(&force, gap.distance);
         let n = gap.normal;
         let along = [-n[0], -n[1], n[0] * cos + n[1] * sin];
         let across = [n[1], -n[0], n[0] * sin - n[1] * cos];
         let place = [modes, modes + 1, modes + 2 + j];
         for a in 0..3 {
             for b in 0..3 {
-                let value = force.by_penetration * along[a] * along[b]
-                    - force.force / gap.distance * across[a] * across[b];
+                let value = curvature[0] * along[a] * along[b]
+                    + curvature[1] * (along[a] * across[b] + across[a] * along[b])
+                    + curvature[2] * across[a] * across[b];
                 k[(place[a], place[b])] += value;
                 if b < 2 {
                     for mode in 0..modes {

@@ -13,14 +13,14 @@ mod force;
 mod inner;
 mod load;
 mod loaded;
-mod outer;
+mod race;
 mod raceway;
 mod recorder;
-
 mod residual;
+mod resting;
 mod structure;
 
-pub use bearing_setup::{BearingSetup, Formulation, Shaft};
+pub use bearing_setup::{BearingSetup, FlatOnBall, Formulation, Shaft};
 pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;

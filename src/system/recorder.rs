@@ -143,7 +143,7 @@ impl Observer<CoupledSystem> for Recorder {
             record.time_s.push(now.t);
             record.shaft_x.push(now.y[modes]);
             record.shaft_y.push(now.y[modes + 1]);
-            let touching = system.inner.touching_radius;
+            let touching = system.inner_race.touching_radius;
             let radii = now.y[modes + 2..].iter().map(|s| touching + s);
             record.ball_radius.extend(radii);
             record

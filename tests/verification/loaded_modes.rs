@@ -16,11 +16,15 @@
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
+use plummer::bearing::Race;
+use plummer::bearing::defect::{
+    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect,
+};
 use plummer::dynamics::{SecondOrderSystem, State};
 use plummer::linalg::{DenseMatrix, general_spectrum};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeDamping, ModeSelection,
-    StaticCondition, Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeDamping,
+    ModeSelection, StaticCondition, Structure, StructureModes,
 };
 
 use crate::setup::{
@@ -41,9 +45,12 @@ struct Scene {
 impl Scene {
     /// `offset`: how far outside the node radius the springs are attached, m.
     fn new(offset: f64, first_deg: f64, formulation: Formulation) -> Self {
+        Self::of(offset, paper_bearing(first_deg, formulation))
+    }
+
+    fn of(offset: f64, setup: BearingSetup) -> Self {
         let structure = paper_structure(72, offset);
         let modes = structure.modes().unwrap();
-        let setup = paper_bearing(first_deg, formulation);
         let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
         let undamped = ModeDamping::Modal(0.0);
         let all = ModeSelection::All;
@@ -229,6 +236,60 @@ fn the_linearisation_is_that_of_the_force() {
         let k = scene.differenced();
         let spectrum = general_spectrum(&scene.per_mass(&k)).unwrap();
         let mut squares: Vec<f64> = spectrum.values.iter().map(|value| value.re).collect();
+        compare(&mut squares, &scene.loaded());
+    }
+}
+
+/// A ball beside the middle of a dent, in either race, and a ball on its flat.
+#[test]
+fn the_linearisation_on_damage_is_that_of_the_force() {
+    let sound = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
+    let (geometry, stiffness) = (sound.geometry, sound.stiffness);
+    let below = SYMMETRIC_DEG.to_radians();
+    let dent = |race, aside: f64| {
+        let shape = DentShape {
+            angle: below + aside,
+            length: 0.75e-3,
+            depth: 15e-6,
+            rim_radius: 0.05e-3,
+            curvature: CurvatureReading::Total,
+        };
+        let dent = Dent::new(&geometry, race, shape, stiffness).unwrap();
+        vec![RaceDefect::Dent(dent)]
+    };
+    let flat = |angle: f64| {
+        let shape = FlatShape {
+            radius: 2e-3,
+            depth: 10e-6,
+            rim_radius: 0.05e-3,
+            curvature: CurvatureReading::Total,
+        };
+        vec![FlatOnBall {
+            ball: 0,
+            shape: BallFlat::new(&geometry, shape, stiffness).unwrap(),
+            angle,
+        }]
+    };
+    for (race_defects, flats) in [
+        (dent(Race::Outer, 0.01), Vec::new()),
+        (dent(Race::Inner, 0.02), Vec::new()),
+        (Vec::new(), flat(0.03)),
+        (Vec::new(), flat(std::f64::consts::PI - 0.05)),
+    ] {
+        let setup = BearingSetup {
+            race_defects,
+            flats,
+            ..sound.clone()
+        };
+        let mut scene = Scene::of(0.0, setup);
+        assert!(scene.rest.is_stable());
+        let force = scene.rest.balls[0].inner;
+        assert!(force > 0.1, "the damaged place is under load: {force} N");
+        let k = scene.differenced();
+        let k = scene.per_mass(&k);
+        let order = k.nrows();
+        let symmetric = DMatrix::from_fn(order, order, |i, j| 0.5 * (k[(i, j)] + k[(j, i)]));
+        let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
         compare(&mut squares, &scene.loaded());
     }
 }

@@ -4,6 +4,7 @@ mod assembly;
 mod craig_bampton;
 mod element_convergence;
 mod equilibrium;
+mod faults;
 mod frf;
 mod grids;
 mod loaded_modes;

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::super::{Bearing, Case, ContactStiffness, Slip};
+use super::super::{
+    Bearing, Case, ContactStiffness, Defect, DentDefect, FlatDefect, RaceName, Slip,
+};
 use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
 
@@ -121,31 +123,78 @@ pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
     let Some(bearing) = &case.bearing else {
         return Ok(());
     };
-    let circumference = 2.0 * PI * bearing.outer_race_radius;
+    let mut with_flat = Vec::new();
     for (index, defect) in bearing.defects.iter().enumerate() {
         let at = |key: &str| format!("bearing.defects[{index}].{key}");
-        above_zero(at("length"), defect.length)?;
-        above_zero(at("width"), defect.width)?;
-        above_zero(at("depth"), defect.depth)?;
-        above_zero(at("rim_radius"), defect.rim_radius)?;
-        below(
-            at("length"),
-            defect.length,
-            "the race's circumference",
-            circumference,
-        )?;
-        below(
-            at("depth"),
-            defect.depth,
-            "`bearing.ball_radius`",
-            bearing.ball_radius,
-        )?;
-        below(
-            at("rim_radius"),
-            defect.rim_radius,
-            "half the defect's length",
-            0.5 * defect.length,
-        )?;
+        match defect {
+            Defect::Dent(dent) => dent_rules(bearing, dent, at)?,
+            // what is in the file is checked when it is read
+            Defect::Measured(_) => {}
+            Defect::Flat(flat) => {
+                flat_rules(bearing, flat, at)?;
+                if with_flat.contains(&flat.ball) {
+                    let name = format!("ball {}", flat.ball);
+                    return Err(Rule::Repeated { name }.at(at("ball")));
+                }
+                with_flat.push(flat.ball);
+            }
+        }
     }
     Ok(())
+}
+
+fn dent_rules(
+    bearing: &Bearing,
+    dent: &DentDefect,
+    at: impl Fn(&str) -> String,
+) -> Result<(), BrokenRule> {
+    above_zero(at("length"), dent.length)?;
+    above_zero(at("depth"), dent.depth)?;
+    above_zero(at("rim_radius"), dent.rim_radius)?;
+    if let Some(width) = dent.width {
+        above_zero(at("width"), width)?;
+    }
+    let radius = match dent.on {
+        RaceName::Inner => bearing.inner_race_radius,
+        RaceName::Outer => bearing.outer_race_radius,
+    };
+    below(
+        at("length"),
+        dent.length,
+        "the race's circumference",
+        2.0 * PI * radius,
+    )?;
+    below(
+        at("depth"),
+        dent.depth,
+        "`bearing.ball_radius`",
+        bearing.ball_radius,
+    )?;
+    below(
+        at("rim_radius"),
+        dent.rim_radius,
+        "half the defect's length",
+        0.5 * dent.length,
+    )
+}
+
+fn flat_rules(
+    bearing: &Bearing,
+    flat: &FlatDefect,
+    at: impl Fn(&str) -> String,
+) -> Result<(), BrokenRule> {
+    if flat.ball >= bearing.balls {
+        let (found, expected) = (flat.ball, "the number of a ball, counted from 0");
+        return Err(Rule::Count { found, expected }.at(at("ball")));
+    }
+    let ball = bearing.ball_radius;
+    above(
+        at("flat_radius"),
+        flat.flat_radius,
+        "`bearing.ball_radius`",
+        ball,
+    )?;
+    above_zero(at("depth"), flat.depth)?;
+    below(at("depth"), flat.depth, "`bearing.ball_radius`", ball)?;
+    above_zero(at("rim_radius"), flat.rim_radius)
 }

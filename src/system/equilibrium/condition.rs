@@ -9,6 +9,8 @@ pub struct StaticCondition {
     pub cage_angle: f64,
     /// Cage speed that the centrifugal load of the balls belongs to, rad/s.
     pub cage_speed: f64,
+    /// Angle of the shaft, which the defects of the inner race and the balls' flats turn with, rad.
+    pub shaft_angle: f64,
     /// Force on the shaft, its weight included, N.
     pub load: [f64; 2],
 }
@@ -20,14 +22,19 @@ impl StaticCondition {
         Self {
             cage_angle: cage.angle,
             cage_speed: cage.speed,
+            shaft_angle: setup.cage.shaft().angle(time),
             load: setup.shaft_load(time),
         }
     }
 
-    /// The same with the cage turned to another angle (rad).
+    /// The same with the cage turned on by `angle` (rad), and the shaft as pure rolling has it.
     #[must_use]
-    pub fn turned_to(self, cage_angle: f64) -> Self {
-        Self { cage_angle, ..self }
+    pub fn turned_by(self, setup: &BearingSetup, angle: f64) -> Self {
+        Self {
+            cage_angle: self.cage_angle + angle,
+            shaft_angle: self.shaft_angle + angle / setup.geometry.orders().cage,
+            ..self
+        }
     }
 
     /// The same with `factor` times the force on the shaft.

@@ -75,6 +75,8 @@ pub struct Equilibrium {
     pub centre: [f64; 2],
     /// Cage speed that the centrifugal load belongs to, rad/s.
     pub cage_speed: f64,
+    /// Angle of the shaft, rad.
+    pub shaft_angle: f64,
 }
 
 impl Equilibrium {

@@ -6,8 +6,8 @@ use super::search::{Found, HELD};
 use super::{BallLoad, Equilibrium};
 use crate::linalg::DenseMatrix;
 use crate::system::bearing_setup::{BearingSetup, Formulation};
-use crate::system::inner::InnerRace;
-use crate::system::outer::{OuterForce, OuterRace};
+use crate::system::race::RaceForce;
+use crate::system::resting::{RestingRaces, in_the_plane};
 use crate::system::{Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
@@ -18,14 +18,13 @@ pub(super) struct Evaluation {
     /// N/m.
     pub hessian: DMatrix<f64>,
     inner: Vec<f64>,
-    outer: Vec<OuterForce>,
+    outer: Vec<RaceForce>,
 }
 
 /// A bearing in its structure, the cage at rest.
 pub(super) struct Problem<'a> {
     setup: &'a BearingSetup,
-    inner: InnerRace,
-    outer: OuterRace,
+    races: RestingRaces,
     condition: StaticCondition,
     angles: Vec<f64>,
     /// Flexibility at the contacts [2 balls x 2 balls], radial then tangential a ball, m/N.
@@ -61,8 +60,7 @@ impl<'a> Problem<'a> {
         let at_contacts = rows.transpose() * &responses;
         Ok((
             Self {
-                inner: InnerRace::new(&setup.geometry, setup.stiffness.inner(), 0.0),
-                outer: OuterRace::new(setup),
+                races: RestingRaces::new(setup, condition.shaft_angle),
                 setup,
                 angles,
                 condition,
@@ -76,7 +74,7 @@ impl<'a> Problem<'a> {
 
     /// Distance of a ball that touches the outer race from the bearing's centre, m.
     pub fn touching_radius(&self) -> f64 {
-        self.inner.touching_radius
+        self.races.inner_race.touching_radius
     }
 
     /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
@@ -99,7 +97,7 @@ impl<'a> Problem<'a> {
             let (sin, cos) = self.angles[j].sin_cos();
             let e = [cos, sin];
             let s = z[2 + j];
-            let rho = self.inner.touching_radius + s;
+            let rho = self.races.inner_race.touching_radius + s;
             let weight = mass * (self.setup.gravity[0] * cos + self.setup.gravity[1] * sin);
             let spin = self.condition.cage_speed.powi(2);
             gradient[2 + j] = outer[j].radial - weight - mass * spin * rho;
@@ -107,20 +105,22 @@ impl<'a> Problem<'a> {
             for k in 0..balls {
                 hessian[(2 + j, 2 + k)] += stiffness[(j, k)];
             }
-            let gap = self.inner.gap(e, s, [z[0], z[1]]);
-            let force = self.inner.law.linearised(gap.penetration, 0.0);
-            inner[j] = force.force;
-            if force.force > 0.0 {
-                // chi over (x, y, s_j): gradient a, Hessian (t t^T) / chi with t across the normal
+            let gap = self.races.inner_race.gap(e, s, [z[0], z[1]]);
+            let force = self.races.inner_force(j, self.angles[j], &gap);
+            inner[j] = force.magnitude;
+            if force.magnitude > 0.0 {
+                // b = rho e - shaft over (x, y, s_j): along and across the normal
                 let n = gap.normal;
                 let along = [-n[0], -n[1], n[0] * e[0] + n[1] * e[1]];
                 let across = [n[1], -n[0], n[0] * e[1] - n[1] * e[0]];
+                let curvature = in_the_plane(&force, gap.distance);
                 let place = [0, 1, 2 + j];
                 for a in 0..3 {
-                    gradient[place[a]] -= force.force * along[a];
+                    gradient[place[a]] += force.radial * along[a] + force.tangential * across[a];
                     for b in 0..3 {
-                        hessian[(place[a], place[b])] += force.by_penetration * along[a] * along[b]
-                            - force.force / gap.distance * across[a] * across[b];
+                        hessian[(place[a], place[b])] += curvature[0] * along[a] * along[b]
+                            + curvature[1] * (along[a] * across[b] + across[a] * along[b])
+                            + curvature[2] * across[a] * across[b];
                     }
                 }
             }
@@ -135,15 +135,15 @@ impl<'a> Problem<'a> {
 
     /// Outer contact forces for given ball positions, and their derivatives [balls x balls] with
     /// the structure following.
-    fn outer_forces(&mut self, z: &DVector<f64>) -> (Vec<OuterForce>, DMatrix<f64>) {
+    fn outer_forces(&mut self, z: &DVector<f64>) -> (Vec<RaceForce>, DMatrix<f64>) {
         let balls = self.angles.len();
-        let at = |race: &DVector<f64>| -> (Vec<OuterForce>, DVector<f64>) {
-            let forces: Vec<OuterForce> = (0..balls)
+        let at = |race: &DVector<f64>| -> (Vec<RaceForce>, DVector<f64>) {
+            let forces: Vec<RaceForce> = (0..balls)
                 .map(|j| {
                     let s = z[2 + j];
-                    let shift = race[2 * j + 1] / (self.inner.touching_radius + s);
-                    let angle = self.angles[j] - shift;
-                    self.outer.force(angle, s - race[2 * j], [0.0; 2])
+                    let shift = race[2 * j + 1] / (self.touching_radius() + s);
+                    self.races
+                        .outer_force(j, self.angles[j], shift, s - race[2 * j])
                 })
                 .collect();
             let vector = DVector::from_fn(2 * balls, |i, _| match i % 2 {
@@ -187,7 +187,7 @@ impl<'a> Problem<'a> {
         (forces, radial)
     }
 
-    fn tangent(&self, forces: &[OuterForce]) -> DMatrix<f64> {
+    fn tangent(&self, forces: &[RaceForce]) -> DMatrix<f64> {
         let mut tangent = DMatrix::zeros(2 * forces.len(), 2 * forces.len());
         for (j, force) in forces.iter().enumerate() {
             tangent[(2 * j, 2 * j)] = force.tangent[0];
@@ -237,6 +237,7 @@ impl<'a> Problem<'a> {
             shaft_stiffness: shaft_stiffness(&evaluation.hessian),
             centre,
             cage_speed: self.condition.cage_speed,
+            shaft_angle: self.condition.shaft_angle,
         }
     }
 

@@ -1,0 +1,200 @@
+//! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
+
+use super::bearing_setup::BearingSetup;
+use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
+use crate::bearing::{HertzContact, Race};
+use std::f64::consts::PI;
+
+/// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential
+/// counter-clockwise).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct RaceForce {
+    /// Radial force on the race, N; negative on the inner one.
+    pub radial: f64,
+    /// Tangential force on the race, N.
+    pub tangential: f64,
+    /// Derivatives by the ball's radial and tangential position relative to the race, N/m:
+    /// (radial by radial, radial by tangential = tangential by radial, tangential by tangential).
+    pub tangent: [f64; 3],
+    /// Sum of the contact forces' magnitudes, N.
+    pub magnitude: f64,
+}
+
+/// Where a ball stands to a race, and how it moves.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct RacePlace {
+    /// Angle of the ball about the race's centre in the race's own frame, rad.
+    pub angle: f64,
+    /// How far the ball is pressed beyond touching the undamaged race, m.
+    pub penetration: f64,
+    /// Rate of that, m/s.
+    pub rate: f64,
+    /// Velocity of the ball's centre along increasing angle, in the fixed frame, m/s.
+    pub along: f64,
+    /// Angle and speed of the ball's flat, if it has one: from its radius vector, rad, and in the fixed frame, rad/s.
+    pub spin: [f64; 2],
+    /// Angular speed of the race, rad/s.
+    pub turning: f64,
+}
+
+/// What damage a ball feels in one place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Damage {
+    /// None.
+    #[default]
+    None,
+    /// A defect of the race, by its number.
+    Race(usize),
+    /// The flat of the ball, by its number.
+    Flat(usize),
+}
+
+/// One race of a bearing.
+#[derive(Debug, Clone)]
+pub(super) struct RaceContact {
+    race: Race,
+    /// Outward on the outer race, inward on the inner one.
+    sign: f64,
+    plain: HertzContact,
+    /// Distance from the race's centre at which a ball touches it, m.
+    touching_radius: f64,
+    defects: Vec<DefectArc>,
+    flats: Vec<BallFlat>,
+}
+
+/// A defect with the arc in which a ball may feel it.
+#[derive(Debug, Clone)]
+struct DefectArc {
+    defect: RaceDefect,
+    middle: [f64; 2],
+    /// Cosine of half the arc.
+    reach: f64,
+}
+
+/// Added to half the arc, rad: the race's own tangential displacement (1e-6 m on 4e-3 m) must not
+/// carry a ball out of the arc. Beyond the rims a defect's contact is that of the plain race.
+const ARC_MARGIN: f64 = 2e-3;
+
+impl RaceContact {
+    /// The race of a bearing.
+    pub fn new(setup: &BearingSetup, race: Race) -> Self {
+        let geometry = &setup.geometry;
+        let (sign, touching_radius) = match race {
+            Race::Outer => (1.0, geometry.outer_race_radius() - geometry.ball_radius()),
+            Race::Inner => (
+                -1.0,
+                geometry.effective_inner_race_radius() + geometry.ball_radius(),
+            ),
+        };
+        let own = setup
+            .race_defects
+            .iter()
+            .filter(|defect| defect.race() == race);
+        let arc = |defect: &RaceDefect| {
+            let (sin, cos) = defect.angle().sin_cos();
+            DefectArc {
+                middle: [cos, sin],
+                reach: (defect.contact_half_angle() + ARC_MARGIN).min(PI).cos(),
+                defect: defect.clone(),
+            }
+        };
+        Self {
+            race,
+            sign,
+            plain: HertzContact {
+                stiffness: setup.stiffness.at(race),
+                damping: setup.contact_damping,
+            },
+            touching_radius,
+            defects: own.map(arc).collect(),
+            flats: setup.flats.iter().map(|flat| flat.shape.clone()).collect(),
+        }
+    }
+
+    /// The same without contact damping.
+    pub fn undamped(mut self) -> Self {
+        self.plain.damping = 0.0;
+        self
+    }
+
+    /// Whether a ball may meet anything but the plain race.
+    pub fn is_damaged(&self) -> bool {
+        !(self.defects.is_empty() && self.flats.is_empty())
+    }
+
+    /// Distance (m) of a ball's centre from the race's when it is pressed so far beyond touching it.
+    #[inline]
+    pub fn radius(&self, penetration: f64) -> f64 {
+        self.touching_radius + self.sign * penetration
+    }
+
+    /// +1 if a ball is pressed onto the race by moving outwards, -1 if inwards.
+    pub fn pressed_outward(&self) -> f64 {
+        self.sign
+    }
+
+    /// Number of the defect that a ball in direction `e` (unit vector in the race's frame) may feel.
+    #[inline]
+    pub fn defect_at(&self, e: [f64; 2]) -> Option<usize> {
+        self.defects
+            .iter()
+            .position(|arc| e[0] * arc.middle[0] + e[1] * arc.middle[1] >= arc.reach)
+    }
+
+    /// Whether the flat with this number can be felt at a spin angle (rad).
+    #[inline]
+    pub fn feels(&self, flat: usize, spin: f64) -> bool {
+        self.flats[flat].contains(self.race, spin)
+    }
+
+    /// Force of a ball away from any damage.
+    #[inline]
+    pub fn plain_force(&self, penetration: f64, rate: f64) -> RaceForce {
+        let force = self.plain.linearised(penetration, rate);
+        RaceForce {
+            radial: self.sign * force.force,
+            tangential: 0.0,
+            tangent: [force.by_penetration, 0.0, 0.0],
+            magnitude: force.force,
+        }
+    }
+
+    /// Force of a ball at a place: on damage all contacts, each along its own normal.
+    #[inline]
+    pub fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
+        let radius = self.radius(at.penetration);
+        match damage {
+            Damage::None => self.plain_force(at.penetration, at.rate),
+            Damage::Race(defect) => {
+                let angle = at.angle;
+                let contacts = self.defects[defect]
+                    .defect
+                    .contacts(PolarPosition { radius, angle });
+                self.sum(&contacts, at.rate, at.along - radius * at.turning)
+            }
+            Damage::Flat(flat) => {
+                let contacts = self.flats[flat].contacts(self.race, at.spin[0], radius);
+                self.sum(&contacts, at.rate, at.along - radius * at.spin[1])
+            }
+        }
+    }
+
+    fn sum(&self, contacts: &DefectContacts, rate: f64, along: f64) -> RaceForce {
+        let mut sum = RaceForce::default();
+        for contact in contacts.pressing() {
+            let [n_r, n_t] = [contact.normal_radial, contact.normal_tangential];
+            let law = HertzContact {
+                stiffness: contact.stiffness,
+                damping: self.plain.damping,
+            };
+            let force = law.linearised(contact.delta, contact.rate(self.sign * rate, along));
+            sum.radial += force.force * n_r;
+            sum.tangential += force.force * n_t;
+            sum.magnitude += force.force;
+            sum.tangent[0] += force.by_penetration * n_r * n_r;
+            sum.tangent[1] += force.by_penetration * n_r * n_t;
+            sum.tangent[2] += force.by_penetration * n_t * n_t;
+        }
+        sum
+    }
+}
