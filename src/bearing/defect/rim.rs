@@ -82,7 +82,8 @@ impl Rim {
             joint_point: at.point,
             joint_tangent: at.tangent(),
             sine_end,
-            blend: RIM_BLEND.min(sine_end / 3.0),
+            // an arc that rounding has taken away must not be divided by
+            blend: RIM_BLEND.min(sine_end / 3.0).max(f64::MIN_POSITIVE),
         }
     }
 
@@ -292,6 +293,18 @@ mod tests {
             }
         }
         assert!(found > 0);
+    }
+
+    #[test]
+    fn an_arc_without_length_has_a_blend_to_divide_by() {
+        let (circles, _) = source(Race::Outer);
+        let floor = Floor::Ellipse(Ellipse {
+            carrier: circles.carrier,
+            side: circles.side,
+            half_length: 0.375e-3,
+            depth: 0.0,
+        });
+        assert!(Rim::new(&circles, &floor, 5e-5).blend > 0.0);
     }
 
     #[test]
