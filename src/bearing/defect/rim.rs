@@ -296,18 +296,6 @@ mod tests {
     }
 
     #[test]
-    fn an_arc_without_length_has_a_blend_to_divide_by() {
-        let (circles, _) = source(Race::Outer);
-        let floor = Floor::Ellipse(Ellipse {
-            carrier: circles.carrier,
-            side: circles.side,
-            half_length: 0.375e-3,
-            depth: 0.0,
-        });
-        assert!(Rim::new(&circles, &floor, 5e-5).blend > 0.0);
-    }
-
-    #[test]
     fn smoothstep_ends_flat() {
         for (x, y) in [(-1.0, 0.0), (0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (7.0, 1.0)] {
             assert_relative_eq!(smoothstep(x), y);

@@ -140,6 +140,25 @@ fn nothing_jumps_where_contacts_change() {
     assert!(borders > 1000, "only {borders}");
 }
 
+/// At the last digits about a profile's ends there is one contact: on the race or on the profile, never on neither.
+#[test]
+fn a_profile_and_its_race_leave_no_gap() {
+    let mut numbers = Numbers(29);
+    for i in 0..400 {
+        let race = [Race::Outer, Race::Inner][i % 2];
+        let samples = sampled(numbers.between(0.5e-3, 2e-3), 8, |x| 5e-6 * (PI * x).sin());
+        let subject = Subject::race(RaceDefect::Measured(profile(race, &samples)));
+        let edge = subject.half_angle();
+        for ulps in -20..=20 {
+            let offset = edge * (1.0 + f64::from(ulps) * f64::EPSILON);
+            for offset in [offset, -offset] {
+                let found = subject.contacts(1e-6 * (1.0 + numbers.next()), offset);
+                assert_eq!(found.pressing().count(), 1, "{race} {edge} {ulps}");
+            }
+        }
+    }
+}
+
 /// Beside its arc every defect is the plain race, and at the arc's ends it passes into it.
 #[test]
 fn the_race_begins_where_the_arc_ends() {
