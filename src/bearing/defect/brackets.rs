@@ -39,6 +39,8 @@ struct Node {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Brackets {
     nodes: Vec<Node>,
+    /// Half the arc of the profile itself, rad; its ends are the first and the last node.
+    profile_angle: f64,
     /// Half the arc of ball angles in which any of them is pressed, rad.
     pub half_angle: f64,
     cells_per_radian: f64,
@@ -52,8 +54,8 @@ pub(super) fn fade(circles: &Circles) -> Fade {
 }
 
 impl Brackets {
-    /// Finds the stretches of `profile`, whose ends lie `half_angle` (rad) from its middle.
-    pub fn new(profile: &Profile, half_angle: f64) -> Self {
+    /// Finds the stretches of `profile`, whose ends lie `profile_angle` (rad) from its middle.
+    pub fn new(profile: &Profile, profile_angle: f64) -> Self {
         let mut nodes = Vec::new();
         for (number, piece) in profile.pieces.iter().enumerate() {
             for stretch in touchable(profile, piece) {
@@ -68,10 +70,11 @@ impl Brackets {
             .iter()
             .flatten()
             .flatten()
-            .fold(half_angle, |most, angle| most.max(angle.abs()));
+            .fold(profile_angle, |most, angle| most.max(angle.abs()));
         let count = (2 * nodes.len()).clamp(16, 4096);
         let mut found = Self {
             nodes,
+            profile_angle,
             half_angle,
             cells_per_radian: count as f64 / (2.0 * half_angle),
             cells: vec![[usize::MAX, 0]; count],
@@ -104,27 +107,48 @@ impl Brackets {
         mut touched: impl FnMut(CurvePoint),
     ) {
         let [first, past] = self.cells[self.cell(offset)];
-        let nodes = self.nodes.get(first..past).unwrap_or(&[]);
+        let Some(nodes) = self.nodes.get(first..past) else {
+            return;
+        };
         let reach = 0.5 * profile.circles.roller * profile.circles.roller * (1.0 + ROUNDING);
-        let slope = |node: &Node| node.point.minus(centre).dot(node.first);
-        let mut g_low = nodes.first().map_or(0.0, slope);
-        for pair in nodes.windows(2) {
-            let g_high = slope(&pair[1]);
-            let g = [g_low, g_high];
-            g_low = g_high;
-            if g[0] <= 0.0
-                && g[1] > 0.0
-                && let Some(number) = pair[0].piece
-            {
-                let (low, high) = (&pair[0], &pair[1]);
-                if nearest(centre, [low, high], g) <= reach {
-                    let ends = [low.angle, high.angle];
+        let mut g_low = f64::INFINITY;
+        for (index, node) in nodes.iter().enumerate() {
+            let g = [g_low, self.slope(first + index, node, centre, offset)];
+            g_low = g[1];
+            if g[0] <= 0.0 && g[1] > 0.0 {
+                let low = &nodes[index - 1];
+                if let Some(number) = low.piece
+                    && nearest(centre, [low, node], g) <= reach
+                {
+                    let ends = [low.angle, node.angle];
                     let start = ends[0] + (ends[1] - ends[0]) * (g[0] / (g[0] - g[1]));
                     let piece = &profile.pieces[number];
                     let curve = |angle: f64| profile.at(piece, angle);
                     touched(curve::foot(centre, ends, start, curve).1);
                 }
             }
+        }
+    }
+
+    /// `(P − C)·P'` at a node. At the profile's own ends, where the race goes on, the ball's angle says which side its
+    /// foot is on, so that by no rounding it is on neither.
+    #[inline]
+    fn slope(&self, index: usize, node: &Node, centre: Vector, offset: f64) -> f64 {
+        let g = node.point.minus(centre).dot(node.first);
+        if index == 0 {
+            if offset >= -self.profile_angle {
+                g.min(0.0)
+            } else {
+                g.max(f64::MIN_POSITIVE)
+            }
+        } else if index + 1 == self.nodes.len() {
+            if offset < self.profile_angle {
+                g.max(f64::MIN_POSITIVE)
+            } else {
+                g.min(0.0)
+            }
+        } else {
+            g
         }
     }
 }

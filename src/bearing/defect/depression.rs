@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use super::circles::Circles;
 use super::error::DefectError;
-use super::fade::{Fade, LEAST_RELATIVE};
+use super::fade::Fade;
 use super::floor::{Floor, Reach};
 use super::rim::Rim;
 use super::stiffness::{self, CurvatureStiffness};
@@ -13,6 +13,9 @@ use crate::bearing::materials::Race;
 
 /// A rim may not open the defect to more than this multiple of its length.
 pub(super) const OPENING_LIMIT: f64 = 1.5;
+
+/// Least rim radius as a fraction of the circle's: nanometres.
+const LEAST_RIM: f64 = 1e-6;
 
 /// Largest rim radius on a convex circle, as a fraction of its radius: beyond it the arc is no edge any more.
 const RIM_LIMIT: f64 = 0.5;
@@ -59,6 +62,13 @@ impl Depression {
                 limit,
             });
         }
+        if rim_radius < LEAST_RIM * circles.carrier {
+            return Err(DefectError::Value {
+                key: "rim_radius",
+                value: rim_radius,
+                rule: "must be at least a millionth of the radius of the race or ball that it rounds",
+            });
+        }
         if circles.side < 0.0 && rim_radius > RIM_LIMIT * circles.carrier {
             return Err(DefectError::Value {
                 key: "rim_radius",
@@ -93,12 +103,9 @@ impl Depression {
                 stiffness::per_modulus(bearing, race, floor_base - floor.loss(t))?;
             }
         }
-        let range = [
-            LEAST_RELATIVE * circles.relative,
-            circles.roller_curvature() + 1.0 / rim_radius,
-        ];
+        let most = circles.roller_curvature() + 1.0 / rim_radius;
         Ok(Self {
-            stiffness: CurvatureStiffness::new(bearing, race, &circles, range)?,
+            stiffness: CurvatureStiffness::new(bearing, race, &circles, most)?,
             reach,
             fade: Fade::new(&circles, 0.0),
             contact_angle: rim.farthest_centre(&circles).max(rim.angle),

@@ -8,10 +8,6 @@ use super::rim::smoothstep;
 /// floor has covered less than half of that way, so that the fade is met only when the rim carries more.
 pub const FLOOR_FADE: f64 = 0.7;
 
-/// Least in-plane relative curvature in a stiffness table, as a fraction of the undamaged pair's: close to
-/// conformity Hertz theory would give a patch of any length. The faded weight is 0.003 there.
-pub(super) const LEAST_RELATIVE: f64 = 0.01;
-
 /// Weight of a contact by the profile's concave curvature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fade {

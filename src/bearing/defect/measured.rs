@@ -8,7 +8,7 @@ use super::circles::Circles;
 use super::contacts::{DefectContacts, Feature};
 use super::dent::PolarPosition;
 use super::error::{DefectError, finite_angle};
-use super::fade::{Fade, LEAST_RELATIVE};
+use super::fade::Fade;
 use super::profile::Profile;
 use super::samples_check;
 use super::sinking;
@@ -70,17 +70,14 @@ impl MeasuredProfile {
         };
         let sharpest = sharpest(&profile)?;
         let half_angle = 0.5 * (last - first) / circles.carrier;
-        let range = [
-            LEAST_RELATIVE * circles.relative,
-            circles.relative + (sharpest + circles.carrier_concavity()).max(0.0),
-        ];
+        let most = circles.relative + (sharpest + circles.carrier_concavity()).max(0.0);
         Ok(Self {
             race,
             middle: reduced(angle),
             half_angle,
             brackets: Brackets::new(&profile, half_angle),
             fade: brackets::fade(&circles),
-            stiffness: CurvatureStiffness::new(bearing, race, &circles, range)?,
+            stiffness: CurvatureStiffness::new(bearing, race, &circles, most)?,
             profile,
         })
     }

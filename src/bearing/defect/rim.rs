@@ -82,7 +82,8 @@ impl Rim {
             joint_point: at.point,
             joint_tangent: at.tangent(),
             sine_end,
-            blend: RIM_BLEND.min(sine_end / 3.0),
+            // an arc that rounding has taken away must not be divided by
+            blend: RIM_BLEND.min(sine_end / 3.0).max(f64::MIN_POSITIVE),
         }
     }
 

@@ -14,6 +14,13 @@ use crate::closed_form::hertz::{self, HertzError, PrincipalCurvatures};
 /// bearing is 8e-7 with 20, 3e-9 with 80; a bearing with closer grooves has room.
 const INTERVALS: usize = 80;
 
+/// Least in-plane relative curvature, as a fraction of the undamaged pair's: close to conformity Hertz theory would
+/// give a patch of any length. The weight of a fading contact is 0.003 there.
+const LEAST_RELATIVE: f64 = 0.01;
+
+/// Greatest, likewise: an edge of a nanometre's radius on the source's ball. k is held beyond.
+const MOST_RELATIVE: f64 = 1e6;
+
 /// Half step, in ln A, of the difference that gives the slope at a node: its own error is 1e-9.
 const SLOPE_STEP: f64 = 1e-4;
 
@@ -35,8 +42,8 @@ pub(super) struct CurvatureStiffness {
 }
 
 impl CurvatureStiffness {
-    /// Table for A from `least` to `most` (1/m, positive) at `race`, such that k of the undamaged pair `circles`
-    /// is its own, computed or given.
+    /// Table for A from [`LEAST_RELATIVE`] of the undamaged pair's up to `most` (1/m), at most [`MOST_RELATIVE`] times
+    /// the pair's, at `race`, such that k of the undamaged pair `circles` is its own, computed or given.
     ///
     /// # Errors
     /// [`HertzError`] if Hertz theory refuses a node.
@@ -44,8 +51,10 @@ impl CurvatureStiffness {
         bearing: &BearingGeometry,
         race: Race,
         circles: &Circles,
-        [least, most]: [f64; 2],
+        most: f64,
     ) -> Result<Self, HertzError> {
+        let least = LEAST_RELATIVE * circles.relative;
+        let most = most.min(MOST_RELATIVE * circles.relative);
         let step = (most / least).ln() / INTERVALS as f64;
         let mut nodes = Vec::with_capacity(INTERVALS + 1);
         for i in 0..=INTERVALS {
@@ -117,8 +126,13 @@ mod tests {
     }
 
     fn table_of(stiffness: ContactStiffness) -> CurvatureStiffness {
-        let range = [8.0, 21_000.0];
-        CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles(stiffness), range).unwrap()
+        CurvatureStiffness::new(
+            &source_bearing(),
+            Race::Outer,
+            &circles(stiffness),
+            21_000.0,
+        )
+        .unwrap()
     }
 
     fn table() -> CurvatureStiffness {
@@ -166,8 +180,24 @@ mod tests {
             .map(|i| table.at(8.0 * (f64::from(i) / 500.0).exp()))
             .collect();
         assert!(k.windows(2).all(|pair| pair[1] <= pair[0]));
-        assert_relative_eq!(table.at(-50.0), table.at(8.0));
+        assert_relative_eq!(table.at(-50.0), table.at(7.8));
         assert_relative_eq!(table.at(1e9), table.at(21_000.0));
+    }
+
+    /// However sharp an edge is asked for, k stays positive and finite.
+    #[test]
+    fn the_sharpest_edge_is_a_nanometre() {
+        let of = |most: f64| {
+            let circles = circles(source_stiffness());
+            CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles, most).unwrap()
+        };
+        let at_limit = of(1e9).at(1e9);
+        assert!(at_limit > 0.0);
+        for most in [1e12, 1e300, f64::INFINITY] {
+            for curvature in [1e2, 1e5, 1e8, 1e30, f64::INFINITY] {
+                assert!(of(most).at(curvature) >= 0.999 * at_limit);
+            }
+        }
     }
 
     proptest! {

@@ -87,6 +87,78 @@ fn force_and_stiffness_are_continuous_in_position() {
     }
 }
 
+/// Where a contact comes, goes or passes from feature to feature: the border is found to the last digit by halving,
+/// and both sides of it agree to 1e-6 N (as above), for every such change on many straight paths.
+#[test]
+fn nothing_jumps_where_contacts_change() {
+    const STEPS: u32 = 400;
+    let mut numbers = Numbers(23);
+    let mut borders = 0;
+    for (name, subject) in subjects() {
+        let wide = 1.1 * subject.contact_half_angle();
+        for _ in 0..24 {
+            let end = |numbers: &mut Numbers| {
+                [
+                    -2e-6 + 30e-6 * numbers.next(),
+                    wide * (2.0 * numbers.next() - 1.0),
+                ]
+            };
+            let (from, to) = (end(&mut numbers), end(&mut numbers));
+            let mix = |x: f64, i: usize| from[i] + x * (to[i] - from[i]);
+            let features = |x: f64| {
+                let found = subject.contacts(mix(x, 0), mix(x, 1));
+                let place = |sum: u32, c: &DefectContact| 8 * sum + 1 + c.feature as u32;
+                found.pressing().fold(0, place)
+            };
+            let mut before = features(0.0);
+            for i in 0..STEPS {
+                let [mut low, mut high] = [i, i + 1].map(|i| f64::from(i) / f64::from(STEPS));
+                let after = features(high);
+                if after == before {
+                    continue;
+                }
+                for _ in 0..48 {
+                    let middle = 0.5 * (low + high);
+                    if features(middle) == before {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                let [left, right] = [low, high].map(|x| response(subject, mix(x, 0), mix(x, 1)));
+                for (a, b) in left.iter().zip(right) {
+                    assert!(
+                        (a - b).abs() < 1e-6,
+                        "{name}: {left:?} {right:?} at {low} of {from:?} to {to:?}"
+                    );
+                }
+                borders += 1;
+                before = after;
+            }
+        }
+    }
+    assert!(borders > 1000, "only {borders}");
+}
+
+/// At the last digits about a profile's ends there is one contact: on the race or on the profile, never on neither.
+#[test]
+fn a_profile_and_its_race_leave_no_gap() {
+    let mut numbers = Numbers(29);
+    for i in 0..400 {
+        let race = [Race::Outer, Race::Inner][i % 2];
+        let samples = sampled(numbers.between(0.5e-3, 2e-3), 8, |x| 5e-6 * (PI * x).sin());
+        let subject = Subject::race(RaceDefect::Measured(profile(race, &samples)));
+        let edge = subject.half_angle();
+        for ulps in -20..=20 {
+            let offset = edge * (1.0 + f64::from(ulps) * f64::EPSILON);
+            for offset in [offset, -offset] {
+                let found = subject.contacts(1e-6 * (1.0 + numbers.next()), offset);
+                assert_eq!(found.pressing().count(), 1, "{race} {edge} {ulps}");
+            }
+        }
+    }
+}
+
 /// Beside its arc every defect is the plain race, and at the arc's ends it passes into it.
 #[test]
 fn the_race_begins_where_the_arc_ends() {
@@ -169,7 +241,12 @@ fn no_nan_for_finite_positions() {
     let lengths = [
         0.0, 1e-300, -1e-3, 1e-3, 2.754e-3, 4.7565e-3, 4.8065e-3, 1e6, -1e150, 1e300,
     ];
-    for (name, subject) in subjects() {
+    // a rim that rounding takes away
+    let nothing = [Race::Outer, Race::Inner].map(|race| {
+        let dent = solved(race, dent_shape(1e-3, 1e-300, 5e-5));
+        ("vanishing dent", Subject::race(RaceDefect::Dent(dent)))
+    });
+    for (name, subject) in subjects().iter().chain(&nothing) {
         let middles = [0.0, 0.3, 0.999, 1.0, -1.0].map(|x| x * subject.half_angle());
         for offset in middles.into_iter().chain([0.5, PI, -1e9, 1e300]) {
             for distance in lengths {

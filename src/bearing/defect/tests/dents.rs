@@ -246,6 +246,11 @@ fn every_rule_fires_and_says_what_to_change() {
         let error = refuse(race, too_long);
         assert!(matches!(error, DefectError::TooLong { .. }), "{error}");
     }
+    let sharp = refuse(Race::Outer, dent_shape(1e-3, 1e-5, 4.7e-9)).to_string();
+    assert_eq!(
+        sharp,
+        "defect rim_radius = 0.0000000047 must be at least a millionth of the radius of the race or ball that it rounds"
+    );
     let thick = refuse(Race::Inner, dent_shape(1e-3, 1e-5, 1.5e-3)).to_string();
     assert_eq!(
         thick,

@@ -277,3 +277,17 @@ fn subjects_are_what_they_are_said_to_be() {
         }
     }
 }
+
+#[test]
+fn race_defects_answer_for_what_they_hold() {
+    for (name, subject) in subjects() {
+        let Kind::Race(defect) = &subject.kind else {
+            continue;
+        };
+        assert!((defect.angle() - MIDDLE).abs() < 1e-15, "{name}");
+        assert!(
+            defect.contains(MIDDLE) && !defect.contains(MIDDLE + 1.0),
+            "{name}"
+        );
+    }
+}
