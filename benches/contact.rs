@@ -43,7 +43,9 @@ fn evaluation(criterion: &mut Criterion) {
         let case = Case::load(CASE, &set).expect("an example of the repository");
         let stage = StructureStage::build(&case, &Unwatched);
         let stage = stage.expect("meshed").expect("with a ring");
-        let setup = bearing_setup(&case).expect("valid").expect("with a bearing");
+        let setup = bearing_setup(&case)
+            .expect("valid")
+            .expect("with a bearing");
         let rest = Equilibrium::find(&stage.structure, &setup, StaticCondition::at(&setup, 0.0));
         let mut system = CoupledSystem::new(
             &stage.structure,

@@ -128,6 +128,11 @@ impl RaceContact {
         self.touching_radius + self.sign * penetration
     }
 
+    /// Penetration (m) of the undamaged race under a force (N).
+    pub fn usual_penetration(&self, force: f64) -> f64 {
+        (force / self.plain.stiffness).cbrt().powi(2)
+    }
+
     /// +1 if a ball is pressed onto the race by moving outwards, -1 if inwards.
     pub fn pressed_outward(&self) -> f64 {
         self.sign

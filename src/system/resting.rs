@@ -5,9 +5,9 @@ use super::inner::{InnerGap, InnerRace};
 use super::race::{Damage, RaceContact, RaceForce, RacePlace};
 use crate::bearing::Race;
 
-/// Half the difference that gives derivatives on damage, m: forces change by 1e-3 N and more over it, and the profile's
-/// curvature by nothing.
-const DIFFERENCE: f64 = 1e-9;
+/// Half the difference that gives derivatives on damage, in penetrations: its own error is the square, and the round-off of a
+/// position 1e-6 of the smallest that a ball's weight causes.
+const DIFFERENCE: f64 = 1e-4;
 
 /// Both races as they stand.
 #[derive(Debug, Clone)]
@@ -87,13 +87,14 @@ impl RestingRaces {
             race.force(damage, &place)
         };
         let mut force = at(0.0, 0.0);
-        if damage != Damage::None {
+        if damage != Damage::None && force.magnitude > 0.0 {
+            let step = DIFFERENCE * race.usual_penetration(force.magnitude);
             // the profile turns the normals, which the contacts' own derivatives leave out
             let radius = race.radius(penetration);
             let outward = race.pressed_outward();
-            let [less, more] = [-DIFFERENCE, DIFFERENCE].map(|step| at(outward * step, 0.0));
-            let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|step| at(0.0, step / radius));
-            let slope = |a: f64, b: f64| (b - a) / (2.0 * DIFFERENCE);
+            let [less, more] = [-step, step].map(|step| at(outward * step, 0.0));
+            let [before, after] = [-step, step].map(|step| at(0.0, step / radius));
+            let slope = |a: f64, b: f64| (b - a) / (2.0 * step);
             let radial_by_turning = slope(before.radial, after.radial);
             let tangential_by_pressing =
                 slope(less.tangential, more.tangential) + force.tangential / radius;

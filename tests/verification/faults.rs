@@ -7,7 +7,8 @@ use plummer::stages::{RunEnd, RunResult, Unwatched, compute_run};
 
 /// An example at constant speed: 10 Hz between two lines of the envelope's spectrum over 0.2 s, in quarters.
 fn run(example: &str, set: &[&str]) -> RunResult {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("examples/tadina2011/{example}.toml"));
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join(format!("examples/tadina2011/{example}.toml"));
     let constant = [
         "speed.profile=[{time=0,hz=21}]",
         "transient.end=0.25",
@@ -16,7 +17,11 @@ fn run(example: &str, set: &[&str]) -> RunResult {
     let case = Case::from_source(Source {
         text: std::fs::read_to_string(&path).unwrap(),
         path,
-        set: constant.iter().chain(set).map(|&set| set.to_owned()).collect(),
+        set: constant
+            .iter()
+            .chain(set)
+            .map(|&set| set.to_owned())
+            .collect(),
     });
     let result = compute_run(&case.unwrap(), &Unwatched).unwrap();
     assert!(matches!(result.end, RunEnd::Complete));
@@ -39,12 +44,21 @@ fn every_fault_has_its_own_order() {
         let amplitude = line(&faulty, lines[own]);
         for (other, &hz) in lines.iter().enumerate().filter(|(other, _)| *other != own) {
             let beside = line(&faulty, hz);
-            assert!(amplitude > 2.0 * beside, "{example}: {amplitude} at its own order, {beside} at {other}");
+            assert!(
+                amplitude > 2.0 * beside,
+                "{example}: {amplitude} at its own order, {beside} at {other}"
+            );
         }
         let sound = line(&healthy, lines[own]);
-        assert!(amplitude > 10.0 * sound, "{example}: {amplitude}, without it {sound}");
+        assert!(
+            amplitude > 10.0 * sound,
+            "{example}: {amplitude}, without it {sound}"
+        );
         let (peak, quiet) = (faulty.windows[0].peak, healthy.windows[0].peak);
-        assert!(peak > 10.0 * quiet, "{example}: {peak} m/s^2, without it {quiet} m/s^2");
+        assert!(
+            peak > 10.0 * quiet,
+            "{example}: {peak} m/s^2, without it {quiet} m/s^2"
+        );
     }
 }
 

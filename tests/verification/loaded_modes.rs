@@ -240,7 +240,8 @@ fn the_linearisation_is_that_of_the_force() {
     }
 }
 
-/// A ball beside the middle of a dent, in either race, and a ball on its flat.
+/// A ball beside the middle of a dent, in either race, and a ball on its flat; shallower than the play, so that the ball
+/// carries load.
 #[test]
 fn the_linearisation_on_damage_is_that_of_the_force() {
     let sound = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
@@ -250,7 +251,7 @@ fn the_linearisation_on_damage_is_that_of_the_force() {
         let shape = DentShape {
             angle: below + aside,
             length: 0.75e-3,
-            depth: 15e-6,
+            depth: 0.3e-6,
             rim_radius: 0.05e-3,
             curvature: CurvatureReading::Total,
         };
@@ -259,8 +260,8 @@ fn the_linearisation_on_damage_is_that_of_the_force() {
     };
     let flat = |angle: f64| {
         let shape = FlatShape {
-            radius: 2e-3,
-            depth: 10e-6,
+            radius: 1.2e-3,
+            depth: 0.3e-6,
             rim_radius: 0.05e-3,
             curvature: CurvatureReading::Total,
         };
@@ -274,7 +275,7 @@ fn the_linearisation_on_damage_is_that_of_the_force() {
         (dent(Race::Outer, 0.01), Vec::new()),
         (dent(Race::Inner, 0.02), Vec::new()),
         (Vec::new(), flat(0.03)),
-        (Vec::new(), flat(std::f64::consts::PI - 0.05)),
+        (Vec::new(), flat(std::f64::consts::PI - 0.02)),
     ] {
         let setup = BearingSetup {
             race_defects,
