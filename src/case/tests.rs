@@ -682,7 +682,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     for (set, message) in [
         (
             "{on='inner',length=1e-3,depth=1e-5}",
-            "`bearing.defects[0].angle_deg`",
+            "`bearing.defects[0]` lacks the required key `angle_deg`",
         ),
         (
             "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,ball=1}",

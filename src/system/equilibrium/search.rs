@@ -15,12 +15,9 @@ const LONGEST_STEP: f64 = 0.5e-6;
 /// Force out of balance that counts as none, relative to the load on the shaft.
 const FORCE_TOLERANCE: f64 = 1e-11;
 
-/// Least curvature in a step, N/m: a ball between the races has none, and its weight of 1e-4 N
-/// shall not throw it farther than the longest step.
-const LEAST_CURVATURE: f64 = 100.0;
-
-/// Curvature below which a direction counts as held by nothing, N/m.
-pub(super) const HELD: f64 = 1e-3 * LEAST_CURVATURE;
+/// Curvature below which a direction counts as held by nothing, N/m: that of a ball between the races. The softest contact, of
+/// a ball under 1e-6 N, has 1e5 N/m.
+pub(super) const HELD: f64 = 0.1;
 
 /// Halvings of a step: 2^-30 of the longest one is below round-off of a displacement.
 const HALVINGS: usize = 30;
@@ -90,7 +87,7 @@ impl Problem<'_> {
                 eigen.eigenvectors.column(softest) * LONGEST_STEP
             } else {
                 newton(&eigen, &evaluation.gradient, |curvature| {
-                    curvature.abs().max(LEAST_CURVATURE)
+                    curvature.abs().max(HELD)
                 })
             };
             evaluation = self.walk(&mut z, step, &evaluation);
@@ -118,7 +115,7 @@ impl Problem<'_> {
             }
             go_on(&evaluation, iterations)?;
             let mut step = newton(&eigen, &evaluation.gradient, |curvature| {
-                curvature.abs().max(LEAST_CURVATURE).copysign(curvature)
+                curvature.abs().max(HELD).copysign(curvature)
             });
             let before = evaluation.gradient.norm();
             for _ in 0..HALVINGS {
@@ -180,7 +177,8 @@ fn go_on(evaluation: &Evaluation, iterations: usize) -> Result<(), SystemError> 
     Ok(())
 }
 
-/// Newton's step with the curvatures as `used` makes them, at most [`LONGEST_STEP`] in any coordinate.
+/// Newton's step with the curvatures as `used` makes them, at most [`LONGEST_STEP`] along every direction and in any coordinate:
+/// a ball that nothing holds crosses the clearance in such steps, however little it weighs.
 fn newton(eigen: &Eigen, gradient: &DVector<f64>, used: impl Fn(f64) -> f64) -> DVector<f64> {
     let mut step = DVector::zeros(gradient.len());
     let pairs = eigen
@@ -188,7 +186,8 @@ fn newton(eigen: &Eigen, gradient: &DVector<f64>, used: impl Fn(f64) -> f64) -> 
         .iter()
         .zip(eigen.eigenvectors.column_iter());
     for (&curvature, direction) in pairs {
-        step -= direction * (direction.dot(gradient) / used(curvature));
+        let along = direction.dot(gradient) / used(curvature);
+        step -= direction * along.clamp(-LONGEST_STEP, LONGEST_STEP);
     }
     let longest = step.amax();
     if longest > LONGEST_STEP {
