@@ -82,7 +82,11 @@ pub fn bearing_table(
 fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {
     let dimensions = geometry.dimensions();
     let mut rows = rows
-        .one("Balls", "", f64::from(geometry.balls()), 2)
+        .cells(
+            "Balls",
+            "",
+            [Cell::text(geometry.balls().to_string()), blank(), blank()],
+        )
         .one("Ball diameter", "mm", 2e3 * geometry.ball_radius(), 6)
         .one("Ball mass", "g", 1e3 * geometry.ball_mass(), 5)
         .one("Pitch diameter", "mm", 2e3 * geometry.pitch_radius(), 6)

@@ -4,6 +4,9 @@ use super::statics::{Statics, stiffness_along};
 use crate::report::{Abscissa, Axis, Bars, Cell, Column, Curve, Plot, Section, Table, significant};
 use crate::system::{BearingSetup, Equilibrium};
 
+/// Share of the largest force from which on a ball counts as loaded: more than its own weight.
+const LOADED: f64 = 1e-2;
+
 /// The section of a report.
 pub(super) fn statics_section(setup: &BearingSetup, statics: &Statics) -> Section {
     let section = Section::new("At rest");
@@ -19,11 +22,12 @@ pub(super) fn statics_section(setup: &BearingSetup, statics: &Statics) -> Sectio
 
 /// Forces and positions at rest.
 fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
+    let shaft = without_round_off(equilibrium.shaft.map(|x| 1e6 * x));
     let mut table = Table::new(
         format!(
             "Static equilibrium: shaft at ({}, {}) \u{b5}m",
-            significant(equilibrium.shaft[0] * 1e6, 4),
-            significant(equilibrium.shaft[1] * 1e6, 4),
+            significant(shaft[0], 4),
+            significant(shaft[1], 4),
         ),
         [
             Column::number("Ball", ""),
@@ -47,6 +51,20 @@ fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
 
 fn degrees(angle: f64) -> f64 {
     angle.to_degrees().rem_euclid(360.0)
+}
+
+/// Values beside which some are nothing but round-off, those as zero.
+fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
+    let largest = values
+        .iter()
+        .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    values.map(|value| {
+        if value.abs() < 1e-9 * largest {
+            0.0
+        } else {
+            value
+        }
+    })
 }
 
 fn load_distribution(equilibrium: &Equilibrium) -> Bars {
@@ -89,12 +107,15 @@ fn equilibria_table(equilibria: &[Equilibrium]) -> Table {
     );
     for (number, rest) in equilibria.iter().enumerate() {
         let largest = rest.balls.iter().map(|ball| ball.inner).fold(0.0, f64::max);
-        let loaded = rest.balls.iter().filter(|ball| ball.inner > 0.0).count();
+        let carries = |ball: &&crate::system::BallLoad| ball.inner > LOADED * largest;
+        let loaded = rest.balls.iter().filter(carries).count();
         let [[xx, xy], [_, yy]] = rest.shaft_stiffness.map(|row| row.map(|k| 1e-6 * k));
+        let [x, y] = without_round_off(rest.shaft.map(|x| 1e6 * x));
+        let [xx, yy, xy] = without_round_off([xx, yy, xy]);
         table = table.row([
             Cell::text(if number == 0 { "taken" } else { "other" }),
-            Cell::number(1e6 * rest.shaft[0], 4),
-            Cell::number(1e6 * rest.shaft[1], 4),
+            Cell::number(x, 4),
+            Cell::number(y, 4),
             Cell::number(largest, 4),
             Cell::text(loaded.to_string()),
             Cell::number(xx, 4),
