@@ -10,7 +10,7 @@
 //!
 //! # Limitations
 //! Radial bearing in its own plane (contact angle zero); defects in that plane only; no lubricant
-//! film.
+//! film. Balls of different size have the contact stiffness and mass of the nominal one.
 
 pub mod cage;
 pub mod contact;
@@ -20,6 +20,7 @@ pub mod materials;
 pub mod rotation;
 pub mod slip;
 pub mod speed;
+pub mod waviness;
 
 #[cfg(test)]
 mod samples;
@@ -31,3 +32,4 @@ pub use materials::{ContactMaterial, ContactStiffness, Race, RaceContacts, Stiff
 pub use rotation::{RotationCursor, RotationState};
 pub use slip::{SlipError, SlipProfile};
 pub use speed::{SpeedError, SpeedKnot, SpeedProfile};
+pub use waviness::{Wave, WaveError, Waviness};

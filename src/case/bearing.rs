@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::defect::Defect;
+use super::defect::{Defect, RaceName};
 use super::slip::Slip;
 use super::union::{Loose, Mismatch, written_as};
 
@@ -55,9 +55,30 @@ pub struct Bearing {
     /// Share of the cage's rolling speed that is lost by slip; 0: pure rolling.
     #[serde(default)]
     pub slip: Slip,
+    /// Waves round the races; may be empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waviness: Vec<Wave>,
+    /// How much larger than `ball_radius` the radius of each ball is, one number a ball; empty: not at all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ball_radius_differences: Vec<f64>,
     /// Localised defects; may be empty.
     #[serde(default)]
     pub defects: Vec<Defect>,
+}
+
+/// A wave round a race: h = amplitude cos(order angle + phase), outwards positive.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wave {
+    /// The race that carries it.
+    pub on: RaceName,
+    /// Waves in one turn, at least 1.
+    pub order: u32,
+    /// In m, >= 0.
+    pub amplitude: f64,
+    /// In degrees; on the inner race when the shaft's angle is zero.
+    #[serde(default)]
+    pub phase_deg: f64,
 }
 
 fn bearing_steel() -> String {

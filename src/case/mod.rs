@@ -52,7 +52,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 pub use bearing::{
-    BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial,
+    BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial, Wave,
 };
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};

@@ -20,6 +20,8 @@ pub struct Modes {
     pub compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
     pub convergence: Option<ConvergenceMeshes>,
+    /// Whether loaded modes are followed over a ball pass and over the load.
+    pub ball_pass: bool,
 }
 
 /// How many modes are computed.
@@ -45,6 +47,7 @@ impl Default for Modes {
             variants: Vec::new(),
             compare: Vec::new(),
             convergence: None,
+            ball_pass: false,
         }
     }
 }
@@ -102,6 +105,8 @@ struct ModesForm {
     compare: Vec<ComparedModes>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     convergence: Option<ConvergenceMeshes>,
+    #[serde(default)]
+    ball_pass: bool,
 }
 
 written_as!(Modes, ModesForm);
@@ -138,6 +143,7 @@ impl TryFrom<ModesForm> for Modes {
             variants: form.variants,
             compare: form.compare,
             convergence: form.convergence,
+            ball_pass: form.ball_pass,
         })
     }
 }
@@ -158,6 +164,7 @@ impl From<Modes> for ModesForm {
             variants: modes.variants,
             compare: modes.compare,
             convergence: modes.convergence,
+            ball_pass: modes.ball_pass,
         }
     }
 }

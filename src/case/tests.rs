@@ -717,3 +717,44 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
         assert!(error.contains(message), "{set}: {error}");
     }
 }
+
+#[test]
+fn waves_and_ball_sizes_are_checked() {
+    let bearing = |set: &str| read(FULL, &[set]).map(|case| case.bearing.unwrap());
+    let wavy = bearing("bearing.waviness=[{on='inner',order=9,amplitude=1e-7}]").unwrap();
+    assert!(wavy.waviness[0].on == RaceName::Inner && wavy.waviness[0].order == 9);
+    for (set, message) in [
+        (
+            "bearing.waviness=[{on='inner',order=0,amplitude=1e-7}]",
+            "`bearing.waviness[0].order`: found 0, expected at least 1",
+        ),
+        (
+            "bearing.waviness=[{on='outer',order=2,amplitude=-1e-7}]",
+            "`bearing.waviness[0].amplitude`: found -1e-7",
+        ),
+        (
+            "bearing.ball_radius_differences=[1e-7]",
+            "`bearing.ball_radius_differences`: found 1, expected as many numbers as there are balls",
+        ),
+        (
+            "bearing.ball_radius_differences=[0,0,0,0,0,0,-2e-5]",
+            "`bearing.ball_radius_differences[6]`",
+        ),
+    ] {
+        let error = bearing(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_ball_pass_needs_loaded_modes() {
+    let (message, _) = refusal(&["modes.linearise=none", "modes.ball_pass=true"]);
+    assert!(message.contains("`modes.ball_pass`"), "{message}");
+    assert!(message.contains("modes.linearise"), "{message}");
+    assert!(
+        read(FULL, &["modes.linearise=static", "modes.ball_pass=true"])
+            .unwrap()
+            .modes
+            .ball_pass
+    );
+}

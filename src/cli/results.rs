@@ -7,8 +7,8 @@ use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
 use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
-    CondenseResult, ImportedHousing, MeshDigest, ModesResult, Reading, ReducedInterface, RunEnd,
-    RunResult, StageError, StructureStage,
+    CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModesResult, Reading,
+    ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -116,6 +116,19 @@ pub(super) fn run_json(
     Value::Object(map)
 }
 
+/// Where, and the frequencies there.
+fn loaded_points(points: &[LoadedPoint]) -> Vec<Value> {
+    let frequencies = |point: &LoadedPoint| {
+        let loaded = point.modes.as_ref()?;
+        let hz = loaded.modes.iter().map(|mode| mode.frequency_hz);
+        Some(hz.collect::<Vec<_>>())
+    };
+    let points = points.iter();
+    points
+        .map(|point| json!({ "at": point.at, "frequencies_hz": frequencies(point) }))
+        .collect()
+}
+
 /// `modes.json`.
 pub(super) fn modes_json(
     case: &Case,
@@ -134,6 +147,10 @@ pub(super) fn modes_json(
         "mass_kg": survey.mass.as_ref().map(|mass| mass.mass),
         "centroid_m": survey.mass.as_ref().map(|mass| mass.centroid()),
         "mass": survey.mass,
+        "ball_pass": result.loaded_pass.as_ref().map(|pass| json!({
+            "over_angle_rad": loaded_points(&pass.over_angle),
+            "over_load": loaded_points(&pass.over_load),
+        })),
         "frequencies_hz": result.base.unloaded_hz,
         "error_bounds_hz": basis.error_bounds_hz,
         "rigid_modes": basis.rigid_modes,

@@ -1,7 +1,7 @@
 //! The bearing of a case.
 
 use super::StageError;
-use super::bearing_defects::{Defects, defects};
+use super::bearing_defects::{Defects, defects, waves};
 use super::bearing_motion::{shaft, slip, speed};
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
@@ -40,6 +40,8 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
             case::Formulation::Consistent => Formulation::Consistent,
             case::Formulation::Printed => Formulation::Printed,
         },
+        waves: waves(&asked.waviness, &geometry)?,
+        oversizes: asked.ball_radius_differences.clone(),
         race_defects,
         flats,
         gravity: asked_shaft.gravity,

@@ -1,11 +1,11 @@
-//! The defects of a case's bearing.
+//! What of a case's bearing is not a perfect circle.
 
 use super::StageError;
 use crate::bearing::defect::{
     BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect, reduced,
 };
-use crate::bearing::{BearingGeometry, ContactStiffness, Race};
-use crate::case::{Defect, DefectCurvature, RaceName};
+use crate::bearing::{BearingGeometry, ContactStiffness, Race, Wave};
+use crate::case::{self, Defect, DefectCurvature, RaceName};
 use crate::system::FlatOnBall;
 use std::path::Path;
 
@@ -72,6 +72,27 @@ pub(super) fn defects(
         race_defects: race_defects.into_iter().map(|(_, defect)| defect).collect(),
         flats,
     })
+}
+
+/// Waves of the races.
+///
+/// # Errors
+/// [`StageError::Wave`] naming the wave.
+pub(super) fn waves(
+    asked: &[case::Wave],
+    geometry: &BearingGeometry,
+) -> Result<Vec<Wave>, StageError> {
+    let wave = |(index, wave): (usize, &case::Wave)| {
+        let wave = Wave {
+            race: race(wave.on),
+            order: wave.order,
+            amplitude: wave.amplitude,
+            phase: wave.phase_deg.to_radians(),
+        };
+        let checked = wave.checked(geometry);
+        checked.map_err(|source| StageError::Wave { index, source })
+    };
+    asked.iter().enumerate().map(wave).collect()
 }
 
 fn race(name: RaceName) -> Race {

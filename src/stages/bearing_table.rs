@@ -27,6 +27,14 @@ impl Rows {
     }
 }
 
+/// Cells of a quantity of one race.
+fn on_race(race: Race, cell: Cell) -> [Cell; 3] {
+    match race {
+        Race::Inner => [blank(), cell, blank()],
+        Race::Outer => [blank(), blank(), cell],
+    }
+}
+
 fn blank() -> Cell {
     Cell::text("")
 }
@@ -51,17 +59,30 @@ pub fn bearing_table(
     if let Some(equilibrium) = equilibrium {
         rows = patch_rows(rows, contacts, equilibrium);
     }
+    for wave in &setup.waves {
+        let name = format!("Amplitude of the wave of order {}", wave.order);
+        let amplitude = Cell::number(1e6 * wave.amplitude, 4);
+        rows = rows.cells(&name, "\u{b5}m", on_race(wave.race, amplitude));
+    }
+    let largest = setup
+        .oversizes
+        .iter()
+        .fold(0.0, |most: f64, d| most.max(d.abs()));
+    if largest > 0.0 {
+        rows = rows.one(
+            "Largest difference of a ball's radius",
+            "\u{b5}m",
+            1e6 * largest,
+            4,
+        );
+    }
     for defect in &setup.race_defects {
         let name = match defect {
             RaceDefect::Dent(_) => "Drop of a ball in the dent",
             RaceDefect::Measured(_) => "Drop of a ball in the measured profile",
         };
         let drop = Cell::number(1e6 * defect.ball_drop(), 4);
-        let cells = match defect.race() {
-            Race::Inner => [blank(), drop, blank()],
-            Race::Outer => [blank(), blank(), drop],
-        };
-        rows = rows.cells(name, "\u{b5}m", cells);
+        rows = rows.cells(name, "\u{b5}m", on_race(defect.race(), drop));
     }
     for flat in &setup.flats {
         let drop = |race| 1e6 * flat.shape.ball_drop(race);

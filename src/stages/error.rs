@@ -2,7 +2,7 @@
 
 use super::ImportError;
 use crate::bearing::defect::DefectError;
-use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError};
+use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError, WaveError};
 use crate::case::{CaseError, ModeExtent};
 use crate::element::ElementError;
 use crate::exchange::{CsvError, NpzError, ReadModesError, UffError};
@@ -121,6 +121,14 @@ pub enum StageError {
         line: String,
         /// What was found, and what was expected.
         what: String,
+    },
+    /// A wave that the bearing cannot have.
+    #[error("bearing.waviness[{index}]: {source}")]
+    Wave {
+        /// Which one, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: WaveError,
     },
     /// Two defects in one place.
     #[error(

@@ -30,6 +30,7 @@ mod imported_report;
 #[cfg(test)]
 mod imported_tests;
 mod inspect;
+mod loaded_pass;
 mod loose;
 mod mesh_digest;
 mod mesh_sequence;
@@ -74,6 +75,7 @@ pub use import_error::ImportError;
 pub use imported::ImportedHousing;
 pub use imported_report::imported_report;
 pub use inspect::{ElementShape, GroupSize, Inspection};
+pub use loaded_pass::{LoadedPass, LoadedPoint};
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;
 pub use mode_checks_report::{error_text, misses_text, mode_numbers, plain, signed};

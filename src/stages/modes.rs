@@ -3,6 +3,7 @@
 
 use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
+use super::loaded_pass::LoadedPass;
 use super::mesh_sequence::MeshSequence;
 use super::modal_system::{UnloadedModes, unloaded_modes};
 use super::mode_shapes::mode_shapes;
@@ -70,6 +71,8 @@ pub struct ModesResult {
     pub convergence: Option<MeshConvergence>,
     /// The bearing at rest, if modes are linearised with it.
     pub statics: Option<Statics>,
+    /// Loaded modes over a ball pass and over the load, if asked for.
+    pub loaded_pass: Option<LoadedPass>,
 }
 
 impl ModesResult {
@@ -155,6 +158,15 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         Some(setup) => Some(Statics::compute(&stage, &setup, start_time(case))?),
         None => None,
     };
+    let loaded_pass = match linearised_setup(case)?.filter(|_| case.modes.ball_pass) {
+        Some(setup) => Some(LoadedPass::compute(
+            &stage,
+            &setup,
+            start_time(case),
+            watch,
+        )?),
+        None => None,
+    };
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
@@ -177,6 +189,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         comparisons: Vec::new(),
         convergence: None,
         statics,
+        loaded_pass,
     })
 }
 
@@ -205,6 +218,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         comparisons: Vec::new(),
         convergence: None,
         statics: None,
+        loaded_pass: None,
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::drawing::draw;
 use super::energy_tables::energy_tables;
+use super::loaded_pass::loaded_pass_section;
 use super::modal_tables::{
     complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts,
     material_table, proof_facts,
@@ -81,6 +82,9 @@ pub fn modes_report(
         report = report.section(Section::new("Bearing").table(table));
         if let Some(statics) = &result.statics {
             report = report.section(statics_section(setup, statics));
+        }
+        if let Some(pass) = &result.loaded_pass {
+            report = report.section(loaded_pass_section(pass));
         }
     }
     for text in assumptions(case, setup.as_ref()) {

@@ -194,6 +194,12 @@ pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
         if !setup.race_defects.is_empty() || !setup.flats.is_empty() {
             list.push("Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.".to_owned());
         }
+        if !setup.waves.is_empty() {
+            list.push("Waves of the races are long beside the patch of a contact: one contact a ball, with the stiffness of the undamaged race.".to_owned());
+        }
+        if !setup.oversizes.is_empty() {
+            list.push("Balls of different size have the mass and the contact stiffness of the nominal ball.".to_owned());
+        }
         if !setup.flats.is_empty() {
             list.push("A ball turns about its own axis as by pure rolling, whatever the cage's slip; where a race is damaged the ball's flat is not felt.".to_owned());
         }

@@ -2,7 +2,7 @@
 
 use super::load::LoadProfile;
 use crate::bearing::defect::{BallFlat, RaceDefect};
-use crate::bearing::{BearingGeometry, Cage, ContactStiffness};
+use crate::bearing::{BearingGeometry, Cage, ContactStiffness, Wave};
 
 /// Which reading of the ball position the equations follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -53,6 +53,10 @@ pub struct BearingSetup {
     pub cage: Cage,
     /// Defects of both races; none of one race overlap. Those of the inner one turn with the shaft.
     pub race_defects: Vec<RaceDefect>,
+    /// Waves round the races.
+    pub waves: Vec<Wave>,
+    /// How much larger than nominal the radius of each ball is, m; empty: not at all.
+    pub oversizes: Vec<f64>,
     /// Flats on balls, at most one a ball.
     pub flats: Vec<FlatOnBall>,
     /// The shaft and its loads.
@@ -74,6 +78,12 @@ impl BearingSetup {
             let force = load.at(time);
             [sum[0] + force[0], sum[1] + force[1]]
         })
+    }
+
+    /// How much larger than nominal the radius of a ball is, m.
+    #[inline]
+    pub fn oversize(&self, ball: usize) -> f64 {
+        self.oversizes.get(ball).copied().unwrap_or(0.0)
     }
 
     /// Number of the flat on `ball`, and its angle from the ball's radius vector when the shaft has turned to `shaft_angle`,

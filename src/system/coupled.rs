@@ -3,6 +3,7 @@
 use super::bearing_setup::{BearingSetup, Formulation};
 use super::equilibrium::Equilibrium;
 use super::error::SystemError;
+use super::force::REACH;
 use super::inner::InnerRace;
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
@@ -95,6 +96,8 @@ pub struct CoupledSystem {
     /// Sensor rows over kept modes.
     pub(super) sensors: Vec<(String, Vec<f64>)>,
     /// Of shaft and cage.
+    /// Gap (m) up to which a ball may be reached by what the others do, or by a wave of the race.
+    pub(super) reach: f64,
     pub(super) cursors: [RotationCursor; 2],
     pub(super) work: Work,
 }
@@ -184,6 +187,7 @@ impl CoupledSystem {
                 .map(|&mode| modes.participation(mode, row))
                 .collect()
         };
+        let outer = RaceContact::new(&setup, Race::Outer);
         let ring = structure.ring();
         let arm = setup.raceway_arm(ring.section().radius);
         let gravity = match setup.formulation {
@@ -193,7 +197,8 @@ impl CoupledSystem {
         Ok(Self {
             inner_race: InnerRace::new(&setup.geometry),
             inner: RaceContact::new(&setup, Race::Inner),
-            outer: RaceContact::new(&setup, Race::Outer),
+            reach: REACH + outer.crest(),
+            outer,
             linear,
             modes: count,
             gravity,

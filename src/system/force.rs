@@ -20,7 +20,7 @@ const SAME_PLACE: f64 = 1e-7;
 
 /// A ball that is farther from the race than this (m) cannot be reached by the residual
 /// displacement that other balls cause: 1e-9 m/N under less than 100 N.
-const REACH: f64 = 1e-7;
+pub(super) const REACH: f64 = 1e-7;
 
 impl SecondOrderSystem for CoupledSystem {
     fn linear(&self) -> &[LinearCoordinate] {
@@ -116,7 +116,7 @@ impl CoupledSystem {
     /// Whether a ball is near enough to the race to be reached by what the other balls do, given its gap.
     #[inline]
     fn is_near(&self, j: usize) -> bool {
-        self.work.gap[j] > -REACH || self.work.damage[j] != Damage::None
+        self.work.gap[j] > -self.reach || self.work.damage[j] != Damage::None
     }
 
     /// Ball displacements relative to the race as the kept modes and the weight move it.
@@ -125,7 +125,8 @@ impl CoupledSystem {
         for j in 0..self.work.gap.len() {
             let row = &self.work.rows[j * modes..(j + 1) * modes];
             let weight = self.residual.as_ref().map_or(0.0, |r| r.weight(j));
-            self.work.gap[j] = y[modes + 2 + j] - dot(row, &y[..modes]) - weight;
+            self.work.gap[j] =
+                y[modes + 2 + j] + self.setup.oversize(j) - dot(row, &y[..modes]) - weight;
         }
     }
 
@@ -153,7 +154,7 @@ impl CoupledSystem {
     fn outer_force(&mut self, j: usize, s: f64, y: &[f64]) -> RaceForce {
         let [rate, along] = self.work.rate[j];
         let damage = self.work.damage[j];
-        if damage == Damage::None {
+        if damage == Damage::None && !self.outer.is_wavy() {
             return self.outer.plain_force(s, rate);
         }
         let row = &mut self.work.scratch_row;
@@ -188,8 +189,8 @@ impl CoupledSystem {
         let balls = self.work.gap.len();
         self.work.outer_radial.fill(0.0);
         if let Some(residual) = &mut self.residual {
-            let work = &self.work;
-            residual.couple(|j| work.gap[j] > -REACH || work.damage[j] != Damage::None);
+            let (work, reach) = (&self.work, self.reach);
+            residual.couple(|j| work.gap[j] > -reach || work.damage[j] != Damage::None);
         }
         for j in 0..balls {
             let force = if self.is_near(j) {
@@ -242,7 +243,7 @@ impl CoupledSystem {
         };
         let work = &mut self.work;
         for j in 0..work.gap.len() {
-            if work.gap[j] <= -REACH && work.damage[j] == Damage::None {
+            if work.gap[j] <= -self.reach && work.damage[j] == Damage::None {
                 continue;
             }
             let slopes = residual.contact_slope_row(j);
@@ -329,16 +330,17 @@ impl CoupledSystem {
         let relative = [y[modes] - centre[0], y[modes + 1] - centre[1]];
         let velocity = [v[modes] - centre_rate[0], v[modes + 1] - centre_rate[1]];
         let mut total = load;
-        let damaged = self.inner.is_damaged();
+        let irregular = self.inner.is_irregular();
         let mass = self.setup.geometry.ball_mass();
         for j in 0..self.work.gap.len() {
             let e = self.work.direction[j];
             let (s, s_rate) = (y[modes + 2 + j], v[modes + 2 + j]);
-            let gap = self.inner_race.gap(e, s, relative);
+            let mut gap = self.inner_race.gap(e, s, relative);
+            gap.penetration += self.setup.oversize(j);
             let rho = self.inner_race.touching_radius + s;
             let mut along = 0.0;
             self.work.inner_force[j] = 0.0;
-            if gap.penetration > 0.0 || damaged {
+            if gap.penetration > 0.0 || irregular {
                 let n = gap.normal;
                 let turn = rho * cage.speed;
                 let moving = [
@@ -346,9 +348,9 @@ impl CoupledSystem {
                     s_rate * e[1] + turn * e[0] - velocity[1],
                 ];
                 let approach = -(n[0] * moving[0] + n[1] * moving[1]);
-                let force = if damaged {
+                let force = if irregular {
                     let across = n[0] * moving[1] - n[1] * moving[0];
-                    self.damaged_inner_force(j, &gap, [approach, across], shaft)
+                    self.irregular_inner_force(j, &gap, [approach, across], shaft)
                 } else {
                     self.inner.plain_force(gap.penetration, approach)
                 };
@@ -383,9 +385,9 @@ impl CoupledSystem {
 }
 
 impl CoupledSystem {
-    /// Force of ball `j` on an inner race that carries defects, or that may meet the ball's flat, for rates of the ball
+    /// Force of ball `j` on an inner race that carries waves or defects, or that may meet the ball's flat, for rates of the ball
     /// towards the race and along it, m/s.
-    fn damaged_inner_force(
+    fn irregular_inner_force(
         &self,
         j: usize,
         gap: &InnerGap,

@@ -2,7 +2,7 @@
 
 use super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
-use crate::bearing::{HertzContact, Race};
+use crate::bearing::{HertzContact, Race, Waviness};
 use std::f64::consts::PI;
 
 /// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential
@@ -58,6 +58,7 @@ pub(super) struct RaceContact {
     plain: HertzContact,
     /// Distance from the race's centre at which a ball touches it, m.
     touching_radius: f64,
+    waviness: Waviness,
     defects: Vec<DefectArc>,
     flats: Vec<BallFlat>,
 }
@@ -106,6 +107,7 @@ impl RaceContact {
                 damping: setup.contact_damping,
             },
             touching_radius,
+            waviness: Waviness::of(race, &setup.waves),
             defects: own.map(arc).collect(),
             flats: setup.flats.iter().map(|flat| flat.shape.clone()).collect(),
         }
@@ -117,9 +119,20 @@ impl RaceContact {
         self
     }
 
-    /// Whether a ball may meet anything but the plain race.
-    pub fn is_damaged(&self) -> bool {
-        !(self.defects.is_empty() && self.flats.is_empty())
+    /// Whether a ball may meet anything but a plain circle.
+    pub fn is_irregular(&self) -> bool {
+        !(self.waviness.is_empty() && self.defects.is_empty() && self.flats.is_empty())
+    }
+
+    /// Whether the race has waves.
+    #[inline]
+    pub fn is_wavy(&self) -> bool {
+        !self.waviness.is_empty()
+    }
+
+    /// How far its waves rise towards the balls at most, m.
+    pub fn crest(&self) -> f64 {
+        self.waviness.most()
     }
 
     /// Distance (m) of a ball's centre from the race's when it is pressed so far beyond touching it.
@@ -164,9 +177,38 @@ impl RaceContact {
         }
     }
 
-    /// Force of a ball at a place: on damage all contacts, each along its own normal.
+    /// Force of a ball at a place: on damage all contacts, each along its own normal; on waves along theirs.
+    ///
+    /// The waves h(φ) shift everything: the potential is that of the race without them at the penetration less σ h, σ = 1 on the
+    /// outer and -1 on the inner race, and its slope along the race is `-h' / ρ` times the radial force.
     #[inline]
     pub fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
+        if self.waviness.is_empty() {
+            return self.force_on_circle(damage, at);
+        }
+        let radius = self.radius(at.penetration);
+        let [height, slope, bend] = self.waviness.at(at.angle).map(|part| self.sign * part);
+        let moving = at.along / radius - at.turning;
+        let on_wave = RacePlace {
+            penetration: at.penetration - height,
+            rate: at.rate - slope * moving,
+            ..*at
+        };
+        let mut force = self.force_on_circle(damage, &on_wave);
+        let (lean, normal) = (self.sign * slope / radius, force.radial);
+        force.tangential -= lean * normal;
+        let [rr, rt, tt] = force.tangent;
+        force.tangent = [
+            rr,
+            rt - lean * rr,
+            tt - 2.0 * lean * rt + lean * lean * rr - self.sign * bend / (radius * radius) * normal,
+        ];
+        force
+    }
+
+    /// The same without waves.
+    #[inline]
+    fn force_on_circle(&self, damage: Damage, at: &RacePlace) -> RaceForce {
         let radius = self.radius(at.penetration);
         match damage {
             Damage::None => self.plain_force(at.penetration, at.rate),

@@ -19,6 +19,8 @@ pub(super) struct RestingRaces {
     shaft_angle: f64,
     /// Number of each ball's flat and its angle from the ball's radius vector, rad.
     spins: Vec<Option<(usize, f64)>>,
+    /// How much larger than nominal each ball's radius is, m.
+    oversizes: Vec<f64>,
 }
 
 /// Curvature of a contact's potential in the plane from its derivatives in polar coordinates about the race's centre, N/m:
@@ -41,6 +43,9 @@ impl RestingRaces {
             shaft_angle,
             spins: (0..setup.balls())
                 .map(|ball| setup.spin(ball, shaft_angle))
+                .collect(),
+            oversizes: (0..setup.balls())
+                .map(|ball| setup.oversize(ball))
                 .collect(),
         }
     }
@@ -67,8 +72,9 @@ impl RestingRaces {
         ball: usize,
         angle: f64,
         spun: f64,
-        penetration: f64,
+        nominal: f64,
     ) -> RaceForce {
+        let penetration = nominal + self.oversizes[ball];
         let (sin, cos) = angle.sin_cos();
         let flat = self.spins[ball].filter(|(flat, spin)| race.feels(*flat, spin + spun));
         let spin = flat.map_or(0.0, |(_, spin)| spin + spun);

@@ -13,15 +13,18 @@
 //!   node radius, 72 nodes; one case with the meshed housing.
 //! Parameters: see `setup`; kept modes all (216) or up to 60 kHz (5) with and without the static residual.
 
+use plummer::bearing::{Race, Wave};
 use plummer::dynamics::{NoRecord, State};
 use plummer::model::Fit;
 use plummer::system::{
-    CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, StaticCondition,
-    Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection,
+    StaticCondition, Structure, StructureModes,
 };
 use plummer::transient::{Method, Schedule, Stepping, integrate};
 
-use crate::setup::{Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure};
+use crate::setup::{
+    Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure, preloaded_bearing,
+};
 
 /// Weight of the shaft, N.
 const WEIGHT: f64 = 0.15 * 9.81;
@@ -318,6 +321,56 @@ fn the_stiffness_of_the_bearing_is_the_slope_of_its_load() {
                 let error = force / (2.0 * change) - direction[i];
                 assert!(error.abs() < 1e-5, "{first_deg}: {error:e}");
             }
+        }
+    }
+}
+
+/// With as many waves as balls all balls stand on crests at once: a bearing with so much less play. With all balls larger
+/// by d: with 2 d less.
+#[test]
+fn waves_and_larger_balls_take_play_away() {
+    let structure = paper_structure(72, 0.0);
+    let plain = preloaded_bearing(SYMMETRIC_DEG, 0.0);
+    let inner_forces = |setup: &BearingSetup| -> Vec<f64> {
+        let rest = Equilibrium::find(&structure, setup, StaticCondition::at(setup, 0.0)).unwrap();
+        rest.balls.iter().map(|ball| ball.inner).collect()
+    };
+    let tighter = |by: f64| BearingSetup {
+        geometry: plain
+            .geometry
+            .with_radial_play(plain.geometry.radial_play() - by)
+            .unwrap(),
+        ..plain.clone()
+    };
+    let height = 0.2e-6;
+    let wave = |race, amplitude: f64| BearingSetup {
+        waves: vec![Wave {
+            race,
+            order: 7,
+            amplitude,
+            // a crest of the cosine under ball 0
+            phase: -7.0 * SYMMETRIC_DEG.to_radians(),
+        }],
+        ..plain.clone()
+    };
+    let larger = BearingSetup {
+        oversizes: vec![height; 7],
+        ..plain.clone()
+    };
+    // a wave raises the inner race towards the balls and lowers the outer one
+    for (irregular, tighter) in [
+        (wave(Race::Inner, height), tighter(height)),
+        (wave(Race::Outer, height), tighter(-height)),
+        (larger, tighter(2.0 * height)),
+    ] {
+        let (found, expected) = (inner_forces(&irregular), inner_forces(&tighter));
+        let before = inner_forces(&plain);
+        for ball in 0..7 {
+            // directions of the normals change by height / radius, 5e-5, where the ring moves sideways
+            let error = found[ball] / expected[ball] - 1.0;
+            assert!(error.abs() < 2e-4, "ball {ball}: {error:e}");
+            let change = expected[ball] / before[ball] - 1.0;
+            assert!(change.abs() > 1e-2, "{change:e}");
         }
     }
 }

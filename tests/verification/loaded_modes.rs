@@ -16,10 +16,10 @@
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
-use plummer::bearing::Race;
 use plummer::bearing::defect::{
     BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect,
 };
+use plummer::bearing::{Race, Wave};
 use plummer::dynamics::{SecondOrderSystem, State};
 use plummer::linalg::{DenseMatrix, general_spectrum};
 use plummer::system::{
@@ -243,7 +243,7 @@ fn the_linearisation_is_that_of_the_force() {
 /// A ball beside the middle of a dent, in either race, and a ball on its flat; shallower than the play, so that the ball
 /// carries load.
 #[test]
-fn the_linearisation_on_damage_is_that_of_the_force() {
+fn the_linearisation_on_what_is_no_circle_is_that_of_the_force() {
     let sound = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     let (geometry, stiffness) = (sound.geometry, sound.stiffness);
     let below = SYMMETRIC_DEG.to_radians();
@@ -271,15 +271,26 @@ fn the_linearisation_on_damage_is_that_of_the_force() {
             angle,
         }]
     };
-    for (race_defects, flats) in [
-        (dent(Race::Outer, 0.01), Vec::new()),
-        (dent(Race::Inner, 0.02), Vec::new()),
-        (Vec::new(), flat(0.03)),
-        (Vec::new(), flat(std::f64::consts::PI - 0.02)),
+    let waves = [Race::Inner, Race::Outer].map(|race| Wave {
+        race,
+        order: 14,
+        amplitude: 0.5e-6,
+        phase: 0.3,
+    });
+    let oversizes: Vec<f64> = (0..7).map(|ball| 1e-7 * f64::from(ball)).collect();
+    for (race_defects, flats, waves, oversizes) in [
+        (dent(Race::Outer, 0.01), vec![], vec![], vec![]),
+        (dent(Race::Inner, 0.02), vec![], vec![], vec![]),
+        (vec![], flat(0.03), vec![], vec![]),
+        (vec![], flat(std::f64::consts::PI - 0.02), vec![], vec![]),
+        (vec![], vec![], waves.to_vec(), vec![]),
+        (vec![], vec![], vec![], oversizes),
     ] {
         let setup = BearingSetup {
             race_defects,
             flats,
+            waves,
+            oversizes,
             ..sound.clone()
         };
         let mut scene = Scene::of(0.0, setup);

@@ -7,6 +7,7 @@ mod equilibrium;
 mod faults;
 mod frf;
 mod grids;
+mod impact;
 mod loaded_modes;
 mod modal_runs;
 mod reference_frequencies;

@@ -132,6 +132,8 @@ pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
             .stiffness(),
         contact_damping: 0.0,
         formulation,
+        waves: Vec::new(),
+        oversizes: Vec::new(),
         race_defects: Vec::new(),
         flats: Vec::new(),
         shaft: Shaft {

@@ -27,7 +27,37 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
         above_zero("bearing.stiffness.inner", inner)?;
         above_zero("bearing.stiffness.outer", outer)?;
     }
+    irregular(bearing)?;
     slip(&bearing.slip)
+}
+
+/// Waves of the races and differences of the balls.
+fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
+    for (index, wave) in bearing.waviness.iter().enumerate() {
+        let at = |key: &str| format!("bearing.waviness[{index}].{key}");
+        if wave.order == 0 {
+            let (found, expected) = (0, "at least 1");
+            return Err(Rule::Count { found, expected }.at(at("order")));
+        }
+        zero_or_more(at("amplitude"), wave.amplitude)?;
+    }
+    let differences = &bearing.ball_radius_differences;
+    let key = "bearing.ball_radius_differences";
+    if !differences.is_empty() && differences.len() != bearing.balls {
+        let (found, expected) = (differences.len(), "as many numbers as there are balls");
+        return Err(Rule::Count { found, expected }.at(key));
+    }
+    let limit = 0.01 * bearing.ball_radius;
+    for (index, difference) in differences.iter().enumerate() {
+        let key = format!("{key}[{index}]");
+        below(
+            key,
+            difference.abs(),
+            "a hundredth of the ball's radius",
+            limit,
+        )?;
+    }
+    Ok(())
 }
 
 fn slip(slip: &Slip) -> Result<(), BrokenRule> {

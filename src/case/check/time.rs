@@ -1,8 +1,8 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Load, ModeExtent, ModesKept,
-    SensorSpot, StepLength,
+    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, ModeExtent,
+    ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
@@ -130,6 +130,10 @@ pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
         ModeExtent::Count(count) => at_least_one("modes.count", count)?,
         ModeExtent::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
         ModeExtent::BandHz(band) => band_of("modes.band_hz", band)?,
+    }
+    if case.modes.ball_pass && case.modes.linearise == Linearise::None {
+        let other = "`modes.linearise = \"static\"`";
+        return Err(Rule::Needs { other }.at("modes.ball_pass"));
     }
     for (index, expected) in case.modes.expected.iter().enumerate() {
         above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
