@@ -18,6 +18,8 @@
 //! known here.
 
 mod bearing;
+#[cfg(test)]
+mod bearing_tests;
 mod check;
 mod condense;
 mod decode;

@@ -1,0 +1,162 @@
+//! The bearing's tables in a case: slip, loads, defects, waves, and what they refuse.
+
+use std::path::Path;
+
+use super::tests::{FULL, near, read, refusal};
+use super::{Defect, Load, RaceName, Slip};
+
+#[test]
+fn slip_is_a_number_or_a_table_over_time_or_speed() {
+    let slip = |set: &str| {
+        read(FULL, &[&format!("bearing.slip={set}")]).map(|case| case.bearing.unwrap().slip)
+    };
+    assert!(matches!(slip("0.5").unwrap(), Slip::Constant(slip) if near(slip, 0.5)));
+    let over = slip("{profile=[{time=0,slip=0.1},{time=1,slip=0}]}").unwrap();
+    assert!(matches!(over, Slip::OverTime(points) if near(points[1].time, 1.0)));
+    let over = slip("{profile=[{hz=0,slip=0.1},{hz=20,slip=0}]}").unwrap();
+    assert!(matches!(over, Slip::OverSpeed(points) if near(points[1].hz, 20.0)));
+    for (set, message) in [
+        (
+            "{profile=[{hz=0,slip=0.1},{time=20,slip=0}]}",
+            "found points with neither, both, or now the one and now the other, expected `time` in every point, or `hz` in every point",
+        ),
+        (
+            "[0,0.1]",
+            "found an array, expected a number, or { profile = [{ time or hz, slip }, ...] }",
+        ),
+        (
+            "{profile=[{hz=-1,slip=0.1}]}",
+            "`bearing.slip.profile[0].hz`: found -1, expected a number not below 0",
+        ),
+        (
+            "{profile=[{hz=1,slip=1}]}",
+            "`bearing.slip.profile[0].slip`: found 1, expected a number from 0 to below 1",
+        ),
+        (
+            "{profile=[{time=1,slip=0},{time=1,slip=0}]}",
+            "`bearing.slip.profile[1].time`: found 1, expected more than the one before it (1)",
+        ),
+        ("{profile=[]}", "expected at least one point"),
+    ] {
+        let error = slip(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_load_is_constant_or_over_time() {
+    let loads = |set: &str| {
+        read(FULL, &[&format!("shaft.loads={set}")]).map(|case| case.shaft.unwrap().loads)
+    };
+    let two =
+        loads("[{force=[1,2]},{profile=[{time=0,force=[0,0]},{time=2,force=[3,4]}]}]").unwrap();
+    assert!(matches!(two[0], Load::Constant([x, _]) if near(x, 1.0)));
+    assert!(matches!(&two[1], Load::Profile(points) if near(points[1].force[1], 4.0)));
+    for (set, message) in [
+        ("[{}]", "neither"),
+        ("[{force=[0,1],profile=[]}]", "both"),
+        ("[{profile=[]}]", "`shaft.loads[0].profile`: "),
+        (
+            "[{profile=[{time=1,force=[0,0]},{time=0,force=[0,0]}]}]",
+            "`shaft.loads[0].profile[1].time`: found 0, expected more than the time before it (1)",
+        ),
+    ] {
+        let error = loads(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
+    let defects = |set: &str| {
+        read(FULL, &[&format!("bearing.defects=[{set}]")]).map(|case| case.bearing.unwrap().defects)
+    };
+    let dent = defects("{on='inner',angle_deg=10,length=0.8e-3,depth=15e-6}").unwrap();
+    assert!(matches!(&dent[0], Defect::Dent(dent)
+        if dent.on == RaceName::Inner && near(dent.rim_radius, 0.05e-3)));
+    let measured = defects("{on='outer',angle_deg=10,profile={csv='scan.csv'}}").unwrap();
+    assert!(matches!(&measured[0], Defect::Measured(measured)
+        if measured.csv == Path::new("folder/scan.csv")));
+    let flat = defects("{on='ball',ball=5,flat_radius=2e-3,depth=1e-5}").unwrap();
+    assert!(
+        matches!(&flat[0], Defect::Flat(flat) if flat.ball == 5 && flat.angle_deg.abs() < 1e-300)
+    );
+    for (set, message) in [
+        (
+            "{on='inner',length=1e-3,depth=1e-5}",
+            "`bearing.defects[0]` lacks the required key `angle_deg`",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,ball=1}",
+            "found `ball` beside a race, expected keys of a race's defect",
+        ),
+        (
+            "{on='outer',angle_deg=0,profile={csv='a.csv'},depth=1e-5}",
+            "found `depth` beside a file, expected the profile in the file alone",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5,length=1e-3}",
+            "found `length` beside a ball, expected keys of a ball's flat",
+        ),
+        (
+            "{on='ball',ball=7,flat_radius=2e-3,depth=1e-5}",
+            "`bearing.defects[0].ball`: found 7, expected the number of a ball, counted from 0",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=1e-3,depth=1e-5}",
+            "`bearing.defects[0].flat_radius`: found 0.001, expected more than `bearing.ball_radius` (0.001)",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5},{on='ball',ball=1,flat_radius=2e-3,depth=1e-5}",
+            "`bearing.defects[1].ball`",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=18e-3,depth=1e-5}",
+            "`bearing.defects[0].length`",
+        ),
+    ] {
+        let error = defects(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn waves_and_ball_sizes_are_checked() {
+    let bearing = |set: &str| read(FULL, &[set]).map(|case| case.bearing.unwrap());
+    let wavy = bearing("bearing.waviness=[{on='inner',order=9,amplitude=1e-7}]").unwrap();
+    assert!(wavy.waviness[0].on == RaceName::Inner && wavy.waviness[0].order == 9);
+    for (set, message) in [
+        (
+            "bearing.waviness=[{on='inner',order=0,amplitude=1e-7}]",
+            "`bearing.waviness[0].order`: found 0, expected at least 1",
+        ),
+        (
+            "bearing.waviness=[{on='outer',order=2,amplitude=-1e-7}]",
+            "`bearing.waviness[0].amplitude`: found -1e-7",
+        ),
+        (
+            "bearing.ball_radius_differences=[1e-7]",
+            "`bearing.ball_radius_differences`: found 1, expected as many numbers as there are balls",
+        ),
+        (
+            "bearing.ball_radius_differences=[0,0,0,0,0,0,-2e-5]",
+            "`bearing.ball_radius_differences[6]`",
+        ),
+    ] {
+        let error = bearing(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_ball_pass_needs_loaded_modes() {
+    let (message, _) = refusal(&["modes.linearise=none", "modes.ball_pass=true"]);
+    assert!(message.contains("`modes.ball_pass`"), "{message}");
+    assert!(message.contains("modes.linearise"), "{message}");
+    assert!(
+        read(FULL, &["modes.linearise=static", "modes.ball_pass=true"])
+            .unwrap()
+            .modes
+            .ball_pass
+    );
+}
