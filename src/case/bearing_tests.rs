@@ -160,3 +160,13 @@ fn a_ball_pass_needs_loaded_modes() {
             .ball_pass
     );
 }
+
+#[test]
+fn a_ball_weighs_what_the_file_says() {
+    let mass = |set: &[&str]| read(FULL, set).unwrap().ball_mass().unwrap();
+    assert!(near(mass(&[]), 3.29e-5));
+    let text = FULL.replace("ball_mass = 3.29e-5", "density = 7800");
+    let sphere = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
+    let case = read(&text, &[]).unwrap();
+    assert!(near(case.ball_mass().unwrap(), sphere));
+}

@@ -442,7 +442,9 @@ fn the_work_of_the_cage_closes_the_balance() {
     for method in [Method::Exponential, Method::NewmarkExplicit] {
         let error = |h, count| energy_error(&setup, ModeSelection::All, method, &steps(h, count));
         let (coarse, fine) = (error(4e-8, 12_500), error(2e-8, 25_000));
+        // what is balanced is not nothing
         assert!(fine.work.abs() > 1e-2, "{method:?}: {:e}", fine.work);
+        // the swing of a second-order method, as without speed; a missing tenth of the centrifugal force is seen
         assert!(fine.largest < 1e-6, "{method:?}: {:e}", fine.largest);
         let order = (coarse.largest / fine.largest).log2();
         assert!((order - 2.0).abs() < 0.2, "{method:?}: order {order}");
