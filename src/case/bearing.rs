@@ -131,6 +131,8 @@ pub enum BallsInertia {
     /// With their mass.
     #[default]
     Dynamic,
+    /// Each where its forces balance: for motions far slower than a ball between its contacts.
+    QuasiStatic,
 }
 
 /// Which equations of motion.

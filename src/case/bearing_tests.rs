@@ -170,3 +170,27 @@ fn a_ball_weighs_what_the_file_says() {
     let case = read(&text, &[]).unwrap();
     assert!(near(case.ball_mass().unwrap(), sphere));
 }
+
+#[test]
+fn balls_without_inertia_have_no_contact_damping_and_no_printed_equations() {
+    let set = |other: &str| {
+        let quasi_static = "bearing.balls_inertia=quasi-static";
+        let undamped = "bearing.contact_damping=0";
+        read(FULL, &[quasi_static, undamped, other]).map(|case| case.bearing.unwrap().balls_inertia)
+    };
+    let taken = set("bearing.formulation=consistent").unwrap();
+    assert_eq!(taken, super::BallsInertia::QuasiStatic);
+    for (other, message) in [
+        (
+            "bearing.contact_damping=1",
+            "`bearing.contact_damping`: found beside `bearing.balls_inertia = \"quasi-static\"`, expected one of the two",
+        ),
+        (
+            "bearing.formulation=printed",
+            "`bearing.formulation`: found beside `bearing.balls_inertia = \"quasi-static\"`, expected one of the two",
+        ),
+    ] {
+        let error = set(other).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}

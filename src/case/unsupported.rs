@@ -36,12 +36,7 @@ const fn refused(
 const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\"";
 const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 8] = [
-    refused(
-        &["bearing", "balls_inertia"],
-        Extent::Word("quasi-static"),
-        "use balls_inertia = \"dynamic\"",
-    ),
+const UNSUPPORTED: [Unsupported; 7] = [
     refused(
         &["bearing", "defects", "*", "profile"],
         Extent::Word("surface"),
@@ -130,10 +125,6 @@ mod tests {
 
     /// One argument for each entry of the table, and the key that the error names.
     const SAMPLES: [(&str, &str); UNSUPPORTED.len()] = [
-        (
-            "bearing.balls_inertia=quasi-static",
-            "bearing.balls_inertia = \"quasi-static\"",
-        ),
         (
             "bearing.defects[0].profile=surface",
             "bearing.defects[0].profile = \"surface\"",

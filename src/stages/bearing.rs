@@ -7,7 +7,7 @@ use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
 };
 use crate::case::{self, Case};
-use crate::system::{BearingSetup, Formulation};
+use crate::system::{BallsInertia, BearingSetup, Formulation};
 
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
 ///
@@ -39,6 +39,10 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
         formulation: match asked.formulation {
             case::Formulation::Consistent => Formulation::Consistent,
             case::Formulation::Printed => Formulation::Printed,
+        },
+        balls_inertia: match asked.balls_inertia {
+            case::BallsInertia::Dynamic => BallsInertia::Dynamic,
+            case::BallsInertia::QuasiStatic => BallsInertia::QuasiStatic,
         },
         waves: waves(&asked.waviness, &geometry)?,
         oversizes: asked.ball_radius_differences.clone(),

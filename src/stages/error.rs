@@ -381,6 +381,7 @@ impl StageError {
                 SystemError::NotSupported
                     | SystemError::NothingHoldsTheShaft
                     | SystemError::PrintedNeedsAllModes
+                    | SystemError::BallsNeedInertia
                     | SystemError::NoModesKept { .. }
             ),
             Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),

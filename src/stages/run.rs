@@ -10,8 +10,8 @@ use crate::case::{self, Case, ModesKept, StepLength};
 use crate::report::Table;
 use crate::series::TimeSeries;
 use crate::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes, ModeSelection, Recorder,
-    RunRecord, StaticCondition,
+    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes,
+    ModeSelection, Recorder, RunRecord, StaticCondition,
 };
 use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
 use std::time::Instant;
@@ -255,8 +255,9 @@ fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection
     }
 }
 
-/// Step that resolves a ball between its two contacts at [`AUTO_FORCE`] times the largest static
-/// force: `h = AUTO_PHASE / sqrt((k_i' + k_o') / m_b)` with `k' = 3/2 k^(2/3) F^(1/3)`.
+/// Step that resolves the fastest motion on the contacts at [`AUTO_FORCE`] times the largest static force, with
+/// `k' = 3/2 k^(2/3) F^(1/3)`: that of a ball between both, `h = AUTO_PHASE / sqrt((k_i' + k_o') / m_b)`, or without the
+/// balls' inertia that of race and shaft on both in series.
 fn auto_step(
     method: Method,
     setup: &BearingSetup,
@@ -269,8 +270,12 @@ fn auto_step(
         .map(|ball| ball.inner.max(ball.outer))
         .fold(setup.geometry.ball_mass() * 9.81, f64::max);
     let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (AUTO_FORCE * largest).cbrt();
-    let sum = tangent(setup.stiffness.inner()) + tangent(setup.stiffness.outer());
-    let resolved = AUTO_PHASE / (sum / setup.geometry.ball_mass()).sqrt();
+    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(tangent);
+    let stiffness = match setup.balls_inertia {
+        BallsInertia::Dynamic => inner + outer,
+        BallsInertia::QuasiStatic => inner * outer / (inner + outer),
+    };
+    let resolved = AUTO_PHASE / (stiffness * system.contact_mobility()).sqrt();
     match method {
         Method::Exponential => resolved,
         Method::NewmarkExplicit => {

@@ -3,7 +3,7 @@
 use super::{ExpectedMode, StructureStage};
 use crate::case::Case;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
-use crate::system::{BearingSetup, Formulation, LoadedModes};
+use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
@@ -185,6 +185,9 @@ pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             Formulation::Printed => "Formulation `printed`: the source's equations (3)-(16) with their misprints put right; rigid ring motion is counted twice in the outer contact. For reproduction only.".to_owned(),
         });
         list.push("Balls follow a prescribed cage and move radially; the shaft is rigid with two displacements; everything stays in the bearing's plane.".to_owned());
+        if setup.balls_inertia == BallsInertia::QuasiStatic {
+            list.push("Balls without inertia in the transient: each stands where its contacts, weight and centrifugal load balance; loaded frequencies keep their mass.".to_owned());
+        }
         if setup.contact_damping > 0.0 {
             list.push(format!(
                 "Contact damping (Hunt-Crossley) {} s/m: a choice, the source has none and does not say its damping.",

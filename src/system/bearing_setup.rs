@@ -16,6 +16,17 @@ pub enum Formulation {
     Printed,
 }
 
+/// How balls follow their radial motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BallsInertia {
+    /// With their mass: a coordinate each.
+    #[default]
+    Dynamic,
+    /// Each where its contacts, its weight and the centrifugal load balance: exact in the static limit, without the
+    /// vibration of a ball between its contacts, and without contact damping.
+    QuasiStatic,
+}
+
 /// The rigid shaft with the inner ring.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
@@ -49,6 +60,8 @@ pub struct BearingSetup {
     pub contact_damping: f64,
     /// Which equations.
     pub formulation: Formulation,
+    /// How balls follow.
+    pub balls_inertia: BallsInertia,
     /// Shaft angle and ball angles over time.
     pub cage: Cage,
     /// Defects of both races; none of one race overlap. Those of the inner one turn with the shaft.

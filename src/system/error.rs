@@ -37,6 +37,11 @@ pub enum SystemError {
         "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\""
     )]
     PrintedNeedsAllModes,
+    /// Balls without inertia where their motion enters the equations.
+    #[error(
+        "balls_inertia = \"quasi-static\" leaves out how fast balls move, which contact_damping and formulation = \"printed\" need: set balls_inertia = \"dynamic\""
+    )]
+    BallsNeedInertia,
     /// A selection without modes.
     #[error(
         "no mode of the structure is kept: the lowest is at {lowest_hz:.4e} Hz; raise accuracy.band_hz or set transient.modes"

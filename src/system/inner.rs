@@ -1,5 +1,6 @@
 //! Where a ball stands to the inner race: penetration without loss of digits.
 
+use super::lanes::{LANES, Lanes, each};
 use crate::bearing::BearingGeometry;
 
 /// Inner contact of one ball: position by the outward displacement `s` from touching the undeformed
@@ -23,6 +24,15 @@ pub(super) struct InnerGap {
     pub normal: [f64; 2],
 }
 
+/// The same for balls side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct InnerGaps {
+    pub penetration: Lanes,
+    pub distance: Lanes,
+    /// Components in x and y.
+    pub normal: [Lanes; 2],
+}
+
 impl InnerRace {
     pub fn new(geometry: &BearingGeometry) -> Self {
         Self {
@@ -32,20 +42,48 @@ impl InnerRace {
     }
 
     /// Gap for a ball in direction `e` at outward displacement `s`, the inner race at `centre`.
+    pub fn gap(&self, e: [f64; 2], s: f64, centre: [f64; 2]) -> InnerGap {
+        let [cos, sin] = e.map(|component| [component; LANES]);
+        let gaps = self.gaps([&cos, &sin], &[s; LANES], centre);
+        InnerGap {
+            penetration: gaps.penetration[0],
+            distance: gaps.distance[0],
+            normal: gaps.normal.map(|component| component[0]),
+        }
+    }
+
+    /// Not less than the penetration of balls in directions (`cos`, `sin`) at outward displacements `s`: what it would be in
+    /// front of a plane.
+    #[inline(always)]
+    pub fn penetration_bounds(
+        &self,
+        [cos, sin]: [&Lanes; 2],
+        s: &Lanes,
+        [x, y]: [f64; 2],
+    ) -> Lanes {
+        each(|l| (cos[l] * x + sin[l] * y) - (self.play + s[l]))
+    }
+
+    /// Gaps for balls in directions (`cos`, `sin`) at outward displacements `s`, the inner race at `centre`.
     ///
     /// `delta_i = r + rho_b - chi = -(play + s) + (rho - chi)` with
     /// `rho - chi = (2 rho e.centre - |centre|^2) / (rho + chi)`: no difference of large numbers.
-    #[inline]
-    pub fn gap(&self, e: [f64; 2], s: f64, centre: [f64; 2]) -> InnerGap {
-        let rho = self.touching_radius + s;
-        let b = [rho * e[0] - centre[0], rho * e[1] - centre[1]];
-        let distance = (b[0] * b[0] + b[1] * b[1]).sqrt();
-        let along = e[0] * centre[0] + e[1] * centre[1];
-        let square = centre[0] * centre[0] + centre[1] * centre[1];
-        InnerGap {
-            penetration: (2.0 * rho * along - square) / (rho + distance) - (self.play + s),
+    #[inline(always)]
+    pub fn gaps(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, centre: [f64; 2]) -> InnerGaps {
+        let [x, y] = centre;
+        let square = x * x + y * y;
+        let rho = each(|l| self.touching_radius + s[l]);
+        let b = [each(|l| rho[l] * cos[l] - x), each(|l| rho[l] * sin[l] - y)];
+        let distance = each(|l| (b[0][l] * b[0][l] + b[1][l] * b[1][l]).sqrt());
+        // one division for 1 / chi and 1 / (rho + chi)
+        let both = each(|l| 1.0 / (distance[l] * (rho[l] + distance[l])));
+        InnerGaps {
+            penetration: each(|l| {
+                let along = cos[l] * x + sin[l] * y;
+                (2.0 * rho[l] * along - square) * (both[l] * distance[l]) - (self.play + s[l])
+            }),
+            normal: b.map(|b| each(|l| b[l] * (both[l] * (rho[l] + distance[l])))),
             distance,
-            normal: [b[0] / distance, b[1] / distance],
         }
     }
 }

@@ -11,6 +11,7 @@ mod equilibrium;
 mod error;
 mod force;
 mod inner;
+mod lanes;
 mod load;
 mod loaded;
 mod race;
@@ -19,13 +20,13 @@ mod recorder;
 mod residual;
 mod resting;
 mod structure;
+mod turning;
 
-pub use bearing_setup::{BearingSetup, FlatOnBall, Formulation, Shaft};
+pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, Shaft};
 pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use load::LoadProfile;
 pub use loaded::{LoadedMode, LoadedModes};
-
 pub use recorder::{Recorder, RunRecord};
 pub use structure::{Sensor, Structure, StructureModes};

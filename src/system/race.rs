@@ -59,6 +59,7 @@ pub(super) struct RaceContact {
     /// Distance from the race's centre at which a ball touches it, m.
     touching_radius: f64,
     waviness: Waviness,
+    rise: f64,
     defects: Vec<DefectArc>,
     flats: Vec<BallFlat>,
 }
@@ -87,10 +88,11 @@ impl RaceContact {
                 geometry.effective_inner_race_radius() + geometry.ball_radius(),
             ),
         };
-        let own = setup
-            .race_defects
-            .iter()
-            .filter(|defect| defect.race() == race);
+        let own = || {
+            let defects = setup.race_defects.iter();
+            defects.filter(|defect| defect.race() == race)
+        };
+        let waviness = Waviness::of(race, &setup.waves);
         let arc = |defect: &RaceDefect| {
             let (sin, cos) = defect.angle().sin_cos();
             DefectArc {
@@ -107,8 +109,9 @@ impl RaceContact {
                 damping: setup.contact_damping,
             },
             touching_radius,
-            waviness: Waviness::of(race, &setup.waves),
-            defects: own.map(arc).collect(),
+            rise: waviness.most() + own().fold(0.0, |most, defect| defect.rise().max(most)),
+            waviness,
+            defects: own().map(arc).collect(),
             flats: setup.flats.iter().map(|flat| flat.shape.clone()).collect(),
         }
     }
@@ -130,9 +133,16 @@ impl RaceContact {
         !self.waviness.is_empty()
     }
 
-    /// How far its waves rise towards the balls at most, m.
-    pub fn crest(&self) -> f64 {
-        self.waviness.most()
+    /// How far it rises towards the balls at most, m: a ball farther than this from touching the undamaged race touches
+    /// nothing.
+    pub fn rise(&self) -> f64 {
+        self.rise
+    }
+
+    /// Contact with the undamaged race.
+    #[inline(always)]
+    pub fn plain(&self) -> HertzContact {
+        self.plain
     }
 
     /// Distance (m) of a ball's centre from the race's when it is pressed so far beyond touching it.

@@ -1,8 +1,9 @@
 //! Mode shapes along the raceway, ready for the hot loop: one polynomial an element and a mode.
 //!
 //! Inside an element the interpolation is smooth; a polynomial through Chebyshev points reproduces
-//! it to [`ACCURACY`], and Horner's rule over contiguous modes costs a few additions a mode.
+//! it to [`ACCURACY`], and Horner's rule over modes side by side costs a few additions a mode.
 
+use super::lanes::{LANES, Lanes, column, each, total};
 use super::structure::StructureModes;
 use crate::model::{Ring, RingRows};
 use std::f64::consts::PI;
@@ -19,8 +20,10 @@ pub(super) struct RacewayTable {
     elements: usize,
     modes: usize,
     degree: usize,
-    /// [element][power][mode], powers of the local coordinate in [-1, 1], highest first.
-    coefficients: Vec<f64>,
+    /// Coefficients of an element.
+    width: usize,
+    /// [element][group of modes][power], powers of the local coordinate in [-1, 1], highest first.
+    coefficients: Vec<Lanes>,
 }
 
 impl RacewayTable {
@@ -64,49 +67,78 @@ impl RacewayTable {
         table
     }
 
-    /// Values of all modes at an angle in turns, 0 <= turn < 1, into `out` \[modes\].
-    #[inline]
-    pub fn values_into(&self, turn: f64, out: &mut [f64]) {
-        let (element, xi) = locate(turn, self.elements);
-        self.local_values_into(element, xi, out);
+    /// Groups of modes: the length of a row, at least one.
+    #[inline(always)]
+    pub fn groups(&self) -> usize {
+        self.modes.div_ceil(LANES)
     }
 
-    /// Derivatives of all modes by the angle at an angle in turns, 1/rad, into `out` \[modes\].
-    #[inline]
-    pub fn slopes_into(&self, turn: f64, out: &mut [f64]) {
+    /// Coefficients of an element: one slice a group of modes.
+    #[inline(always)]
+    fn element(&self, element: usize) -> impl Iterator<Item = &[Lanes]> {
+        let block = &self.coefficients[element * self.width..(element + 1) * self.width];
+        block.chunks_exact(self.degree + 1)
+    }
+
+    /// Values of all modes at an angle in turns, 0 <= turn < 1, into `out` \[groups\]; gives their sum with the
+    /// `amplitudes` \[groups\].
+    #[inline(always)]
+    pub fn values_into(&self, turn: f64, amplitudes: &[Lanes], out: &mut [Lanes]) -> f64 {
+        let (element, xi) = locate(turn, self.elements);
+        let block = &self.coefficients[element * self.width..(element + 1) * self.width];
+        // loops of known length
+        match self.degree {
+            3 => horner::<4>(block, xi, amplitudes, out),
+            5 => horner::<6>(block, xi, amplitudes, out),
+            7 => horner::<8>(block, xi, amplitudes, out),
+            9 => horner::<10>(block, xi, amplitudes, out),
+            13 => horner::<14>(block, xi, amplitudes, out),
+            _ => horner::<18>(block, xi, amplitudes, out),
+        }
+    }
+
+    /// The values at the local coordinate -1 <= xi <= 1 of an element.
+    #[inline(always)]
+    pub fn local_values_into(&self, element: usize, xi: f64, out: &mut [Lanes]) {
+        for (out, powers) in out.iter_mut().zip(self.element(element)) {
+            let mut value = powers[0];
+            for power in &powers[1..] {
+                value = each(|l| value[l] * xi + power[l]);
+            }
+            *out = value;
+        }
+    }
+
+    /// Derivatives of all modes by the angle at an angle in turns, 1/rad, into `out` \[groups\].
+    #[inline(always)]
+    pub fn slopes_into(&self, turn: f64, out: &mut [Lanes]) {
         let (element, xi) = locate(turn, self.elements);
         self.local_slopes_into(element, xi, self.elements as f64 / PI, out);
     }
 
     /// Derivatives by the local coordinate, times `scale`.
-    #[inline]
-    pub fn local_slopes_into(&self, element: usize, xi: f64, scale: f64, out: &mut [f64]) {
-        let width = self.modes * (self.degree + 1);
-        let block = &self.coefficients[element * width..(element + 1) * width];
-        out.fill(0.0);
-        let powers = block.chunks_exact(self.modes).take(self.degree);
-        for (place, coefficients) in powers.enumerate() {
-            let factor = (self.degree - place) as f64 * scale;
-            for (slope, coefficient) in out.iter_mut().zip(coefficients) {
-                *slope = *slope * xi + factor * coefficient;
+    #[inline(always)]
+    pub fn local_slopes_into(&self, element: usize, xi: f64, scale: f64, out: &mut [Lanes]) {
+        for (out, powers) in out.iter_mut().zip(self.element(element)) {
+            let (mut value, mut slope) = (powers[0], [0.0; LANES]);
+            for power in &powers[1..] {
+                slope = each(|l| slope[l] * xi + value[l]);
+                value = each(|l| value[l] * xi + power[l]);
             }
+            *out = slope.map(|slope| slope * scale);
         }
     }
 
-    /// The same at the local coordinate -1 <= xi <= 1 of an element.
-    #[inline]
-    pub fn local_values_into(&self, element: usize, xi: f64, out: &mut [f64]) {
-        let width = self.modes * (self.degree + 1);
-        let block = &self.coefficients[element * width..(element + 1) * width];
-        let mut powers = block.chunks_exact(self.modes.max(1));
-        if let Some(highest) = powers.next() {
-            out.copy_from_slice(highest);
-        }
-        for coefficients in powers {
-            for (value, coefficient) in out.iter_mut().zip(coefficients) {
-                *value = *value * xi + coefficient;
+    /// A bound of each mode's magnitude along the whole raceway \[groups\].
+    pub fn bounds(&self) -> Vec<Lanes> {
+        let mut bounds = column(self.modes, 0.0);
+        for element in 0..self.elements {
+            for (bound, powers) in bounds.iter_mut().zip(self.element(element)) {
+                // |xi| <= 1
+                *bound = each(|l| bound[l].max(powers.iter().map(|power| power[l].abs()).sum()));
             }
         }
+        bounds
     }
 
     /// Interpolation at the Chebyshev points, converted to powers.
@@ -119,7 +151,8 @@ impl RacewayTable {
         let count = degree + 1;
         let point = |k: usize| ((k as f64 + 0.5) * PI / count as f64).cos();
         let chebyshev = chebyshev_to_powers(degree);
-        let mut coefficients = vec![0.0; elements * count * modes];
+        let groups = modes.div_ceil(LANES);
+        let mut coefficients = vec![[0.0; LANES]; elements * groups * count];
         for element in 0..elements {
             let samples: Vec<Vec<f64>> = (0..count).map(|k| sample(element, point(k))).collect();
             for mode in 0..modes {
@@ -135,8 +168,9 @@ impl RacewayTable {
                         })
                         .sum();
                     for (power, factor) in polynomial.iter().enumerate() {
-                        let place = (element * count + degree - power) * modes + mode;
-                        coefficients[place] += amplitude * factor;
+                        let group = element * groups + mode / LANES;
+                        let place = group * count + degree - power;
+                        coefficients[place][mode % LANES] += amplitude * factor;
                     }
                 }
             }
@@ -145,18 +179,19 @@ impl RacewayTable {
             elements,
             modes,
             degree,
+            width: groups * count,
             coefficients,
         }
     }
 
     /// Deviation between the points, over all elements, relative to the largest value.
     fn worst_error(&self, sample: &impl Fn(usize, f64) -> Vec<f64>) -> f64 {
-        let mut found = vec![0.0; self.modes];
+        let mut found = column(self.modes, 0.0);
         let (mut worst, mut largest): (f64, f64) = (0.0, f64::MIN_POSITIVE);
         for element in 0..self.elements {
             for xi in [-1.0, -0.61, 0.13, 0.77, 1.0] {
                 self.local_values_into(element, xi, &mut found);
-                for (value, exact) in found.iter().zip(sample(element, xi)) {
+                for (value, exact) in found.as_flattened().iter().zip(sample(element, xi)) {
                     worst = worst.max((value - exact).abs());
                     largest = largest.max(exact.abs());
                 }
@@ -164,6 +199,27 @@ impl RacewayTable {
         }
         worst / largest
     }
+}
+
+/// Values of polynomials with `N` coefficients at `xi`, and their sum with the amplitudes.
+#[inline(always)]
+fn horner<const N: usize>(
+    block: &[Lanes],
+    xi: f64,
+    amplitudes: &[Lanes],
+    out: &mut [Lanes],
+) -> f64 {
+    let mut sums = [0.0; LANES];
+    let groups = block.as_chunks::<N>().0.iter().zip(amplitudes);
+    for (out, (powers, amplitude)) in out.iter_mut().zip(groups) {
+        let mut value = powers[0];
+        for power in &powers[1..] {
+            value = each(|l| value[l] * xi + power[l]);
+        }
+        *out = value;
+        sums = each(|l| sums[l] + value[l] * amplitude[l]);
+    }
+    total(&sums)
 }
 
 /// Power coefficients of the Chebyshev polynomials T_0 .. T_degree.
@@ -183,12 +239,15 @@ fn chebyshev_to_powers(degree: usize) -> Vec<Vec<f64>> {
     table
 }
 
-/// Element that contains a place, 0 <= turn < 1, and the local coordinate there, -1 <= xi < 1.
-#[inline]
+/// Element that contains a place, 0 <= turn < 1, and the local coordinate there, -1 <= xi <= 1.
+#[inline(always)]
 pub(super) fn locate(turn: f64, elements: usize) -> (usize, f64) {
+    // added to it, a number below 2^51 has its nearest whole one in the lowest bits: fewer instructions than a conversion
+    const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
     let place = turn * elements as f64;
-    let element = (place as usize).min(elements - 1);
-    (element, 2.0 * (place - element as f64) - 1.0)
+    let shifted = (place - 0.5) + WHOLE;
+    let element = (shifted.to_bits() as u32 as usize).min(elements - 1);
+    (element, 2.0 * (place - (shifted - WHOLE)) - 1.0)
 }
 
 /// An angle (rad) in turns, reduced to 0 <= turn < 1.

@@ -132,7 +132,7 @@ impl Observer<CoupledSystem> for Recorder {
         for (sensor, track) in self.tracks.iter_mut().enumerate() {
             let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
-                dot(residual.sensor_row(sensor), &system.work.outer_radial)
+                dot(residual.sensor_row(sensor), system.outer_radial())
             });
             if let Some(acceleration) = track.filter.push(modal + residual) {
                 track.accelerations.push(acceleration);
@@ -144,14 +144,14 @@ impl Observer<CoupledSystem> for Recorder {
             record.shaft_x.push(now.y[modes]);
             record.shaft_y.push(now.y[modes + 1]);
             let touching = system.inner_race.touching_radius;
-            let radii = now.y[modes + 2..].iter().map(|s| touching + s);
+            let radii = system.displacements().iter().map(|s| touching + s);
             record.ball_radius.extend(radii);
             record
                 .outer_force
-                .extend_from_slice(&system.work.outer_magnitude);
+                .extend_from_slice(system.outer_magnitude());
             record
                 .inner_force
-                .extend_from_slice(&system.work.inner_force);
+                .extend_from_slice(system.inner_magnitude());
         }
     }
 }

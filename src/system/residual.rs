@@ -7,6 +7,7 @@
 //! costs one product of two six-vectors with a block of it.
 
 use super::SystemError;
+use super::lanes::{LANES, Lanes};
 use super::raceway::{RacewayTable, locate};
 use super::structure::{Structure, StructureModes};
 use crate::linalg::DenseMatrix;
@@ -14,6 +15,9 @@ use crate::model::Ring;
 
 /// Components of an element's two nodes.
 const ELEMENT_DOF: usize = 6;
+
+/// The radial interpolation at a place over these components, filled up.
+type Row = [Lanes; ELEMENT_DOF.div_ceil(LANES)];
 
 /// Residual flexibility on the ring's displacements and how the balls meet it.
 #[derive(Debug, Clone)]
@@ -29,11 +33,11 @@ pub(super) struct ResidualFlexibility {
     /// Sensors over ring loads [sensors x width].
     sensors: Vec<f64>,
     /// Element of every ball and its radial interpolation there.
-    places: Vec<(usize, [f64; ELEMENT_DOF])>,
+    places: Vec<(usize, Row)>,
     /// Local coordinate of every ball in its element.
     local: Vec<f64>,
     /// Derivative of that interpolation by the angle, 1/rad.
-    slopes: Vec<[f64; ELEMENT_DOF]>,
+    slopes: Vec<Row>,
     /// Radial displacement at ball j for a radial force at ball k [balls x balls], m/N.
     contact: Vec<f64>,
     /// Its derivative by the cage angle, m/(N rad).
@@ -98,9 +102,9 @@ impl ResidualFlexibility {
             width,
             flexibility: by_rows(&flexibility),
             weight: by_rows(&weight),
-            places: vec![(0, [0.0; ELEMENT_DOF]); balls],
+            places: vec![(0, Row::default()); balls],
             local: vec![0.0; balls],
-            slopes: vec![[0.0; ELEMENT_DOF]; balls],
+            slopes: vec![Row::default(); balls],
             contact: vec![0.0; balls * balls],
             contact_slope: vec![0.0; balls * balls],
             weight_now: vec![0.0; balls],
@@ -141,6 +145,7 @@ impl ResidualFlexibility {
                 let (other, column) = &self.places[k];
                 let first = ELEMENT_DOF / 2 * other;
                 let (row_slope, column_slope) = (&self.slopes[j], &self.slopes[k]);
+                let (row, row_slope) = (row.as_flattened(), row_slope.as_flattened());
                 let (mut sum, mut slope) = (0.0, 0.0);
                 for a in 0..ELEMENT_DOF {
                     let start = (top + a) * self.width + first;
@@ -177,6 +182,20 @@ impl ResidualFlexibility {
         self.weight_now[j]
     }
 
+    /// A bound of the displacement under the weight along the raceway, m.
+    pub fn weight_bound(&self) -> f64 {
+        let components = ELEMENT_DOF / 2;
+        let most = |component: usize| {
+            let values = self.weight.iter().skip(component).step_by(components);
+            values.fold(0.0_f64, |most, value| most.max(value.abs()))
+        };
+        let bounds = self.interpolation.bounds();
+        let interpolated = bounds.as_flattened().iter().take(ELEMENT_DOF).enumerate();
+        interpolated
+            .map(|(k, bound)| bound * most(k % components))
+            .sum()
+    }
+
     /// Row of a sensor over radial forces at all balls, m/N.
     #[inline]
     pub fn sensor_row(&self, sensor: usize) -> &[f64] {
@@ -203,6 +222,6 @@ fn polar_components(ring: &Ring, width: usize) -> DenseMatrix {
 }
 
 #[inline]
-fn product(a: &[f64; ELEMENT_DOF], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+fn product(row: &Row, b: &[f64]) -> f64 {
+    row.as_flattened().iter().zip(b).map(|(x, y)| x * y).sum()
 }

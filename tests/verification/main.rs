@@ -10,6 +10,7 @@ mod grids;
 mod impact;
 mod loaded_modes;
 mod modal_runs;
+mod quasi_static;
 mod reference_frequencies;
 mod ring_element;
 mod ring_in_space;

@@ -35,7 +35,9 @@ use plummer::model::{
     Ring, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
 use plummer::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
-use plummer::system::{BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure};
+use plummer::system::{
+    BallsInertia, BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure,
+};
 use plummer::transient::{Method, Schedule, Stepping, integrate};
 use plummer::units::LengthUnit;
 
@@ -132,6 +134,7 @@ pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
             .stiffness(),
         contact_damping: 0.0,
         formulation,
+        balls_inertia: BallsInertia::Dynamic,
         waves: Vec::new(),
         oversizes: Vec::new(),
         race_defects: Vec::new(),

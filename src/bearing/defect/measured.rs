@@ -12,7 +12,7 @@ use super::fade::Fade;
 use super::profile::Profile;
 use super::samples_check;
 use super::sinking;
-use super::spline;
+use super::spline::{self, Piece};
 use super::stiffness::CurvatureStiffness;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
@@ -127,6 +127,18 @@ impl MeasuredProfile {
         sinking::deepest(&self.profile, self.half_angle)
     }
 
+    /// How far, m, the profile rises above the race at most.
+    #[must_use]
+    pub fn rise(&self) -> f64 {
+        let risen = |piece: &Piece| {
+            let heights = (0..=LOOKS).map(|i| -piece.at(between(piece.ends, i))[0]);
+            heights.fold(0.0, f64::max)
+        };
+        let seen = self.profile.pieces.iter().map(risen).fold(0.0, f64::max);
+        // a cubic between two looks exceeds both by less
+        1.01 * seen
+    }
+
     /// Whether a ball at `angle` (rad, any turn, in the race's frame) can touch anything but the race: half-open
     /// arc with the [`Self::contact_half_angle`].
     #[must_use]
@@ -176,6 +188,11 @@ impl MeasuredProfile {
     }
 }
 
+/// Look `i` of [`LOOKS`] + 1 over a piece.
+fn between([start, end]: [f64; 2], i: usize) -> f64 {
+    start + (end - start) * (i as f64 / LOOKS as f64)
+}
+
 /// Greatest convex curvature of the profile, 1/m.
 ///
 /// # Errors
@@ -183,9 +200,8 @@ impl MeasuredProfile {
 fn sharpest(profile: &Profile) -> Result<f64, DefectError> {
     let (mut sharpest, mut steepest, mut sample) = (f64::NEG_INFINITY, 0.0, 0);
     for piece in &profile.pieces {
-        let [start, end] = piece.ends;
         for i in 0..=LOOKS {
-            let angle = start + (end - start) * (i as f64 / LOOKS as f64);
+            let angle = between(piece.ends, i);
             let slope = piece.at(angle)[1].abs() / profile.circles.carrier;
             // a slope that overflowed counts as the steepest
             if slope > steepest || slope.is_nan() {

@@ -72,6 +72,15 @@ impl RaceDefect {
         }
     }
 
+    /// How far, m, it rises above the race at most.
+    #[must_use]
+    pub fn rise(&self) -> f64 {
+        match self {
+            Self::Dent(_) => 0.0,
+            Self::Measured(profile) => profile.rise(),
+        }
+    }
+
     /// Whether a ball at `angle` (rad, any turn) can touch anything but the race.
     #[must_use]
     #[inline]

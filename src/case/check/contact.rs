@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    Bearing, Case, ContactStiffness, Defect, DentDefect, FlatDefect, RaceName, Slip,
+    BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, FlatDefect, Formulation,
+    RaceName, Slip,
 };
 use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
@@ -23,6 +24,15 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     races(case, bearing)?;
     room(bearing)?;
     zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
+    if bearing.balls_inertia == BallsInertia::QuasiStatic {
+        let other = "bearing.balls_inertia = \"quasi-static\"";
+        if bearing.contact_damping > 0.0 {
+            return Err(Rule::Beside { other }.at("bearing.contact_damping"));
+        }
+        if bearing.formulation == Formulation::Printed {
+            return Err(Rule::Beside { other }.at("bearing.formulation"));
+        }
+    }
     if let ContactStiffness::Given { inner, outer } = bearing.stiffness {
         above_zero("bearing.stiffness.inner", inner)?;
         above_zero("bearing.stiffness.outer", outer)?;

@@ -1,0 +1,224 @@
+//! The hot loop: all that is evaluated in every step. No allocation, O(balls x modes).
+//!
+//! Balls stand side by side in lanes, and so do modes. A ball that cannot reach the outer race, however the kept modes move
+//! it, costs no mode row.
+
+mod inner_race;
+mod outer_race;
+mod placing;
+mod quasi_static;
+mod with_residual;
+
+use super::bearing_setup::{BallsInertia, Formulation};
+use super::coupled::CoupledSystem;
+use super::lanes::{self, Lanes};
+use crate::bearing::RotationState;
+use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
+use multiversion::multiversion;
+
+/// A ball that is farther from the race than this (m) cannot be reached by the residual
+/// displacement that other balls cause: 1e-9 m/N under less than 100 N.
+pub(super) const REACH: f64 = 1e-7;
+
+impl SecondOrderSystem for CoupledSystem {
+    fn linear(&self) -> &[LinearCoordinate] {
+        &self.linear
+    }
+
+    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+        evaluate(self, t, y, v, g);
+    }
+
+    fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
+        if !y.iter().chain(v).all(|value| value.is_finite()) {
+            return Err(Divergence::NotFinite);
+        }
+        // beyond half a ball radius neither Hertz theory nor the geometry holds
+        let limit = 0.5 * self.setup.geometry.ball_radius();
+        let positions = &y[self.modes..];
+        let name = |place: usize| match place {
+            0 => "shaft displacement x".to_owned(),
+            1 => "shaft displacement y".to_owned(),
+            ball => format!("radial displacement of ball {}", ball - 1),
+        };
+        match positions.iter().position(|value| value.abs() > limit) {
+            Some(place) => Err(Divergence::OutOfRange {
+                what: name(place),
+                value: positions[place],
+                limit,
+                unit: "m",
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// [`SecondOrderSystem::force_into`] with the vector registers that the machine has; no fused products, so that every
+/// machine gives the same result.
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+fn evaluate(system: &mut CoupledSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+    let shaft = system.setup.cage.shaft();
+    let shaft = shaft.motion_from(&mut system.cursors[0], t);
+    let cage = system.setup.cage.motion_from(&mut system.cursors[1], t);
+    system.take(y, v);
+    system.place_balls(&shaft, &cage);
+    system.approach_outer_race(&shaft, &cage);
+    let inertia = system.setup.balls_inertia;
+    match (inertia, &system.residual) {
+        (BallsInertia::QuasiStatic, _) => {
+            let centre = [y[system.modes], y[system.modes + 1]];
+            system.settle_balls(centre, &shaft, &cage);
+        }
+        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual(&cage),
+        (BallsInertia::Dynamic, None) => system.outer_forces(),
+    }
+    system.structure_force(g);
+    let centre = system.centre_motion(y, v, g);
+    system.inner_forces(&centre, &shaft, &cage, y, v);
+    system.shaft_force(t, &shaft, g);
+    if inertia == BallsInertia::Dynamic {
+        system.ball_forces(&centre, &cage, g);
+    }
+}
+
+/// Motion of the ring's mean centre, from which `printed` measures; at rest in `consistent`.
+#[derive(Debug, Clone, Copy, Default)]
+struct CentreMotion {
+    position: [f64; 2],
+    velocity: [f64; 2],
+    acceleration: [f64; 2],
+}
+
+impl CoupledSystem {
+    /// Copies coordinates and velocities to where they stand side by side.
+    #[inline(always)]
+    fn take(&mut self, y: &[f64], v: &[f64]) {
+        let (modes, work) = (self.modes, &mut self.work);
+        lanes::set(&mut work.amplitudes, &y[..modes]);
+        if self.setup.contact_damping > 0.0 {
+            lanes::set(&mut work.velocities, &v[..modes]);
+        }
+        match self.setup.balls_inertia {
+            BallsInertia::Dynamic => {
+                lanes::set(&mut work.displacement, &y[modes + 2..]);
+                lanes::set(&mut work.displacement_rate, &v[modes + 2..]);
+            }
+            BallsInertia::QuasiStatic => work.displacement.as_flattened_mut().fill(0.0),
+        }
+    }
+
+    /// Weight and contact forces on the kept modes.
+    #[inline(always)]
+    fn structure_force(&mut self, g: &mut [f64]) {
+        let groups = self.radial.groups();
+        let work = &mut self.work;
+        for (force, gravity) in work.modal_force.iter_mut().zip(&self.gravity) {
+            *force = *gravity;
+        }
+        let forces = work.outer_radial.as_flattened()[..self.balls.count].iter();
+        for (radial, row) in forces.zip(work.rows.chunks_exact(groups)) {
+            if *radial != 0.0 {
+                lanes::add_scaled(&mut work.modal_force, *radial, row);
+            }
+        }
+        for (j, &tangential) in work.outer_tangential.iter().enumerate() {
+            if tangential != 0.0 {
+                let (turn, row) = (work.turn.as_flattened()[j], &mut work.scratch_row);
+                self.tangential.values_into(turn, &work.amplitudes, row);
+                lanes::add_scaled(&mut work.modal_force, tangential, row);
+            }
+        }
+        lanes::get(&work.modal_force, &mut g[..self.modes]);
+    }
+
+    #[inline(always)]
+    fn centre_motion(&self, y: &[f64], v: &[f64], g: &[f64]) -> CentreMotion {
+        match self.setup.formulation {
+            Formulation::Consistent => CentreMotion::default(),
+            Formulation::Printed => self.printed_centre(y, v, g),
+        }
+    }
+
+    fn printed_centre(&self, y: &[f64], v: &[f64], g: &[f64]) -> CentreMotion {
+        let modes = self.modes;
+        let mut motion = CentreMotion::default();
+        for k in 0..2 {
+            let row = &self.centre[k];
+            motion.position[k] = dot(row, &y[..modes]);
+            motion.velocity[k] = dot(row, &v[..modes]);
+            motion.acceleration[k] = (0..modes)
+                .map(|i| {
+                    let linear = self.linear[i];
+                    let pull = linear.damping * v[i] + linear.squared_frequency * y[i];
+                    row[i] * (g[i] - pull)
+                })
+                .sum();
+        }
+        motion
+    }
+
+    /// Loads, unbalance and inner contacts on the shaft.
+    #[inline(always)]
+    fn shaft_force(&mut self, t: f64, shaft: &RotationState, g: &mut [f64]) {
+        let mut total = self.setup.shaft_load(t);
+        let contacts = &self.work.on_shaft;
+        for (total, contact) in total.iter_mut().zip(contacts) {
+            *total += contact;
+        }
+        let unbalance = self.setup.shaft.unbalance;
+        if unbalance != 0.0 {
+            let [cos, sin] = self.work.shaft_direction;
+            let (centrifugal, tangential) = (
+                unbalance * shaft.speed * shaft.speed,
+                unbalance * shaft.acceleration,
+            );
+            total[0] += centrifugal * cos + tangential * sin;
+            total[1] += centrifugal * sin - tangential * cos;
+        }
+        g[self.modes] = total[0] / self.setup.shaft.mass;
+        g[self.modes + 1] = total[1] / self.setup.shaft.mass;
+    }
+
+    /// Contacts, weight and centrifugal load on the balls.
+    #[inline(always)]
+    fn ball_forces(&mut self, centre: &CentreMotion, cage: &RotationState, g: &mut [f64]) {
+        let gravity = self.setup.gravity;
+        let frame = [0, 1].map(|k| gravity[k] - centre.acceleration[k]);
+        let softness = 1.0 / self.setup.geometry.ball_mass();
+        let (touching, square) = (self.inner_race.touching_radius, cage.speed * cage.speed);
+        let work = &self.work;
+        let mut forces = g[self.modes + 2..].chunks_mut(lanes::LANES);
+        for group in 0..work.displacement.len() {
+            let [cos, sin] = work.direction[group];
+            let (s, outer) = (&work.displacement[group], &work.outer_radial[group]);
+            let inner = &work.inner_along[group];
+            let force: Lanes = lanes::each(|l| {
+                (touching + s[l]) * square
+                    + (inner[l] - outer[l]) * softness
+                    + (cos[l] * frame[0] + sin[l] * frame[1])
+            });
+            if let Some(out) = forces.next() {
+                out.copy_from_slice(&force[..out.len()]);
+            }
+        }
+    }
+}
+
+#[inline]
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    // four sums side by side: the order is fixed, and the compiler can use vector registers
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4
+        .remainder()
+        .iter()
+        .zip(b4.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    for (x, y) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}

@@ -1,0 +1,115 @@
+//! Numbers side by side, [`LANES`] at a time: what the hot loop is written in, so that the compiler can take
+//! vector registers of any width without changing a sum's order.
+//!
+//! A column of n numbers has its last lanes filled up; what stands there must not reach a result.
+
+use std::hint::black_box;
+
+/// Numbers in one group.
+pub(super) const LANES: usize = 4;
+
+/// One group of numbers.
+pub(super) type Lanes = [f64; LANES];
+
+/// Groups for `count` numbers, all with the same value.
+pub(super) fn column(count: usize, value: f64) -> Vec<Lanes> {
+    vec![[value; LANES]; count.div_ceil(LANES)]
+}
+
+/// Groups that hold `values`, filled up with `rest`.
+pub(super) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
+    let mut groups = column(values.len(), rest);
+    set(&mut groups, values);
+    groups
+}
+
+/// Copies `values` to the front.
+#[inline(always)]
+pub(super) fn set(groups: &mut [Lanes], values: &[f64]) {
+    let (whole, rest) = values.as_chunks::<LANES>();
+    for (group, values) in groups.iter_mut().zip(whole) {
+        *group = *values;
+    }
+    if let Some(group) = groups.get_mut(whole.len()) {
+        for (lane, value) in group.iter_mut().zip(rest) {
+            *lane = *value;
+        }
+    }
+}
+
+/// Copies what stands at the front out again.
+#[inline(always)]
+pub(super) fn get(groups: &[Lanes], values: &mut [f64]) {
+    let (whole, rest) = values.as_chunks_mut::<LANES>();
+    for (values, group) in whole.iter_mut().zip(groups) {
+        *values = *group;
+    }
+    if let Some(group) = groups.get(whole.len()) {
+        for (value, lane) in rest.iter_mut().zip(group) {
+            *value = *lane;
+        }
+    }
+}
+
+/// `f` of every lane.
+#[inline(always)]
+pub(super) fn each(f: impl Fn(usize) -> f64) -> Lanes {
+    let mut out = [0.0; LANES];
+    for (lane, value) in out.iter_mut().enumerate() {
+        *value = f(lane);
+    }
+    out
+}
+
+/// x, or 0 where it is negative; NaN stays.
+#[inline(always)]
+pub(super) fn positive(x: f64) -> f64 {
+    if x <= 0.0 { 0.0 } else { x }
+}
+
+/// `a . b`, lane by lane and then over the lanes.
+#[inline(always)]
+pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        sums = each(|l| sums[l] + a[l] * b[l]);
+    }
+    total(&sums)
+}
+
+/// `sum += factor * row`.
+#[inline(always)]
+pub(super) fn add_scaled(sum: &mut [Lanes], factor: f64, row: &[Lanes]) {
+    for (sum, row) in sum.iter_mut().zip(row) {
+        *sum = each(|l| sum[l] + factor * row[l]);
+    }
+}
+
+/// Sum over the lanes.
+#[inline(always)]
+pub(super) fn total(x: &Lanes) -> f64 {
+    // a compiler that sees the sum pairs lanes for it, and all before in half registers
+    let x = black_box(*x);
+    (x[0] + x[1]) + (x[2] + x[3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fills_up_a_column_of_zeros_does_not_count() {
+        let (a, b) = (filled(&[1.0, 2.0, 3.0, 4.0, 5.0], 0.0), column(5, 2.0));
+        assert!((dot(&a, &b) - 30.0).abs() < 1e-15);
+        let mut sum = column(5, 1.0);
+        add_scaled(&mut sum, -1.0, &a);
+        assert!((sum.as_flattened()[4] + 4.0).abs() < 1e-15);
+        assert!((sum.as_flattened()[5] - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_below_zero_and_nan_shows() {
+        assert!(positive(-1.0).abs() < f64::MIN_POSITIVE && (positive(2.0) - 2.0).abs() < 1e-15);
+        assert!(positive(f64::NAN).is_nan());
+    }
+}
