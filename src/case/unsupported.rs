@@ -34,18 +34,12 @@ const fn refused(
 }
 
 const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\"";
-const OTHER_PROFILE: &str = "use profile = \"in-plane\"";
 
-const UNSUPPORTED: [Unsupported; 8] = [
+const UNSUPPORTED: [Unsupported; 7] = [
     refused(
         &["bearing", "balls_inertia"],
         Extent::Word("quasi-static"),
         "use balls_inertia = \"dynamic\"",
-    ),
-    refused(
-        &["bearing", "defects", "*", "profile"],
-        Extent::Word("surface"),
-        OTHER_PROFILE,
     ),
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
     refused(
@@ -133,10 +127,6 @@ mod tests {
         (
             "bearing.balls_inertia=quasi-static",
             "bearing.balls_inertia = \"quasi-static\"",
-        ),
-        (
-            "bearing.defects[0].profile=surface",
-            "bearing.defects[0].profile = \"surface\"",
         ),
         ("transient.ensemble={runs=64}", "transient.ensemble"),
         ("transient.method=newmark", "transient.method = \"newmark\""),

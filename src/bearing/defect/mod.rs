@@ -72,6 +72,7 @@ mod samples_check;
 mod sinking;
 mod spline;
 mod stiffness;
+mod surface;
 mod vector;
 
 #[cfg(test)]
@@ -86,3 +87,4 @@ pub use flat::{BallFlat, FlatShape};
 pub use measured::MeasuredProfile;
 pub use race_defect::RaceDefect;
 pub use rim::RIM_BLEND;
+pub use surface::SurfaceDent;
