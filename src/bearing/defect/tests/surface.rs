@@ -300,12 +300,8 @@ fn profile_in_the_plane() {
             let radius = dent.profile_radius(MIDDLE + x * dent.half_angle());
             circles.side * (radius - circles.carrier)
         };
-        for x in [0.0, 0.5, -0.7] {
-            assert_relative_eq!(
-                depth(x),
-                15e-6 * (1.0 - x * x as f64).sqrt(),
-                max_relative = 1e-9
-            );
+        for x in [0.0_f64, 0.5, -0.7] {
+            assert_relative_eq!(depth(x), 15e-6 * (1.0 - x * x).sqrt(), max_relative = 1e-9);
         }
         // 10 um inside the end: the rim's circle, and 4 % for the race's own curve
         let rim = 50e-6 * (1.0 - (1.0_f64 - 0.04).sqrt());

@@ -257,16 +257,17 @@ impl<'a> Sampled<'a> {
             Part::Tube => {
                 // where the outline bends tightly one part of the tube runs within another
                 let clear = self.to_centre_curve(point) / self.outline.rim - 1.0;
-                doubtful |= (depth - 1.0).abs() < 0.1 || u < 0.02 || u > 0.98;
+                doubtful |= (depth - 1.0).abs() < 0.1 || !(0.02..=0.98).contains(&u);
                 v > 0.0 && inside < 1.0 && depth < 1.0 && clear > -1e-6
             }
             Part::Floor => {
                 let clear = self.to_centre_curve(point) / self.outline.rim - 1.0;
                 doubtful |= clear.abs() < 0.01;
-                // where the ball nearly fits across, it fades by the level race's curvature there, not the sloping floor's
+                // where a ball of its own radius, not pressed in, nearly fits across or more, the contact has faded
                 let beside = self.point(part, u, 0.02);
                 let bend = 2.0 * (to(beside) - to(point)) / (beside[2] * beside[2]);
-                doubtful |= bend < 0.2 * self.outline.across;
+                let free = bend - 1.0 / to(point) + 1.0 / self.outline.circles.roller;
+                doubtful |= free < 0.2 * self.outline.across;
                 v < IN_PLANE && clear > 0.0
             }
         };
