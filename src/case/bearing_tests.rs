@@ -142,7 +142,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
         ),
         (
             "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surfaces',width=2e-4}",
-            "found \"surfaces\"",
+            "`bearing.defects[0].profile` is \"surfaces\", expected one of `in-plane`, `surface`",
         ),
         (
             "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5,profile='surface'}",

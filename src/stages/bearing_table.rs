@@ -1,6 +1,6 @@
 //! Everything about a bearing in one table: geometry, orders, contacts.
 
-use crate::bearing::defect::{Dent, DentShape, RaceDefect, SurfaceDent};
+use super::dent_drops::drops;
 use crate::bearing::{BearingGeometry, Race, RaceContacts};
 use crate::closed_form::hertz::HertzStiffness;
 use crate::report::{Cell, Column, Table, significant};
@@ -77,7 +77,7 @@ pub fn bearing_table(
         );
     }
     for defect in &setup.race_defects {
-        for (name, drop) in drops(setup, defect) {
+        for (name, drop) in drops(&setup.geometry, setup.stiffness, defect) {
             let drop = Cell::number(1e6 * drop, 4);
             rows = rows.cells(name, "\u{b5}m", on_race(defect.race(), drop));
         }
@@ -96,49 +96,6 @@ pub fn bearing_table(
             .one(&name("Included angle"), "deg", angle, 4);
     }
     rows.0
-}
-
-/// How far (m) a ball sinks into a defect, by name: of a dent with a width both in the plane and in its surface, as far as
-/// its shape allows both.
-fn drops(setup: &BearingSetup, defect: &RaceDefect) -> Vec<(&'static str, f64)> {
-    let (geometry, stiffness, race) = (&setup.geometry, setup.stiffness, defect.race());
-    let in_plane = |shape: &DentShape| {
-        let dent = Dent::new(geometry, race, *shape, stiffness).ok()?;
-        Some(("Drop of a ball in the dent, in the plane", dent.ball_drop()))
-    };
-    let surface = |shape: &DentShape| {
-        let dent = SurfaceDent::new(geometry, race, *shape, stiffness).ok()?;
-        let name = "Drop of a ball in the dent, in its surface";
-        Some((name, dent.ball_drop()))
-    };
-    match defect {
-        RaceDefect::Dent(dent) if dent.shape().width.is_none() => {
-            vec![("Drop of a ball in the dent", defect.ball_drop())]
-        }
-        RaceDefect::Dent(dent) => {
-            let used = (
-                "Drop of a ball in the dent, in the plane (in use)",
-                defect.ball_drop(),
-            );
-            [Some(used), surface(dent.shape())]
-                .into_iter()
-                .flatten()
-                .collect()
-        }
-        RaceDefect::SurfaceDent(dent) => {
-            let used = (
-                "Drop of a ball in the dent, in its surface (in use)",
-                defect.ball_drop(),
-            );
-            [in_plane(dent.shape()), Some(used)]
-                .into_iter()
-                .flatten()
-                .collect()
-        }
-        RaceDefect::Measured(_) => {
-            vec![("Drop of a ball in the measured profile", defect.ball_drop())]
-        }
-    }
 }
 
 fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {

@@ -45,7 +45,7 @@ impl Edge {
     #[inline]
     pub fn at(over: &Over<'_>, v: f64, f: f64) -> Self {
         let o = over.outline;
-        let (p, k, q, side) = (o.angle(), o.side_sine(), o.tube(), o.circles.side);
+        let (p, k, q, side) = (over.angle, o.side_sine(), o.tube(), o.circles.side);
         let width = ((1.0 - v) * (1.0 + v)).max(0.0).sqrt();
         let sin_psi = k * width;
         let cos_psi = (1.0 - sin_psi * sin_psi).sqrt();
@@ -64,7 +64,8 @@ impl Edge {
         };
         let outward = {
             let across = [q * k * v / cos_psi, radius * p * width];
-            let length = across[0].hypot(across[1]).max(f64::MIN_POSITIVE);
+            let square = across[0] * across[0] + across[1] * across[1];
+            let length = square.sqrt().max(f64::MIN_POSITIVE);
             across.map(|part| part / length)
         };
         let (normal, sine) = if d > 0.0 {
@@ -109,7 +110,7 @@ impl Edge {
         let h_zz = mix(across, along_outline + more * b_z * b_z);
         let h_sz = share * more * b_s * b_z;
         let (mean, half) = (0.5 * (h_ss + h_zz), 0.5 * (h_ss - h_zz));
-        let root = half.hypot(h_sz);
+        let root = (half * half + h_sz * h_sz).sqrt();
         [mean + root, mean - root]
     }
 }

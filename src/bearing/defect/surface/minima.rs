@@ -10,6 +10,9 @@ use super::outline::Over;
 /// Most places of a list: two ends, and what a grid of [`GRID`] intervals leaves room for.
 const MOST_PLACES: usize = 2 * GRID + 2;
 
+/// Most minima: every second of the places between two zeros of F''' on the grid.
+const MOST_MINIMA: usize = GRID + 1;
+
 /// Intervals in which a sign of F''' is looked for.
 const GRID: usize = 8;
 
@@ -20,7 +23,10 @@ const MOST_STEPS: usize = 80;
 const NEWTON_STEPS: usize = 12;
 
 /// Last step at which Newton ends: its next error is the square.
-const STEP_TOLERANCE: f64 = 1e-9;
+const STEP_TOLERANCE: f64 = 1e-7;
+
+/// Bracket at which the search for a zero of F''' ends: F'' is flat there, so that it is found to the square.
+const FLAT_TOLERANCE: f64 = 1e-6;
 
 /// Places v in ascending order, without allocation.
 #[derive(Debug, Clone, Copy)]
@@ -37,13 +43,6 @@ impl Places {
         }
     }
 
-    fn ends() -> Self {
-        let mut ends = Self::none();
-        ends.push(-1.0);
-        ends.push(1.0);
-        ends
-    }
-
     fn push(&mut self, place: f64) {
         if let Some(item) = self.items.get_mut(self.count) {
             *item = place;
@@ -57,9 +56,34 @@ impl Places {
     }
 }
 
-/// Minima of F within −1..1, ends excluded, for a ball at a place.
+/// A minimum within −1..1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Minimum {
+    pub v: f64,
+    /// F, m².
+    pub square: f64,
+    /// F'', m².
+    pub bend: f64,
+}
+
+/// Minima of F within −1..1, ends excluded, for a ball at a place, in ascending order; `ends` are F and its derivatives
+/// at −1 and 1.
 #[inline]
-pub(super) fn inner_minima(over: &Over<'_>, ends: [[f64; 4]; 2]) -> Places {
+pub(super) fn inner_minima(
+    over: &Over<'_>,
+    ends: [[f64; 4]; 2],
+) -> impl Iterator<Item = Minimum> + Clone {
+    let places = inner_places(over, ends);
+    let mut minima = [None; MOST_MINIMA];
+    for (minimum, &v) in minima.iter_mut().zip(places.as_slice()) {
+        let [square, _, bend, _] = over.squares(v);
+        *minimum = Some(Minimum { v, square, bend });
+    }
+    minima.into_iter().flatten()
+}
+
+#[inline]
+fn inner_places(over: &Over<'_>, ends: [[f64; 4]; 2]) -> Places {
     let mut minima = Places::none();
     let slope = |v: f64| {
         let [_, first, second, _] = over.squares(v);
@@ -89,15 +113,24 @@ pub(super) fn inner_minima(over: &Over<'_>, ends: [[f64; 4]; 2]) -> Places {
 /// Ends and zeros of F'''.
 #[cold]
 fn curvature_breaks(over: &Over<'_>) -> Places {
-    let mut breaks = Places::ends();
-    breaks.count = 1;
-    let third = |v: f64| [over.squares(v)[3], f64::NAN];
+    let mut breaks = Places::none();
+    breaks.push(-1.0);
+    let third = |v: f64| over.squares(v)[3];
     let place = |i: usize| -1.0 + 2.0 * i as f64 / GRID as f64;
-    let mut low = third(-1.0)[0];
+    let mut low = third(-1.0);
     for i in 0..GRID {
-        let high = third(place(i + 1))[0];
+        let high = third(place(i + 1));
         if (low < 0.0) != (high < 0.0) {
-            breaks.push(zero([place(i), place(i + 1)], [low, high], third));
+            let (mut from, mut to) = (place(i), place(i + 1));
+            while to - from > FLAT_TOLERANCE {
+                let middle = 0.5 * (from + to);
+                if (third(middle) < 0.0) == (low < 0.0) {
+                    from = middle;
+                } else {
+                    to = middle;
+                }
+            }
+            breaks.push(0.5 * (from + to));
         }
         low = high;
     }
@@ -128,8 +161,7 @@ fn with_ends(inner: &Places) -> Places {
     all
 }
 
-/// The zero between two ends with values of different sign: Newton kept inside the shrinking bracket; halving where the
-/// derivative is NaN.
+/// The zero between two ends with values of different sign: Newton kept inside the shrinking bracket.
 #[inline]
 fn zero(ends: [f64; 2], values: [f64; 2], function: impl Fn(f64) -> [f64; 2]) -> f64 {
     let [mut low, mut high] = ends;

@@ -80,6 +80,13 @@ pub(super) struct Over<'o> {
     pub sunk: f64,
     /// e, m.
     pub excess: f64,
+    /// a/R.
+    pub angle: f64,
+    /// k².
+    side_square: f64,
+    /// `σ q ρ` and K, m².
+    turn: f64,
+    roll: f64,
 }
 
 impl<'o> Over<'o> {
@@ -98,6 +105,10 @@ impl<'o> Over<'o> {
             offset,
             sunk,
             excess: outline.groove - roller + sunk,
+            angle: outline.angle(),
+            side_square: outline.side_sine() * outline.side_sine(),
+            turn: side * outline.tube() * distance,
+            roll: distance * outline.level(),
         }
     }
 
@@ -110,29 +121,26 @@ impl<'o> Over<'o> {
     /// F and its first three derivatives at v, m².
     #[inline]
     pub fn squares(&self, v: f64) -> [f64; 4] {
-        let o = self.outline;
-        let (p, side, q) = (o.angle(), o.circles.side, o.tube());
+        let (p, k2, turn, roll) = (self.angle, self.side_square, self.turn, self.roll);
         let (half_sin, half_cos) = (0.5 * (p * v - self.offset)).sin_cos();
         let one_less = 2.0 * half_sin * half_sin;
         let (sin, cos) = (2.0 * half_sin * half_cos, 1.0 - one_less);
-        let k2 = o.side_sine() * o.side_sine();
         let rest = k2 * (1.0 - v) * (1.0 + v);
         let c = (1.0 - rest).sqrt();
-        let rise = k2 * (1.0 - k2) / (c * c * c);
+        let per_c = 1.0 / c;
+        let rise = k2 * (1.0 - k2) * (per_c * per_c * per_c);
         let w = [
             rest / (1.0 + c),
-            -k2 * v / c,
+            -k2 * v * per_c,
             -rise,
-            3.0 * k2 * v * rise / (c * c),
+            3.0 * k2 * v * rise * (per_c * per_c),
         ];
-        let turn = side * q * self.distance;
         let e = [
-            q * self.excess - turn * one_less,
+            self.outline.tube() * self.excess - turn * one_less,
             -turn * p * sin,
             -turn * p * p * cos,
             turn * p * p * p * sin,
         ];
-        let roll = self.distance * o.level();
         [
             w[0] * e[0] + roll * one_less,
             w[1] * e[0] + w[0] * e[1] + roll * p * sin,
@@ -144,17 +152,14 @@ impl<'o> Over<'o> {
     /// Lower bound of F'' over the whole outline, m², from the largest of every term of it.
     #[inline]
     pub fn least_bend(&self) -> f64 {
-        let o = self.outline;
-        let (p, q) = (o.angle(), o.tube());
-        let k2 = o.side_sine() * o.side_sine();
+        let (p, k2, turn) = (self.angle, self.side_square, self.turn.abs());
         let c = (1.0 - k2).sqrt();
         // farthest angle between ball and outline; its cosine from below, and its sine from above
         let far = p + self.offset.abs();
         let one_less = 0.5 * far * far;
-        let turn = q * self.distance;
-        let e = (q * self.excess).max(0.0) + turn * one_less;
+        let e = (self.outline.tube() * self.excess).max(0.0) + turn * one_less;
         let less = k2 / c * e + 2.0 * k2 * turn * p * far + (1.0 - c) * turn * p * p;
-        self.distance * o.level() * p * p * (1.0 - one_less) - less
+        self.roll * p * p * (1.0 - one_less) - less
     }
 }
 

@@ -4,7 +4,7 @@ use super::super::angle::within;
 use super::super::contacts::{DefectContact, DefectContacts, Feature};
 use super::dent::Surface;
 use super::edge::Edge;
-use super::minima::inner_minima;
+use super::minima::{Minimum, inner_minima};
 use super::outline::{Outline, Over};
 use super::weight;
 
@@ -14,9 +14,7 @@ pub(super) fn to_tube(outline: &Outline, distance: f64, offset: f64) -> f64 {
     let over = Over::new(outline, distance, offset);
     let ends = [-1.0, 1.0].map(|v| over.squares(v));
     let least = inner_minima(&over, ends)
-        .as_slice()
-        .iter()
-        .map(|&v| over.squares(v)[0])
+        .map(|minimum| minimum.square)
         .fold(ends[0][0].min(ends[1][0]), f64::min);
     (over.least() * over.least() + 2.0 * least).max(0.0).sqrt()
 }
@@ -35,7 +33,6 @@ impl Surface {
         let over = Over::new(outline, distance, offset);
         let ends = [-1.0, 1.0].map(|v| over.squares(v));
         let inner = inner_minima(&over, ends);
-        let bends = |v: &f64| over.squares(*v);
         let angle = outline.angle();
         let beside = [offset < -angle, offset >= angle];
         let vertex = [
@@ -46,8 +43,8 @@ impl Surface {
         for (beside, vertex) in beside.into_iter().zip(vertex) {
             sum += if beside { 1.0 } else { vertex };
         }
-        for [_, _, bend, _] in inner.as_slice().iter().map(bends) {
-            sum += weight::pair(outline, bend);
+        for minimum in inner.clone() {
+            sum += weight::pair(outline, minimum.bend);
         }
         let gain = if sum > 0.0 && sum < 1.0 {
             1.0 / sum
@@ -60,9 +57,8 @@ impl Surface {
             let edge = Edge::at(&over, -1.0, ends[0][0]);
             found.push_some(self.on_edge(Feature::RimBefore, &edge, gain * vertex[0]));
         }
-        for &v in inner.as_slice() {
-            let [f, _, bend, _] = over.squares(v);
-            let edge = Edge::at(&over, v, f);
+        for Minimum { v, square, bend } in inner {
+            let edge = Edge::at(&over, v, square);
             let share = gain * weight::pair(outline, bend) * weight::patches(outline, edge.height);
             found.push_some(self.on_edge(Feature::SideEdges, &edge, share));
         }
