@@ -9,7 +9,7 @@
 //! when ball and race overlap. SI throughout.
 //!
 //! # Limitations
-//! Radial bearing in its own plane (contact angle zero); defects in that plane only; no lubricant
+//! Radial bearing in its own plane (contact angle zero), in which balls stay on defects too; no lubricant
 //! film. Balls of different size have the contact stiffness and mass of the nominal one.
 
 pub mod cage;

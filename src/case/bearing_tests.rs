@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::tests::{FULL, near, read, refusal};
-use super::{Defect, Load, RaceName, Slip};
+use super::{Defect, DentProfile, Load, RaceName, Slip};
 
 #[test]
 fn slip_is_a_number_or_a_table_over_time_or_speed() {
@@ -74,6 +74,20 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     let dent = defects("{on='inner',angle_deg=10,length=0.8e-3,depth=15e-6}").unwrap();
     assert!(matches!(&dent[0], Defect::Dent(dent)
         if dent.on == RaceName::Inner && near(dent.rim_radius, 0.05e-3)));
+    assert!(
+        matches!(&dent[0], Defect::Dent(dent) if dent.profile == DentProfile::InPlane && dent.width.is_none())
+    );
+    // wider than the ball, which is not felt in the plane
+    for (profile, width, read) in [
+        ("in-plane", 3e-3, DentProfile::InPlane),
+        ("surface", 0.41e-3, DentProfile::Surface),
+    ] {
+        let set = format!(
+            "{{on='outer',angle_deg=1,length=1e-3,depth=1e-5,width={width},profile='{profile}'}}"
+        );
+        assert!(matches!(&defects(&set).unwrap()[0], Defect::Dent(dent)
+            if dent.profile == read && dent.width.is_some_and(|found| near(found, width))));
+    }
     let measured = defects("{on='outer',angle_deg=10,profile={csv='scan.csv'}}").unwrap();
     assert!(matches!(&measured[0], Defect::Measured(measured)
         if measured.csv == Path::new("folder/scan.csv")));
@@ -113,6 +127,26 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
         (
             "{on='inner',angle_deg=0,length=18e-3,depth=1e-5}",
             "`bearing.defects[0].length`",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surface'}",
+            "found profile = \"surface\" without `width`, expected the dent's extent across the race as `width`, or profile = \"in-plane\"",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surface',width=2e-3}",
+            "`bearing.defects[0].width`: found 0.002, expected below twice `bearing.ball_radius` (0.002)",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surface',width=0}",
+            "`bearing.defects[0].width`: found 0, expected a number above 0",
+        ),
+        (
+            "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surfaces',width=2e-4}",
+            "`bearing.defects[0].profile` is \"surfaces\", expected one of `in-plane`, `surface`",
+        ),
+        (
+            "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5,profile='surface'}",
+            "found profile = \"surface\" beside a ball, expected keys of a ball's flat",
         ),
     ] {
         let error = defects(set).unwrap_err().to_string();

@@ -26,10 +26,12 @@ pub struct DentDefect {
     pub angle_deg: f64,
     /// Extent along the rolling direction, below the race's circumference.
     pub length: f64,
-    /// Extent across the rolling direction; not felt in the plane.
+    /// Extent across the rolling direction; not felt in the plane, and there with [`DentProfile::Surface`].
     pub width: Option<f64>,
     /// Greatest depth below the undeformed race, below the ball's radius.
     pub depth: f64,
+    /// What of the dent is felt.
+    pub profile: DentProfile,
     /// Radius by which the edge is rounded, below half the length.
     pub rim_radius: f64,
     /// Curvature of the contact at its bottom.
@@ -62,6 +64,16 @@ pub struct FlatDefect {
     pub rim_radius: f64,
     /// Curvature of the contact on it.
     pub curvature: DefectCurvature,
+}
+
+/// What of a dent's shape a ball feels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum DentProfile {
+    /// Its section in the plane of the bearing, as if it were as wide as the groove.
+    #[default]
+    InPlane,
+    /// The depression in three dimensions, over which the ball may bridge.
+    Surface,
 }
 
 /// A race.
@@ -109,12 +121,15 @@ struct ProfileFile<T> {
     csv: T,
 }
 
-/// `"in-plane"`, or a file.
+/// `"in-plane"`, `"surface"`, or a file.
 #[derive(Clone, PartialEq)]
 enum Profile {
-    InPlane,
+    Dent(DentProfile),
     File(PathBuf),
 }
+
+const IN_PLANE: &str = "in-plane";
+const SURFACE: &str = "surface";
 
 written_as!(Profile, Loose<ProfileFile<PathBuf>>);
 
@@ -123,13 +138,14 @@ impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
 
     fn try_from(form: Loose<ProfileFile<PathBuf>>) -> Result<Self, Mismatch> {
         match form {
-            Loose::Word(word) if word == "in-plane" => Ok(Self::InPlane),
+            Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
+            Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
             Loose::Word(found) => Err(Mismatch::Word {
                 found,
-                valid: &["in-plane"],
+                valid: &[IN_PLANE, SURFACE],
             }),
             Loose::Table(file) => Ok(Self::File(file.csv)),
-            other => Err(other.mismatch("\"in-plane\", or { csv = \"FILE\" }")),
+            other => Err(other.mismatch("\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
         }
     }
 }
@@ -137,7 +153,8 @@ impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
 impl From<Profile> for Loose<ProfileFile<PathBuf>> {
     fn from(profile: Profile) -> Self {
         match profile {
-            Profile::InPlane => Self::Word("in-plane".to_owned()),
+            Profile::Dent(DentProfile::InPlane) => Self::Word(IN_PLANE.to_owned()),
+            Profile::Dent(DentProfile::Surface) => Self::Word(SURFACE.to_owned()),
             Profile::File(csv) => Self::Table(ProfileFile { csv }),
         }
     }
@@ -202,37 +219,56 @@ impl TryFrom<DefectForm> for Defect {
             RACE,
         )?;
         let angle_deg = given(form.angle_deg, "angle_deg")?;
-        if let Some(Profile::File(csv)) = form.profile {
-            const FILE: &str = "the profile in the file alone";
-            without(form.length.is_some(), "`length` beside a file", FILE)?;
-            without(form.width.is_some(), "`width` beside a file", FILE)?;
-            without(form.depth.is_some(), "`depth` beside a file", FILE)?;
-            without(
-                form.rim_radius.is_some(),
-                "`rim_radius` beside a file",
-                FILE,
-            )?;
-            without(form.curvature.is_some(), "`curvature` beside a file", FILE)?;
-            return Ok(Self::Measured(MeasuredDefect { on, angle_deg, csv }));
-        }
+        let profile = match &form.profile {
+            None => DentProfile::default(),
+            Some(Profile::Dent(profile)) => *profile,
+            Some(Profile::File(csv)) => {
+                only_file(&form)?;
+                let csv = csv.clone();
+                return Ok(Self::Measured(MeasuredDefect { on, angle_deg, csv }));
+            }
+        };
+        const WIDTH: &str =
+            "the dent's extent across the race as `width`, or profile = \"in-plane\"";
+        let wide = profile == DentProfile::InPlane || form.width.is_some();
+        without(!wide, "profile = \"surface\" without `width`", WIDTH)?;
         Ok(Self::Dent(DentDefect {
             on,
             angle_deg,
             length: given(form.length, "length")?,
             width: form.width,
             depth: given(form.depth, "depth")?,
+            profile,
             rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
             curvature: form.curvature.unwrap_or_default(),
         }))
     }
 }
 
+/// Refuses what describes a dent.
+fn only_file(form: &DefectForm) -> Result<(), Mismatch> {
+    const FILE: &str = "the profile in the file alone";
+    without(form.length.is_some(), "`length` beside a file", FILE)?;
+    without(form.width.is_some(), "`width` beside a file", FILE)?;
+    without(form.depth.is_some(), "`depth` beside a file", FILE)?;
+    let rim = form.rim_radius.is_some();
+    without(rim, "`rim_radius` beside a file", FILE)?;
+    without(form.curvature.is_some(), "`curvature` beside a file", FILE)
+}
+
 fn flat(form: DefectForm) -> Result<FlatDefect, Mismatch> {
     const BALL: &str = "keys of a ball's flat";
     without(form.length.is_some(), "`length` beside a ball", BALL)?;
     without(form.width.is_some(), "`width` beside a ball", BALL)?;
-    let file = matches!(form.profile, Some(Profile::File(_)));
-    without(file, "a measured `profile` beside a ball", BALL)?;
+    match form.profile {
+        Some(Profile::File(_)) => {
+            return Err(Mismatch::form("a measured `profile` beside a ball", BALL));
+        }
+        Some(Profile::Dent(DentProfile::Surface)) => {
+            return Err(Mismatch::form("profile = \"surface\" beside a ball", BALL));
+        }
+        Some(Profile::Dent(DentProfile::InPlane)) | None => {}
+    }
     Ok(FlatDefect {
         ball: given(form.ball, "ball")?,
         angle_deg: form.angle_deg.unwrap_or(0.0),
@@ -268,7 +304,7 @@ impl From<Defect> for DefectForm {
                 length: Some(dent.length),
                 width: dent.width,
                 depth: Some(dent.depth),
-                profile: Some(Profile::InPlane),
+                profile: Some(Profile::Dent(dent.profile)),
                 rim_radius: Some(dent.rim_radius),
                 curvature: Some(dent.curvature),
                 ..empty

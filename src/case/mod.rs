@@ -58,7 +58,9 @@ pub use bearing::{
 };
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
-pub use defect::{Defect, DefectCurvature, DentDefect, FlatDefect, MeasuredDefect, RaceName};
+pub use defect::{
+    Defect, DefectCurvature, DentDefect, DentProfile, FlatDefect, MeasuredDefect, RaceName,
+};
 pub use document::Source;
 pub use error::{CaseError, Place};
 pub use frf::{Frf, Push};

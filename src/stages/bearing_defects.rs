@@ -2,10 +2,11 @@
 
 use super::StageError;
 use crate::bearing::defect::{
-    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect, reduced,
+    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect,
+    SurfaceDent, reduced,
 };
 use crate::bearing::{BearingGeometry, ContactStiffness, Race, Wave};
-use crate::case::{self, Defect, DefectCurvature, RaceName};
+use crate::case::{self, Defect, DefectCurvature, DentProfile, RaceName};
 use crate::system::FlatOnBall;
 use std::path::Path;
 
@@ -33,12 +34,20 @@ pub(super) fn defects(
                 let shape = DentShape {
                     angle: dent.angle_deg.to_radians(),
                     length: dent.length,
+                    width: dent.width,
                     depth: dent.depth,
                     rim_radius: dent.rim_radius,
                     curvature: reading(dent.curvature),
                 };
-                let dent = Dent::new(geometry, race(dent.on), shape, stiffness);
-                race_defects.push((index, RaceDefect::Dent(dent.map_err(refused)?)));
+                let on = race(dent.on);
+                let dent = match dent.profile {
+                    DentProfile::InPlane => {
+                        Dent::new(geometry, on, shape, stiffness).map(RaceDefect::Dent)
+                    }
+                    DentProfile::Surface => SurfaceDent::new(geometry, on, shape, stiffness)
+                        .map(RaceDefect::SurfaceDent),
+                };
+                race_defects.push((index, dent.map_err(refused)?));
             }
             Defect::Measured(measured) => {
                 let samples = read_profile(index, &measured.csv)?;

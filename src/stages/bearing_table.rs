@@ -1,6 +1,6 @@
 //! Everything about a bearing in one table: geometry, orders, contacts.
 
-use crate::bearing::defect::RaceDefect;
+use super::dent_drops::drops;
 use crate::bearing::{BearingGeometry, Race, RaceContacts};
 use crate::closed_form::hertz::HertzStiffness;
 use crate::report::{Cell, Column, Table, significant};
@@ -77,12 +77,10 @@ pub fn bearing_table(
         );
     }
     for defect in &setup.race_defects {
-        let name = match defect {
-            RaceDefect::Dent(_) => "Drop of a ball in the dent",
-            RaceDefect::Measured(_) => "Drop of a ball in the measured profile",
-        };
-        let drop = Cell::number(1e6 * defect.ball_drop(), 4);
-        rows = rows.cells(name, "\u{b5}m", on_race(defect.race(), drop));
+        for (name, drop) in drops(&setup.geometry, setup.stiffness, defect) {
+            let drop = Cell::number(1e6 * drop, 4);
+            rows = rows.cells(name, "\u{b5}m", on_race(defect.race(), drop));
+        }
     }
     for flat in &setup.flats {
         let drop = |race| 1e6 * flat.shape.ball_drop(race);

@@ -2,7 +2,7 @@
 
 use super::StructureStage;
 use crate::bearing::Race;
-use crate::bearing::defect::RaceDefect;
+use crate::bearing::defect::{DentShape, RaceDefect};
 use crate::case::{Case, SensorSpot};
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
@@ -161,11 +161,8 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
         };
         let length = 2.0 * defect.half_angle() * race.radius;
         let label = match defect {
-            RaceDefect::Dent(dent) => format!(
-                "dent {:.2} mm long, {:.0} \u{b5}m deep",
-                dent.shape().length * 1e3,
-                dent.shape().depth * 1e6
-            ),
+            RaceDefect::Dent(dent) => dent_label(dent.shape()),
+            RaceDefect::SurfaceDent(dent) => dent_label(dent.shape()),
             RaceDefect::Measured(_) => format!("profile {:.2} mm long", length * 1e3),
         };
         drawing.dents.push(Dent {
@@ -175,6 +172,11 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
             label,
         });
     }
+}
+
+fn dent_label(shape: &DentShape) -> String {
+    let [long, deep] = [shape.length * 1e3, shape.depth * 1e6];
+    format!("dent {long:.2} mm long, {deep:.0} \u{b5}m deep")
 }
 
 fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {

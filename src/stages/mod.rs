@@ -15,6 +15,7 @@ mod condense_report;
 mod condensed;
 mod convergence;
 mod damping;
+mod dent_drops;
 mod drawing;
 mod energy_tables;
 mod error;

@@ -251,6 +251,7 @@ fn the_linearisation_on_what_is_no_circle_is_that_of_the_force() {
         let shape = DentShape {
             angle: below + aside,
             length: 0.75e-3,
+            width: None,
             depth: 0.3e-6,
             rim_radius: 0.05e-3,
             curvature: CurvatureReading::Total,

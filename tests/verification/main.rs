@@ -17,6 +17,7 @@ mod ring_in_space;
 mod rings_of_solids;
 mod setup;
 mod superelement;
+mod surface_dents;
 mod tet10_integration;
 mod tie;
 mod tie_in_space;

@@ -1,6 +1,6 @@
 //! What a ball at a defect touches: a few contacts, without allocation.
 
-/// Most contacts that an answer holds. A dent or a flat has up to three (rim, floor, rim). On a measured profile
+/// Most contacts that an answer holds. A dent or a flat has up to three (rim, floor, rim), with a width up to six. On a measured profile
 /// the ones with the largest overlaps are kept.
 pub const MOST_CONTACTS: usize = 8;
 
@@ -17,6 +17,8 @@ pub enum Feature {
     RimAfter,
     /// Measured profile.
     Measured,
+    /// Both side edges of a dent with a width, at ±z: two contacts in one, or what is left of two where they merge.
+    SideEdges,
 }
 
 /// One contact of one ball with one race.
@@ -24,6 +26,8 @@ pub enum Feature {
 /// The force on the race is `F n`, on the ball `−F n`, with `F = k δ^{3/2}` for δ > 0. n points from the ball
 /// into the race and is given in the ball's polar frame about the race's centre: outwards along the ball's
 /// radius vector, and counter-clockwise. On an undamaged outer race n is (1, 0), on an inner one (−1, 0).
+/// At the side edges of a dent with a width these are the components in the plane of a pair's two normals, whose third
+/// ones cancel: n is shorter than 1, and k is both contacts'.
 /// `∂δ/∂ρ = n_radial` and `(1/ρ) ∂δ/∂θ = n_tangential`, with race and ball kept from turning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectContact {
@@ -83,6 +87,14 @@ impl DefectContacts {
             self.count += 1;
         } else {
             self.push_beyond(contact);
+        }
+    }
+
+    /// Adds a contact if there is one.
+    #[inline]
+    pub(super) fn push_some(&mut self, contact: Option<DefectContact>) {
+        if let Some(contact) = contact {
+            self.push(contact);
         }
     }
 

@@ -27,7 +27,17 @@ pub enum CurvatureReading {
     Paper,
 }
 
-/// Elliptical dent in a race, in the plane of the bearing (the source's Figure 8 without the width).
+impl CurvatureReading {
+    /// Relative curvature (1/m) from which a dent's own is taken.
+    pub(super) fn base(self, circles: &Circles) -> f64 {
+        match self {
+            Self::Total => circles.relative,
+            Self::Paper => circles.roller_curvature(),
+        }
+    }
+}
+
+/// Elliptical dent in a race (the source's Figure 8); its width matters to [`SurfaceDent`](super::SurfaceDent) alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DentShape {
     /// Angle of the dent's middle, counter-clockwise, rad; any turn. On the outer race from x, on the inner
@@ -35,6 +45,8 @@ pub struct DentShape {
     pub angle: f64,
     /// Length 2a along the undeformed race, m, positive.
     pub length: f64,
+    /// Extent 2c across the race, m, which [`SurfaceDent`](super::SurfaceDent) needs and [`Dent`] does not feel.
+    pub width: Option<f64>,
     /// Depth b at the middle, measured radially from the undeformed race, m, positive, at most a quarter of the length.
     pub depth: f64,
     /// Radius of the convex arc that rounds both ends, m, positive; [`DEFAULT_RIM_RADIUS`].
@@ -45,7 +57,7 @@ pub struct DentShape {
 
 impl DentShape {
     /// Checks what can be said without the bearing.
-    fn check(&self) -> Result<(), DefectError> {
+    pub(super) fn check(&self) -> Result<(), DefectError> {
         finite_angle(self.angle)?;
         positive("length", self.length)?;
         positive("depth", self.depth)?;
@@ -102,10 +114,7 @@ impl Dent {
             half_length: 0.5 * shape.length,
             depth: shape.depth,
         });
-        let base = match shape.curvature {
-            CurvatureReading::Total => circles.relative,
-            CurvatureReading::Paper => circles.roller_curvature(),
-        };
+        let base = shape.curvature.base(&circles);
         Ok(Self {
             shape,
             race,

@@ -20,6 +20,23 @@ const LEAST_RIM: f64 = 1e-6;
 /// Largest rim radius on a convex circle, as a fraction of its radius: beyond it the arc is no edge any more.
 const RIM_LIMIT: f64 = 0.5;
 
+/// Refuses a rim radius (m) that is out of range for the circle that it rounds.
+pub(super) fn rim_rules(circles: &Circles, rim_radius: f64) -> Result<(), DefectError> {
+    let refused = |rule| {
+        let (key, value) = ("rim_radius", rim_radius);
+        Err(DefectError::Value { key, value, rule })
+    };
+    if rim_radius < LEAST_RIM * circles.carrier {
+        return refused(
+            "must be at least a millionth of the radius of the race or ball that it rounds",
+        );
+    }
+    if circles.side < 0.0 && rim_radius > RIM_LIMIT * circles.carrier {
+        return refused("must be at most half the radius of the race or ball that it rounds");
+    }
+    Ok(())
+}
+
 /// The solved profile.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Depression {
@@ -62,20 +79,7 @@ impl Depression {
                 limit,
             });
         }
-        if rim_radius < LEAST_RIM * circles.carrier {
-            return Err(DefectError::Value {
-                key: "rim_radius",
-                value: rim_radius,
-                rule: "must be at least a millionth of the radius of the race or ball that it rounds",
-            });
-        }
-        if circles.side < 0.0 && rim_radius > RIM_LIMIT * circles.carrier {
-            return Err(DefectError::Value {
-                key: "rim_radius",
-                value: rim_radius,
-                rule: "must be at most half the radius of the race or ball that it rounds",
-            });
-        }
+        rim_rules(&circles, rim_radius)?;
         let rim = Rim::new(&circles, &floor, rim_radius);
         let opened = 2.0 * rim.angle * circles.carrier;
         if opened > OPENING_LIMIT * length {

@@ -27,6 +27,22 @@ pub enum DefectError {
         /// Length, m.
         length: f64,
     },
+    /// A dent in three dimensions without its width.
+    #[error(
+        "defect profile = \"surface\" needs width, the dent's extent across the race: give it, or use profile = \"in-plane\""
+    )]
+    NoWidth,
+    /// Too deep for its width.
+    #[error(
+        "defect depth {depth} m is more than a quarter of its width {width} m: take a shallower or a wider dent, or \
+         profile = \"in-plane\""
+    )]
+    TooDeepForWidth {
+        /// Depth, m.
+        depth: f64,
+        /// Width, m.
+        width: f64,
+    },
     /// The rim takes away so much that little of the given dent or flat is left.
     #[error(
         "defect rim_radius {rim_radius} m opens a dent of length {length} m to {opened} m, more than {limit} times: \

@@ -1,12 +1,14 @@
-//! Defects in the plane of the bearing, and where a ball touches them.
+//! Defects, and where a ball that stays in the plane of the bearing touches them.
 //!
 //! | defect | what a user gives | solved once | asked in the hot loop |
 //! |---|---|---|---|
 //! | dent in either race | [`DentShape`] | [`Dent`] | [`Dent::contacts`] |
+//! | the same in three dimensions | [`DentShape`] with a width | [`SurfaceDent`] | [`SurfaceDent::contacts`] |
 //! | measured profile of either race | samples | [`MeasuredProfile`] | [`MeasuredProfile::contacts`] |
 //! | flat on a ball | [`FlatShape`] | [`BallFlat`] | [`BallFlat::contacts`], race by race |
 //!
-//! [`RaceDefect`] is either of the first two. A profile lies in a circle: a race or a ball. Depth is measured
+//! [`RaceDefect`] is any of the first three; what follows is about sections in the plane, and `surface` is about the
+//! second. A profile lies in a circle: a race or a ball. Depth is measured
 //! from that circle into the material, D(s) over the arc length s from the middle of the defect:
 //!
 //! ```text
@@ -48,7 +50,8 @@
 //! of a micron a contact fades within nanometres of the ball's way, continuous and yet a jump for a time step. The
 //! stiffness follows the position, so that a contact moving along the profile exchanges a little energy that no
 //! potential accounts for: with k held the force is the gradient of `(2/5) k δ^{5/2}`, and what is missing is
-//! `(2/5) δ^{5/2} ∇k`. The width of a defect does not enter.
+//! `(2/5) δ^{5/2} ∇k`. The width of a defect enters in a [`SurfaceDent`] alone, and there a dent narrower than a patch is
+//! felt as a weakened pair of edges.
 
 mod angle;
 mod arc;
@@ -72,6 +75,7 @@ mod samples_check;
 mod sinking;
 mod spline;
 mod stiffness;
+mod surface;
 mod vector;
 
 #[cfg(test)]
@@ -86,3 +90,4 @@ pub use flat::{BallFlat, FlatShape};
 pub use measured::MeasuredProfile;
 pub use race_defect::RaceDefect;
 pub use rim::RIM_BLEND;
+pub use surface::SurfaceDent;

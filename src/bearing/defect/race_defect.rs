@@ -3,6 +3,7 @@
 use super::contacts::DefectContacts;
 use super::dent::{Dent, PolarPosition};
 use super::measured::MeasuredProfile;
+use super::surface::SurfaceDent;
 use crate::bearing::materials::Race;
 
 /// What is wrong with a race at one place; each answers for its own arc.
@@ -11,8 +12,10 @@ use crate::bearing::materials::Race;
 /// and angles less the shaft's angle.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RaceDefect {
-    /// Elliptical dent.
+    /// Elliptical dent in the plane.
     Dent(Dent),
+    /// Elliptical dent in three dimensions.
+    SurfaceDent(SurfaceDent),
     /// Measured profile.
     Measured(MeasuredProfile),
 }
@@ -23,6 +26,7 @@ impl RaceDefect {
     pub fn race(&self) -> Race {
         match self {
             Self::Dent(dent) => dent.race(),
+            Self::SurfaceDent(dent) => dent.race(),
             Self::Measured(profile) => profile.race(),
         }
     }
@@ -32,6 +36,7 @@ impl RaceDefect {
     pub fn angle(&self) -> f64 {
         match self {
             Self::Dent(dent) => dent.shape().angle,
+            Self::SurfaceDent(dent) => dent.shape().angle,
             Self::Measured(profile) => profile.angle(),
         }
     }
@@ -41,6 +46,7 @@ impl RaceDefect {
     pub fn half_angle(&self) -> f64 {
         match self {
             Self::Dent(dent) => dent.half_angle(),
+            Self::SurfaceDent(dent) => dent.half_angle(),
             Self::Measured(profile) => profile.half_angle(),
         }
     }
@@ -50,6 +56,7 @@ impl RaceDefect {
     pub fn contact_half_angle(&self) -> f64 {
         match self {
             Self::Dent(dent) => dent.contact_half_angle(),
+            Self::SurfaceDent(dent) => dent.contact_half_angle(),
             Self::Measured(profile) => profile.contact_half_angle(),
         }
     }
@@ -59,6 +66,7 @@ impl RaceDefect {
     pub fn profile_radius(&self, angle: f64) -> f64 {
         match self {
             Self::Dent(dent) => dent.profile_radius(angle),
+            Self::SurfaceDent(dent) => dent.profile_radius(angle),
             Self::Measured(profile) => profile.profile_radius(angle),
         }
     }
@@ -68,6 +76,7 @@ impl RaceDefect {
     pub fn ball_drop(&self) -> f64 {
         match self {
             Self::Dent(dent) => dent.ball_drop(),
+            Self::SurfaceDent(dent) => dent.ball_drop(),
             Self::Measured(profile) => profile.ball_drop(),
         }
     }
@@ -87,16 +96,18 @@ impl RaceDefect {
     pub fn contains(&self, angle: f64) -> bool {
         match self {
             Self::Dent(dent) => dent.contains(angle),
+            Self::SurfaceDent(dent) => dent.contains(angle),
             Self::Measured(profile) => profile.contains(angle),
         }
     }
 
-    /// All contacts of a ball; see [`Dent::contacts`] and [`MeasuredProfile::contacts`].
+    /// All contacts of a ball; see [`Dent::contacts`], [`SurfaceDent::contacts`] and [`MeasuredProfile::contacts`].
     #[must_use]
     #[inline]
     pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
         match self {
             Self::Dent(dent) => dent.contacts(ball),
+            Self::SurfaceDent(dent) => dent.contacts(ball),
             Self::Measured(profile) => profile.contacts(ball),
         }
     }

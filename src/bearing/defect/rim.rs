@@ -117,22 +117,8 @@ impl Rim {
     }
 
     /// Angle from the defect's middle, on the other side of it, beyond which no roller presses on this arc, rad.
-    ///
-    /// The roller's centre is `C = c − G m`, c the arc's centre and `G = roller + r` at first touch. Seen from
-    /// the carrier's centre it is farthest from c for the steepest contact, at the joint, unless the line of
-    /// sight touches the circle of radius G about c before; and for δ = 0, since an overlap moves it back.
     pub fn farthest_centre(&self, circles: &Circles) -> f64 {
-        let (side, sign) = (circles.side, circles.sign());
-        let level = circles.carrier + side * self.radius;
-        let reach = circles.roller + self.radius;
-        let mut cosine = (1.0 - self.sine_end * self.sine_end).max(0.0).sqrt();
-        let turning = side * reach / level;
-        if turning < 1.0 {
-            cosine = cosine.max(turning);
-        }
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let across = sign * reach * sine;
-        across.atan2(sign * (level - side * reach * cosine)) - self.angle
+        farthest_centre(circles, self.radius, self.sine_end) - self.angle
     }
 
     /// Distance from the carrier's centre to the arc at `offset` from the defect's middle, m; `None` where
@@ -161,6 +147,26 @@ impl Rim {
             side * (held - (circles.carrier - side * circles.roller))
         })
     }
+}
+
+/// Angle, rad, from a rim's centre to the farthest roller's centre that presses on its arc, of `radius` (m) and contact
+/// angles up to that of `sine_end`.
+///
+/// The roller's centre is `C = c − G m`, c the arc's centre and `G = roller + r` at first touch. Seen from
+/// the carrier's centre it is farthest from c for the steepest contact, at the joint, unless the line of
+/// sight touches the circle of radius G about c before; and for δ = 0, since an overlap moves it back.
+pub(super) fn farthest_centre(circles: &Circles, radius: f64, sine_end: f64) -> f64 {
+    let (side, sign) = (circles.side, circles.sign());
+    let level = circles.carrier + side * radius;
+    let reach = circles.roller + radius;
+    let mut cosine = (1.0 - sine_end * sine_end).max(0.0).sqrt();
+    let turning = side * reach / level;
+    if turning < 1.0 {
+        cosine = cosine.max(turning);
+    }
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let across = sign * reach * sine;
+    across.atan2(sign * (level - side * reach * cosine))
 }
 
 /// 0 below zero, 1 above one, `3 x² − 2 x³` between: continuous with its slope.

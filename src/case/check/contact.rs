@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, FlatDefect, Formulation,
-    RaceName, Slip,
+    BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect,
+    Formulation, RaceName, Slip,
 };
 use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
@@ -193,6 +193,11 @@ fn dent_rules(
     above_zero(at("rim_radius"), dent.rim_radius)?;
     if let Some(width) = dent.width {
         above_zero(at("width"), width)?;
+        if dent.profile == DentProfile::Surface {
+            // every groove is wider than the ball
+            let diameter = 2.0 * bearing.ball_radius;
+            below(at("width"), width, "twice `bearing.ball_radius`", diameter)?;
+        }
     }
     let radius = match dent.on {
         RaceName::Inner => bearing.inner_race_radius,

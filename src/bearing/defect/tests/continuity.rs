@@ -50,7 +50,7 @@ fn remaining_jump(place: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> [
 /// length at 1e10 N/m, the steepest fade, a hundred times over). A jump would stay.
 #[test]
 fn force_and_stiffness_are_continuous_in_position() {
-    for (name, subject) in subjects() {
+    for (name, subject) in every_subject() {
         let wide = 1.2 * subject.contact_half_angle();
         let level =
             [-1e-6, 0.5e-6, 2e-6, 5e-6, 15e-6, 25e-6].map(|sunk| ([sunk, -wide], [sunk, wide]));
@@ -91,53 +91,82 @@ fn force_and_stiffness_are_continuous_in_position() {
 /// and both sides of it agree to 1e-6 N (as above), for every such change on many straight paths.
 #[test]
 fn nothing_jumps_where_contacts_change() {
-    const STEPS: u32 = 400;
     let mut numbers = Numbers(23);
     let mut borders = 0;
-    for (name, subject) in subjects() {
-        let wide = 1.1 * subject.contact_half_angle();
-        for _ in 0..24 {
-            let end = |numbers: &mut Numbers| {
-                [
-                    -2e-6 + 30e-6 * numbers.next(),
-                    wide * (2.0 * numbers.next() - 1.0),
-                ]
-            };
-            let (from, to) = (end(&mut numbers), end(&mut numbers));
-            let mix = |x: f64, i: usize| from[i] + x * (to[i] - from[i]);
-            let features = |x: f64| {
-                let found = subject.contacts(mix(x, 0), mix(x, 1));
-                let place = |sum: u32, c: &DefectContact| 8 * sum + 1 + c.feature as u32;
-                found.pressing().fold(0, place)
-            };
-            let mut before = features(0.0);
-            for i in 0..STEPS {
-                let [mut low, mut high] = [i, i + 1].map(|i| f64::from(i) / f64::from(STEPS));
-                let after = features(high);
-                if after == before {
-                    continue;
-                }
-                for _ in 0..48 {
-                    let middle = 0.5 * (low + high);
-                    if features(middle) == before {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                let [left, right] = [low, high].map(|x| response(subject, mix(x, 0), mix(x, 1)));
-                for (a, b) in left.iter().zip(right) {
-                    assert!(
-                        (a - b).abs() < 1e-6,
-                        "{name}: {left:?} {right:?} at {low} of {from:?} to {to:?}"
-                    );
-                }
-                borders += 1;
-                before = after;
-            }
-        }
+    for (name, subject) in every_subject() {
+        borders += borders_of(name, subject, &mut numbers);
     }
     assert!(borders > 1000, "only {borders}");
+}
+
+/// The same over dents in three dimensions of any proportions, many of them about as curved along their outline as the ball.
+#[test]
+fn nothing_jumps_on_random_dents_in_space() {
+    let mut numbers = Numbers(31);
+    let mut borders = 0;
+    for i in 0..120 {
+        let race = [Race::Outer, Race::Inner][i % 2];
+        let length = numbers.between(0.1e-3, 0.6e-3);
+        let depth = numbers.between(1e-6, 0.05 * length);
+        let ratio = numbers.between(0.3, 3.0);
+        let rim = numbers.between(10e-6, 0.2 * length);
+        let shape = surface::conforming(race, length, ratio, depth, rim);
+        let (bearing, stiffness) = (source_bearing(), source_stiffness());
+        let Ok(dent) = SurfaceDent::new(&bearing, race, shape, stiffness) else {
+            continue;
+        };
+        let subject = Subject::race(RaceDefect::SurfaceDent(dent));
+        borders += borders_of("random dent in space", &subject, &mut numbers);
+    }
+    assert!(borders > 1000, "only {borders}");
+}
+
+/// Checks the borders on random paths over a subject, and counts them.
+fn borders_of(name: &str, subject: &Subject, numbers: &mut Numbers) -> u32 {
+    const STEPS: u32 = 400;
+    let mut borders = 0;
+    let wide = 1.1 * subject.contact_half_angle();
+    for _ in 0..24 {
+        let end = |numbers: &mut Numbers| {
+            [
+                -2e-6 + 30e-6 * numbers.next(),
+                wide * (2.0 * numbers.next() - 1.0),
+            ]
+        };
+        let (from, to) = (end(numbers), end(numbers));
+        let mix = |x: f64, i: usize| from[i] + x * (to[i] - from[i]);
+        let features = |x: f64| {
+            let found = subject.contacts(mix(x, 0), mix(x, 1));
+            let place = |sum: u32, c: &DefectContact| 8 * sum + 1 + c.feature as u32;
+            found.pressing().fold(0, place)
+        };
+        let mut before = features(0.0);
+        for i in 0..STEPS {
+            let [mut low, mut high] = [i, i + 1].map(|i| f64::from(i) / f64::from(STEPS));
+            let after = features(high);
+            if after == before {
+                continue;
+            }
+            for _ in 0..48 {
+                let middle = 0.5 * (low + high);
+                if features(middle) == before {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let [left, right] = [low, high].map(|x| response(subject, mix(x, 0), mix(x, 1)));
+            for (a, b) in left.iter().zip(right) {
+                assert!(
+                    (a - b).abs() < 1e-6,
+                    "{name}: {left:?} {right:?} at {low} of {from:?} to {to:?}"
+                );
+            }
+            borders += 1;
+            before = after;
+        }
+    }
+    borders
 }
 
 /// At the last digits about a profile's ends there is one contact: on the race or on the profile, never on neither.
@@ -162,7 +191,7 @@ fn a_profile_and_its_race_leave_no_gap() {
 /// Beside its arc every defect is the plain race, and at the arc's ends it passes into it.
 #[test]
 fn the_race_begins_where_the_arc_ends() {
-    for (name, subject) in subjects() {
+    for (name, subject) in every_subject() {
         let (circles, edge) = (subject.circles, subject.half_angle());
         let outward = subject.contacts(3e-6, 1.5 * subject.contact_half_angle());
         let [plain] = outward.as_slice() else {
@@ -203,7 +232,7 @@ fn mirror_image() {
         .rev()
         .map(|&(s, d)| (length - s, d))
         .collect();
-    for (name, subject) in subjects() {
+    for (name, subject) in every_subject() {
         let image = match &subject.kind {
             Kind::Race(pit) if *name == "scratched pit" => {
                 Subject::race(RaceDefect::Measured(profile(pit.race(), &turned)))
@@ -246,7 +275,7 @@ fn no_nan_for_finite_positions() {
         let dent = solved(race, dent_shape(1e-3, 1e-300, 5e-5));
         ("vanishing dent", Subject::race(RaceDefect::Dent(dent)))
     });
-    for (name, subject) in subjects().iter().chain(&nothing) {
+    for (name, subject) in every_subject().chain(&nothing) {
         let middles = [0.0, 0.3, 0.999, 1.0, -1.0].map(|x| x * subject.half_angle());
         for offset in middles.into_iter().chain([0.5, PI, -1e9, 1e300]) {
             for distance in lengths {

@@ -6,6 +6,10 @@ mod energy;
 mod flats;
 mod measured;
 mod search;
+mod surface;
+mod surface_search;
+
+pub(super) use surface::source_outline;
 
 use super::circles::Circles;
 use super::vector::Vector;
@@ -128,6 +132,7 @@ fn dent_shape(length: f64, depth: f64, rim_radius: f64) -> DentShape {
     DentShape {
         angle: MIDDLE,
         length,
+        width: None,
         depth,
         rim_radius,
         curvature: CurvatureReading::Total,
@@ -232,6 +237,11 @@ static SUBJECTS: LazyLock<Vec<(&'static str, Subject)>> = LazyLock::new(|| {
     }
     all
 });
+
+/// Those and dents in three dimensions.
+fn every_subject<'a>() -> impl Iterator<Item = &'a (&'static str, Subject)> {
+    subjects().iter().chain(surface::subjects())
+}
 
 /// A dent whose floor is nowhere as tight as the ball: the rim takes the ends of the ellipse.
 fn smooth_shape(race: Race) -> DentShape {

@@ -1,0 +1,139 @@
+//! The floor in the plane z = 0, where a ball touches it if it touches it at all.
+//!
+//! Across the rolling direction the floor at t (`s = a sin t`) is more concave than the groove by `β = b / (c² cos t)`.
+//! Where that reaches κ_t the ball cannot touch it: it rests on the edges, for which half of that is enough. So the
+//! contact fades by β as it does by the curvature in the rolling direction, and where the floor runs under the rim.
+
+use super::super::circles::Circles;
+use super::super::contacts::{DefectContact, Feature};
+use super::super::curve::bisect;
+use super::super::ellipse::Ellipse;
+use super::super::fade::{FLOOR_FADE, Fade};
+use super::super::rim::smoothstep;
+use super::super::stiffness::CurvatureStiffness;
+use super::super::vector::Vector;
+use super::outline::Outline;
+use super::query::to_tube;
+
+/// The floor's section in the plane, as far as a ball can touch it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bottom {
+    ellipse: Ellipse,
+    circles: Circles,
+    fade: Fade,
+    /// κ_t, 1/m.
+    across: f64,
+    /// b/c², 1/m.
+    spread: f64,
+    /// Relative curvature from which the ellipse's is taken for the stiffness, 1/m, and what it lacks of the race's.
+    base: f64,
+    shortfall: f64,
+    /// Where the floor meets the rim, rad.
+    corner: f64,
+    reach: Option<Reach>,
+}
+
+/// Touchable for |t| below `limit`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Reach {
+    limit: f64,
+    end_point: Vector,
+    end_tangent: Vector,
+}
+
+impl Bottom {
+    /// The floor of `outline`; `base` (1/m) as [`super::super::depression::Depression::new`] takes it.
+    pub fn new(outline: &Outline, base: f64) -> Self {
+        let circles = outline.circles;
+        let ellipse = Ellipse {
+            carrier: circles.carrier,
+            side: circles.side,
+            half_length: outline.half_length,
+            depth: outline.depth,
+        };
+        let clear = |t: f64| {
+            let point = ellipse.at(t).point;
+            to_tube(outline, point.length(), point.along.atan2(point.outward)) > outline.rim
+        };
+        let corner = if clear(0.0) {
+            bisect(0.0, Ellipse::WALL, clear)
+        } else {
+            0.0
+        };
+        let mut floor = Self {
+            ellipse,
+            circles,
+            fade: Fade::new(&circles, 0.0),
+            across: outline.across,
+            spread: outline.depth / (outline.half_width * outline.half_width),
+            base,
+            shortfall: (circles.relative - base).max(0.0),
+            corner,
+            reach: None,
+        };
+        let touchable = |t: f64| {
+            t < corner
+                && ellipse.at(t).concavity(circles.side) < circles.roller_curvature()
+                && floor.across_left(t) > 0.0
+        };
+        if touchable(0.0) {
+            let limit = bisect(0.0, corner, touchable);
+            let end = ellipse.at(limit);
+            floor.reach = Some(Reach {
+                limit,
+                end_point: end.point,
+                end_tangent: end.tangent(),
+            });
+        }
+        floor
+    }
+
+    /// Whether a ball can touch it anywhere.
+    pub fn is_touchable(&self) -> bool {
+        self.reach.is_some()
+    }
+
+    /// Relative curvature at the middle as the stiffness takes it, 1/m.
+    pub fn middle_curvature(&self) -> f64 {
+        self.base - self.ellipse.curvature(0.0)
+    }
+
+    /// Distance (m) from the axis at `offset` (rad) from the middle, without the rim.
+    pub fn polar_radius(&self, offset: f64) -> f64 {
+        self.ellipse.polar_radius(offset)
+    }
+
+    /// Relative curvature across the rolling direction, 1/m.
+    #[inline]
+    fn across_left(&self, t: f64) -> f64 {
+        self.across - self.spread / t.cos()
+    }
+
+    /// Contact of a ball at `centre`, in `direction` from the race's centre.
+    #[inline]
+    pub fn contact(
+        &self,
+        centre: Vector,
+        direction: Vector,
+        stiffness: &CurvatureStiffness,
+    ) -> Option<DefectContact> {
+        let reach = self.reach.as_ref()?;
+        let inside = |centre: Vector| reach.end_point.minus(centre).dot(reach.end_tangent) > 0.0;
+        if !(inside(centre) && inside(centre.mirrored())) {
+            return None;
+        }
+        let circles = &self.circles;
+        let (t, foot) = self.ellipse.foot(centre, reach.limit);
+        let inward = foot.inward(circles.side);
+        let delta = circles.roller - foot.point.minus(centre).dot(inward);
+        let left = self.across_left(t);
+        let fading = 1.0 - FLOOR_FADE;
+        let weight = self
+            .fade
+            .weight(foot.concavity(circles.side) + self.shortfall)
+            * smoothstep(left / (fading * self.across))
+            * smoothstep((t.cos() / self.corner.cos() - 1.0) / fading);
+        let k = stiffness.of_pair([self.base - self.ellipse.curvature(t), left]);
+        Some(circles.contact(Feature::Floor, delta, inward, direction, weight * k))
+    }
+}

@@ -1,0 +1,187 @@
+//! A dent in three dimensions, ready for contact queries.
+
+use super::super::angle::{offset_from, reduced, within};
+use super::super::circles::Circles;
+use super::super::contacts::DefectContacts;
+use super::super::curve::bisect;
+use super::super::dent::{DentShape, PolarPosition};
+use super::super::error::DefectError;
+use super::super::rim;
+use super::super::stiffness::{self, CurvatureStiffness};
+use super::bottom::Bottom;
+use super::check;
+use super::edge;
+use super::outline::Outline;
+use super::query::to_tube;
+use crate::bearing::geometry::BearingGeometry;
+use crate::bearing::materials::{ContactStiffness, Race};
+
+/// Places of half an outline at which the steepest contact with its rim is looked for.
+const LOOKS: u32 = 32;
+
+/// What queries need.
+#[derive(Debug, Clone, PartialEq)]
+pub(in super::super) struct Surface {
+    pub(in super::super) outline: Outline,
+    pub(super) bottom: Bottom,
+    pub(super) stiffness: CurvatureStiffness,
+    /// Half the arc within which the ball can press on rim or floor, rad.
+    pub(super) contact_angle: f64,
+}
+
+/// A dent in one race of one bearing that is as wide as it is: the ball bridges it where the groove lets it.
+///
+/// [`DentShape::width`] is felt, and the depth is that of the ellipsoid `b sqrt(1 − (s/a)² − (z/c)²)`. Unlike the rim
+/// of [`super::super::Dent`], which opens its dent a little, this one fills the edge: the outline stays what was given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceDent {
+    shape: DentShape,
+    race: Race,
+    /// Angle of the middle within ±π, rad.
+    middle: f64,
+    pub(in super::super) surface: Surface,
+}
+
+impl SurfaceDent {
+    /// Solves the dent of `shape` in a race of `bearing`; `stiffness` is that of the healthy races, computed or given:
+    /// on the dent it changes in the ratio of Hertz theory.
+    ///
+    /// # Errors
+    /// [`DefectError`]: no width; values that are not positive; a dent too deep for its length or width, as wide as the
+    /// ball, or too long for the race; a rim radius out of range; with
+    /// [`CurvatureReading::Paper`](super::super::CurvatureReading::Paper) on the inner race a floor that the ball touches
+    /// although the ellipse alone is as tight as the ball.
+    pub fn new(
+        bearing: &BearingGeometry,
+        race: Race,
+        shape: DentShape,
+        stiffness: ContactStiffness,
+    ) -> Result<Self, DefectError> {
+        shape.check()?;
+        let circles = Circles::race(bearing, race, stiffness);
+        let width = check::width(&shape, circles.roller)?;
+        let dimensions = bearing.dimensions();
+        let outline = Outline {
+            circles,
+            half_length: 0.5 * shape.length,
+            half_width: 0.5 * width,
+            depth: shape.depth,
+            rim: shape.rim_radius,
+            groove: match race {
+                Race::Inner => dimensions.inner_groove_radius,
+                Race::Outer => dimensions.outer_groove_radius,
+            },
+            across: stiffness::across(bearing, race),
+        };
+        check::sizes(&outline)?;
+        let base = shape.curvature.base(&circles);
+        let bottom = Bottom::new(&outline, base);
+        if base < circles.relative && bottom.is_touchable() {
+            stiffness::per_modulus(bearing, race, bottom.middle_curvature())?;
+        }
+        let sharpest = circles.roller_curvature() + 1.0 / shape.rim_radius;
+        let surface = Surface {
+            stiffness: CurvatureStiffness::for_pairs(bearing, race, &circles, sharpest)?,
+            contact_angle: contact_angle(&outline),
+            bottom,
+            outline,
+        };
+        Ok(Self {
+            shape,
+            race,
+            middle: reduced(shape.angle),
+            surface,
+        })
+    }
+
+    /// What was asked for.
+    #[must_use]
+    pub fn shape(&self) -> &DentShape {
+        &self.shape
+    }
+
+    /// The race that carries the dent.
+    #[must_use]
+    pub fn race(&self) -> Race {
+        self.race
+    }
+
+    /// Half the arc of the outline in the plane, rad.
+    #[must_use]
+    pub fn half_angle(&self) -> f64 {
+        self.surface.outline.angle()
+    }
+
+    /// Half the arc within which a ball can press on the rim or the floor, rad; see [`super::super::Dent`].
+    #[must_use]
+    pub fn contact_half_angle(&self) -> f64 {
+        self.surface.contact_angle
+    }
+
+    /// How far, m, a ball at the dent's middle sinks beyond its place on the race before anything holds it.
+    #[must_use]
+    pub fn ball_drop(&self) -> f64 {
+        let Outline { circles, depth, .. } = self.surface.outline;
+        let held = |drop: f64| {
+            let distance = circles.carrier - circles.side * (circles.roller - drop);
+            let found = self.surface.contacts(distance, 0.0);
+            found.as_slice().iter().any(|contact| contact.delta >= 0.0)
+        };
+        bisect(0.0, depth, |drop| !held(drop))
+    }
+
+    /// Distance (m) from the race's centre to the surface in the plane of the bearing at `angle` (rad, any turn, in
+    /// the race's frame).
+    #[must_use]
+    pub fn profile_radius(&self, angle: f64) -> f64 {
+        let (outline, offset) = (&self.surface.outline, self.offset(angle));
+        let Circles { carrier, side, .. } = outline.circles;
+        if !within(offset, outline.angle()) {
+            return carrier;
+        }
+        let depth = side * (self.surface.bottom.polar_radius(offset) - carrier);
+        let clear = |depth: f64| to_tube(outline, carrier + side * depth, offset) > outline.rim;
+        if clear(depth) {
+            carrier + side * depth
+        } else {
+            carrier + side * bisect(0.0, depth, clear)
+        }
+    }
+
+    /// Whether a ball at `angle` (rad, any turn, in the race's frame) can touch anything but the race: half-open arc
+    /// with the [`Self::contact_half_angle`].
+    #[must_use]
+    #[inline]
+    pub fn contains(&self, angle: f64) -> bool {
+        within(self.offset(angle), self.surface.contact_angle)
+    }
+
+    /// All contacts of a ball that reaches the undamaged race: the rim before, pairs on the side edges, the floor, the
+    /// rim after; beside the outline the race in the place of the nearer rim. Gaps (δ < 0) are reported where a contact
+    /// may come to press; of a ball that does not reach the race, the gap to the race.
+    ///
+    /// A pair is one contact, [`Feature::SideEdges`](super::super::Feature::SideEdges). No allocation; a few tenths of a
+    /// microsecond over the dent, more where the outline is about as curved as the ball.
+    #[must_use]
+    #[inline]
+    pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
+        self.surface.contacts(ball.radius, self.offset(ball.angle))
+    }
+
+    /// Angle from the dent's middle, within ±π.
+    #[inline]
+    fn offset(&self, angle: f64) -> f64 {
+        offset_from(angle, self.middle)
+    }
+}
+
+/// Angle from the middle within which the ball can press on rim or floor, rad: as [`rim::farthest_centre`] has it for
+/// the far vertex and the steepest contact anywhere.
+fn contact_angle(outline: &Outline) -> f64 {
+    let steepest = |v: f64| bisect(0.0, 1.0, |sine| edge::ratio(outline, v, sine) < 1.0);
+    let sine = (0..=LOOKS)
+        .map(|i| steepest(f64::from(i) / f64::from(LOOKS)))
+        .fold(0.0, f64::max);
+    let angle = outline.angle();
+    (rim::farthest_centre(&outline.circles, outline.rim, sine) - angle).max(angle)
+}

@@ -1,0 +1,187 @@
+//! Where the outline is nearest to a ball.
+//!
+//! A function is monotone between the zeros of its derivative. So the zeros of F''' part −1..1 into stretches with at
+//! most one zero of F'' each, those into stretches with at most one zero of F' each, and a minimum is a zero of F' with
+//! F'' > 0. F''' itself is looked at on a grid; it changes sign once or twice. On the usual dent, longer than wide, F is
+//! convex, which a bound shows at once.
+
+use super::outline::Over;
+
+/// Most places of a list: two ends, and what a grid of [`GRID`] intervals leaves room for.
+const MOST_PLACES: usize = 2 * GRID + 2;
+
+/// Most minima: every second of the places between two zeros of F''' on the grid.
+const MOST_MINIMA: usize = GRID + 1;
+
+/// Intervals in which a sign of F''' is looked for.
+const GRID: usize = 8;
+
+/// Steps in all of a search for a zero: halving alone reaches rounding in 55.
+const MOST_STEPS: usize = 80;
+
+/// Newton steps after which the bracket is halved instead.
+const NEWTON_STEPS: usize = 12;
+
+/// Last step at which Newton ends: its next error is the square.
+const STEP_TOLERANCE: f64 = 1e-7;
+
+/// Bracket at which the search for a zero of F''' ends: F'' is flat there, so that it is found to the square.
+const FLAT_TOLERANCE: f64 = 1e-6;
+
+/// Places v in ascending order, without allocation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places {
+    items: [f64; MOST_PLACES],
+    count: usize,
+}
+
+impl Places {
+    fn none() -> Self {
+        Self {
+            items: [0.0; MOST_PLACES],
+            count: 0,
+        }
+    }
+
+    fn push(&mut self, place: f64) {
+        if let Some(item) = self.items.get_mut(self.count) {
+            *item = place;
+            self.count += 1;
+        }
+    }
+
+    #[inline]
+    pub fn as_slice(&self) -> &[f64] {
+        self.items.get(..self.count).unwrap_or(&self.items)
+    }
+}
+
+/// A minimum within −1..1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Minimum {
+    pub v: f64,
+    /// F, m².
+    pub square: f64,
+    /// F'', m².
+    pub bend: f64,
+}
+
+/// Minima of F within −1..1, ends excluded, for a ball at a place, in ascending order; `ends` are F and its derivatives
+/// at −1 and 1.
+#[inline]
+pub(super) fn inner_minima(
+    over: &Over<'_>,
+    ends: [[f64; 4]; 2],
+) -> impl Iterator<Item = Minimum> + Clone {
+    let places = inner_places(over, ends);
+    let mut minima = [None; MOST_MINIMA];
+    for (minimum, &v) in minima.iter_mut().zip(places.as_slice()) {
+        let [square, _, bend, _] = over.squares(v);
+        *minimum = Some(Minimum { v, square, bend });
+    }
+    minima.into_iter().flatten()
+}
+
+#[inline]
+fn inner_places(over: &Over<'_>, ends: [[f64; 4]; 2]) -> Places {
+    let mut minima = Places::none();
+    let slope = |v: f64| {
+        let [_, first, second, _] = over.squares(v);
+        [first, second]
+    };
+    if over.least_bend() > 0.0 {
+        let [low, high] = [ends[0][1], ends[1][1]];
+        if low < 0.0 && high > 0.0 {
+            minima.push(zero([-1.0, 1.0], [low, high], slope));
+        }
+        return minima;
+    }
+    let pieces = zeros(&curvature_breaks(over), |v| {
+        let [_, _, second, third] = over.squares(v);
+        [second, third]
+    });
+    for pair in with_ends(&pieces).as_slice().windows(2) {
+        let ends = [pair[0], pair[1]];
+        let [low, high] = ends.map(|v| slope(v)[0]);
+        if low < 0.0 && high > 0.0 {
+            minima.push(zero(ends, [low, high], slope));
+        }
+    }
+    minima
+}
+
+/// Ends and zeros of F'''.
+#[cold]
+fn curvature_breaks(over: &Over<'_>) -> Places {
+    let mut breaks = Places::none();
+    breaks.push(-1.0);
+    let third = |v: f64| over.squares(v)[3];
+    let place = |i: usize| -1.0 + 2.0 * i as f64 / GRID as f64;
+    let mut low = third(-1.0);
+    for i in 0..GRID {
+        let high = third(place(i + 1));
+        if (low < 0.0) != (high < 0.0) {
+            let (mut from, mut to) = (place(i), place(i + 1));
+            while to - from > FLAT_TOLERANCE {
+                let middle = 0.5 * (from + to);
+                if (third(middle) < 0.0) == (low < 0.0) {
+                    from = middle;
+                } else {
+                    to = middle;
+                }
+            }
+            breaks.push(0.5 * (from + to));
+        }
+        low = high;
+    }
+    breaks.push(1.0);
+    breaks
+}
+
+/// Zeros of a function (given with its derivative) that is monotone between neighbouring places.
+fn zeros(places: &Places, function: impl Fn(f64) -> [f64; 2]) -> Places {
+    let mut found = Places::none();
+    for pair in places.as_slice().windows(2) {
+        let ends = [pair[0], pair[1]];
+        let values = ends.map(|v| function(v)[0]);
+        if (values[0] < 0.0) != (values[1] < 0.0) {
+            found.push(zero(ends, values, &function));
+        }
+    }
+    found
+}
+
+fn with_ends(inner: &Places) -> Places {
+    let mut all = Places::none();
+    all.push(-1.0);
+    for &place in inner.as_slice() {
+        all.push(place);
+    }
+    all.push(1.0);
+    all
+}
+
+/// The zero between two ends with values of different sign: Newton kept inside the shrinking bracket.
+#[inline]
+fn zero(ends: [f64; 2], values: [f64; 2], function: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let [mut low, mut high] = ends;
+    let rising = values[0] < 0.0;
+    let mut v = low + (high - low) * (values[0] / (values[0] - values[1])).clamp(0.0, 1.0);
+    for step in 0..MOST_STEPS {
+        let [value, slope] = function(v);
+        if (value < 0.0) == rising {
+            low = v;
+        } else {
+            high = v;
+        }
+        let newton = v - value / slope;
+        let inside = newton > low && newton < high && step < NEWTON_STEPS;
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        let moved = (next - v).abs();
+        v = next;
+        if moved <= STEP_TOLERANCE && inside || high - low <= f64::EPSILON {
+            break;
+        }
+    }
+    v
+}

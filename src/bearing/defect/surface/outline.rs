@@ -1,0 +1,206 @@
+//! The outline of a dent on the groove, and its distance from a ball's centre.
+//!
+//! With `ρ` and θ the ball's place about the race's centre, `G = R − σ r_g` the radius of the groove's centre line,
+//! `e = σ (ρ − G)`, `q = r_g + r` and `x = φ − θ`, the distance to the tube's centre curve Q(v) is
+//!
+//! ```text
+//! d² = (q − e)² + 2 F(v)      F = w E + K (1 − cos x)      E = q (e − σ ρ (1 − cos x))      K = ρ (R + σ r)
+//! φ = (a/R) v      w = 1 − cos ψ = 1 − sqrt(1 − k² (1 − v²))      k = c/r_g
+//! ```
+//!
+//! F is smooth in v on −1..1; both halves of the outline (±z) have one v.
+
+use super::super::circles::Circles;
+
+/// A dent's outline, rim and depth on a groove.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in super::super) struct Outline {
+    pub circles: Circles,
+    /// a, m.
+    pub half_length: f64,
+    /// c, m.
+    pub half_width: f64,
+    /// b, m.
+    pub depth: f64,
+    /// r, m.
+    pub rim: f64,
+    /// r_g, m.
+    pub groove: f64,
+    /// Relative curvature of ball and groove across the rolling direction, 1/m.
+    pub across: f64,
+}
+
+impl Outline {
+    /// Half the angle of the outline, rad.
+    #[inline]
+    pub fn angle(&self) -> f64 {
+        self.half_length / self.circles.carrier
+    }
+
+    /// k: sine of the transverse angle at the outline's side.
+    #[inline]
+    pub fn side_sine(&self) -> f64 {
+        self.half_width / self.groove
+    }
+
+    /// q, m: transverse radius of the torus on which the tube's centre curve lies.
+    #[inline]
+    pub fn tube(&self) -> f64 {
+        self.groove + self.rim
+    }
+
+    /// `R + σ r`, m: distance of that torus from the axis in the plane.
+    #[inline]
+    pub fn level(&self) -> f64 {
+        self.circles.carrier + self.circles.side * self.rim
+    }
+
+    /// Change of F over v that the race's own rolling curvature makes, `K (a/R)²` for a ball that touches the race, m².
+    #[inline]
+    pub fn scale(&self) -> f64 {
+        let Circles {
+            carrier,
+            side,
+            roller,
+            ..
+        } = self.circles;
+        (carrier - side * roller) * self.level() * self.angle() * self.angle()
+    }
+}
+
+/// One ball's place relative to an outline.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Over<'o> {
+    pub outline: &'o Outline,
+    /// ρ, m.
+    pub distance: f64,
+    /// θ, rad from the dent's middle.
+    pub offset: f64,
+    /// Overlap with the undamaged race, m.
+    pub sunk: f64,
+    /// e, m.
+    pub excess: f64,
+    /// a/R.
+    pub angle: f64,
+    /// k².
+    side_square: f64,
+    /// `σ q ρ` and K, m².
+    turn: f64,
+    roll: f64,
+}
+
+impl<'o> Over<'o> {
+    #[inline]
+    pub fn new(outline: &'o Outline, distance: f64, offset: f64) -> Self {
+        let Circles {
+            carrier,
+            side,
+            roller,
+            ..
+        } = outline.circles;
+        let sunk = side * (distance - carrier) + roller;
+        Self {
+            outline,
+            distance,
+            offset,
+            sunk,
+            excess: outline.groove - roller + sunk,
+            angle: outline.angle(),
+            side_square: outline.side_sine() * outline.side_sine(),
+            turn: side * outline.tube() * distance,
+            roll: distance * outline.level(),
+        }
+    }
+
+    /// `q − e`, m: distance to the tube's centre curve if it ran right under the ball.
+    #[inline]
+    pub fn least(&self) -> f64 {
+        self.outline.circles.roller + self.outline.rim - self.sunk
+    }
+
+    /// F and its first three derivatives at v, m².
+    #[inline]
+    pub fn squares(&self, v: f64) -> [f64; 4] {
+        let (p, k2, turn, roll) = (self.angle, self.side_square, self.turn, self.roll);
+        let (half_sin, half_cos) = (0.5 * (p * v - self.offset)).sin_cos();
+        let one_less = 2.0 * half_sin * half_sin;
+        let (sin, cos) = (2.0 * half_sin * half_cos, 1.0 - one_less);
+        let rest = k2 * (1.0 - v) * (1.0 + v);
+        let c = (1.0 - rest).sqrt();
+        let per_c = 1.0 / c;
+        let rise = k2 * (1.0 - k2) * (per_c * per_c * per_c);
+        let w = [
+            rest / (1.0 + c),
+            -k2 * v * per_c,
+            -rise,
+            3.0 * k2 * v * rise * (per_c * per_c),
+        ];
+        let e = [
+            self.outline.tube() * self.excess - turn * one_less,
+            -turn * p * sin,
+            -turn * p * p * cos,
+            turn * p * p * p * sin,
+        ];
+        [
+            w[0] * e[0] + roll * one_less,
+            w[1] * e[0] + w[0] * e[1] + roll * p * sin,
+            w[2] * e[0] + 2.0 * w[1] * e[1] + w[0] * e[2] + roll * p * p * cos,
+            w[3] * e[0] + 3.0 * (w[2] * e[1] + w[1] * e[2]) + w[0] * e[3] - roll * p * p * p * sin,
+        ]
+    }
+
+    /// Lower bound of F'' over the whole outline, m², from the largest of every term of it.
+    #[inline]
+    pub fn least_bend(&self) -> f64 {
+        let (p, k2, turn) = (self.angle, self.side_square, self.turn.abs());
+        let c = (1.0 - k2).sqrt();
+        // farthest angle between ball and outline; its cosine from below, and its sine from above
+        let far = p + self.offset.abs();
+        let one_less = 0.5 * far * far;
+        let e = (self.outline.tube() * self.excess).max(0.0) + turn * one_less;
+        let less = k2 / c * e + 2.0 * k2 * turn * p * far + (1.0 - c) * turn * p * p;
+        self.roll * p * p * (1.0 - one_less) - less
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::tests::source_outline;
+    use super::*;
+    use crate::bearing::Race;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against the two points in space, and each derivative against differences of the one before.
+        #[test]
+        fn distance_and_derivatives(v in -0.99..0.99_f64, offset in -0.2..0.2_f64, sunk in -5e-6..40e-6_f64,
+            wide in 0.1..0.9_f64, inner: bool) {
+            let race = if inner { Race::Inner } else { Race::Outer };
+            let outline = Outline { half_width: wide * 1e-3, ..source_outline(race) };
+            let circles = outline.circles;
+            let over = Over::new(&outline, circles.carrier + circles.side * (sunk - circles.roller), offset);
+            let z = outline.half_width * (1.0 - v * v).sqrt();
+            let psi = (z / outline.groove).asin();
+            let phi = outline.half_length * v / circles.carrier;
+            let radius = circles.carrier - circles.side * outline.groove
+                + circles.side * outline.tube() * psi.cos();
+            let gap = [
+                radius * phi.cos() - over.distance * offset.cos(),
+                radius * phi.sin() - over.distance * offset.sin(),
+                outline.tube() * psi.sin(),
+            ];
+            let square = gap.iter().map(|part| part * part).sum::<f64>();
+            let [f, f_1, f_2, f_3] = over.squares(v);
+            prop_assert!((over.least() * over.least() + 2.0 * f - square).abs() < 1e-13 * square);
+            let h = 1e-4;
+            let (before, after) = (over.squares(v - h), over.squares(v + h));
+            for (i, derivative) in [f_1, f_2, f_3].into_iter().enumerate() {
+                // the differences' own error: h² of the next but one derivative, which near k = 1 is large
+                let difference = (after[i] - before[i]) / (2.0 * h);
+                prop_assert!((difference - derivative).abs() < 1e-5 * outline.scale() / (1.0 - wide),
+                    "{i}: {difference} {derivative}");
+            }
+            prop_assert!(over.least_bend() <= f_2);
+        }
+    }
+}
