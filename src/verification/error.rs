@@ -17,10 +17,10 @@ use thiserror::Error;
 pub enum VerificationError {
     /// A built-in case is not valid.
     #[error(transparent)]
-    Case(#[from] CaseError),
+    Case(Box<CaseError>),
     /// A stage of a built-in case failed.
     #[error(transparent)]
-    Stage(#[from] StageError),
+    Stage(Box<StageError>),
     /// A built-in case has no bearing.
     #[error("the built-in case has no bearing")]
     NoBearing,
@@ -51,4 +51,16 @@ pub enum VerificationError {
     /// A report's contents do not fit together.
     #[error(transparent)]
     Report(#[from] ReportError),
+}
+
+impl From<CaseError> for VerificationError {
+    fn from(error: CaseError) -> Self {
+        Self::Case(Box::new(error))
+    }
+}
+
+impl From<StageError> for VerificationError {
+    fn from(error: StageError) -> Self {
+        Self::Stage(Box::new(error))
+    }
 }

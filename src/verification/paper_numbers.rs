@@ -169,7 +169,7 @@ fn orders() -> Result<Vec<Check>, VerificationError> {
         unit: "per shaft turn",
         source: "Tadina & Boltezar 2011, Table 2",
         assumptions: "Rolling without slip, outer race at rest, contact angle zero; pitch diameter R + r = 7.5105 mm of Table 1.",
-        reason: "One unit in the last of the four printed digits: the source cuts 3.4888 to 3.488 where rounding gives 3.489.",
+        reason: "One unit in the last of the four printed digits: the source cuts 3.48896 to 3.488 where rounding gives 3.489.",
     };
     let unit = 1e-3;
     Ok(vec![

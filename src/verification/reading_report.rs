@@ -9,7 +9,7 @@ use super::section::{SectionResult, signed};
 use super::{Check, VerificationError};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Section, SpanPoint,
-    SpanRow, Spans, Table, Verdict, significant,
+    SpanRow, Spans, Table, Verdict, fixed, significant,
 };
 use crate::stages::{Unwatched, Watch, compute_modes};
 use serde_json::{Value, json};
@@ -67,10 +67,10 @@ pub fn reading_study(
         title: TITLE.to_owned(),
         checks,
         information: Vec::new(),
-        report: vec![report(&study, &fits, &moved, &charts)],
-        values: vec![("readings".to_owned(), values(&study, &fits, &moved))],
+        report: vec![report(&study, &fits, base, &moved, &charts)],
+        values: vec![("readings".to_owned(), values(&study, &fits, base, &moved))],
         files: files(&study, &fits, &charts)?,
-        lines: lines(&study, &fits, &moved),
+        lines: lines(&study, &fits, base, &moved),
     })
 }
 
@@ -176,7 +176,13 @@ fn scatter(study: &Study, fits: &Fits) -> Plot {
         .marker(Marker::new(study.paper.sway, "8.2 kHz"))
 }
 
-fn report(study: &Study, fits: &Fits, moved: &[Moved], charts: &Charts) -> Section {
+fn report(
+    study: &Study,
+    fits: &Fits,
+    base: Option<&ReadingResult>,
+    moved: &[Moved],
+    charts: &Charts,
+) -> Section {
     let total = study.readings.len();
     let shaped = fits.fits.iter().filter(|fit| fit.all_shaped()).count();
     let mut section = Section::new("")
@@ -202,6 +208,9 @@ fn report(study: &Study, fits: &Fits, moved: &[Moved], charts: &Charts) -> Secti
         );
         section = section.facts([Fact::new("Place of the built-in case among them", rank)]);
     }
+    if let Some(base) = base {
+        section = section.table(shape_table(base));
+    }
     section = section.table(count_table(study, fits));
     for (_, chart) in &charts.moved {
         section = section.spans(chart.clone());
@@ -211,6 +220,42 @@ fn report(study: &Study, fits: &Fits, moved: &[Moved], charts: &Charts) -> Secti
         .plot(charts.scatter.clone())
         .table(group_table(study, fits))
         .table(fit_table(study, fits))
+}
+
+/// What the three modes of the built-in reading are, as shares of their kinetic energy.
+fn shape_table(base: &ReadingResult) -> Table {
+    let mut columns = vec![Column::text("Source"), Column::number("Mode", "kHz")];
+    for name in [
+        "Ring across the load",
+        "Ring along the load",
+        "Ring turning",
+        "Ring in two waves",
+        "Shaft",
+        "Balls",
+    ] {
+        columns.push(Column::number(name, "%"));
+    }
+    let mut table = Table::new(
+        "The three modes of the built-in reading: shares of their kinetic energy",
+        columns,
+    );
+    for (k, shares) in base.shapes.iter().enumerate() {
+        let parts = [
+            shares.across,
+            shares.along,
+            shares.turning,
+            shares.two_waves,
+            shares.shaft,
+            shares.balls,
+        ];
+        let mut cells = vec![
+            Cell::text(NAMES[k]),
+            Cell::number(base.nearest_hz[k] / 1e3, 4),
+        ];
+        cells.extend(parts.map(|part| Cell::text(fixed(100.0 * part, 1)).value(100.0 * part)));
+        table = table.row(cells);
+    }
+    table
 }
 
 fn percent(part: usize, whole: usize) -> String {
@@ -378,7 +423,7 @@ fn words(study: &Study, levels: &Levels) -> String {
     words.collect::<Vec<_>>().join("; ")
 }
 
-fn values(study: &Study, fits: &Fits, moved: &[Moved]) -> Value {
+fn values(study: &Study, fits: &Fits, base: Option<&ReadingResult>, moved: &[Moved]) -> Value {
     let sizes = study.grid.sizes();
     let labels = |factor: Factor, size: usize| -> Vec<String> {
         (0..size)
@@ -406,6 +451,7 @@ fn values(study: &Study, fits: &Fits, moved: &[Moved]) -> Value {
         "nearest_of_another_shape": fits.misnamed,
         "choices": choices,
         "known": study.grid.known(),
+        "known_shapes": base.map(|base| base.shapes),
         "known_place": study.grid.known().and_then(|known| fits.rank(&known)),
         "fits_count": fits.fits.len(),
         "fits": fits.fits.iter().map(fit).collect::<Vec<_>>(),
@@ -491,7 +537,7 @@ fn row(text: &mut String, study: &Study, reading: &ReadingResult) {
     text.push_str(if fits { "true\n" } else { "false\n" });
 }
 
-fn lines(study: &Study, fits: &Fits, moved: &[Moved]) -> Vec<String> {
+fn lines(study: &Study, fits: &Fits, base: Option<&ReadingResult>, moved: &[Moved]) -> Vec<String> {
     let total = study.readings.len();
     let shaped = fits.fits.iter().filter(|fit| fit.all_shaped()).count();
     let mut lines = vec![
@@ -514,6 +560,7 @@ fn lines(study: &Study, fits: &Fits, moved: &[Moved]) -> Vec<String> {
             fits.fits.len()
         ));
     }
+    lines.extend(base.map(|base| shape_table(base).plain()));
     let tables = [
         count_table(study, fits),
         moved_table(study, moved),

@@ -105,7 +105,7 @@ impl Contact {
     }
 
     /// The same with the approach interpolated between [`TABULATED`] values.
-    fn from_a_table(self, modulus: f64) -> Result<f64, HertzError> {
+    fn interpolated_in_a_table(self, modulus: f64) -> Result<f64, HertzError> {
         let at = |difference| {
             let there = Self { difference, ..self };
             there.hertz(modulus)
@@ -274,11 +274,11 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         ));
         all.push(hypothesis(
             with(", approach interpolated in a table"),
-            literal.map(|slip| slip.contact().from_a_table(modulus)),
+            literal.map(|slip| slip.contact().interpolated_in_a_table(modulus)),
         ));
         all.push(hypothesis(
             with(", groove radii exchanged, approach interpolated in a table"),
-            swapped_grooves(literal).map(|slip| slip.contact().from_a_table(modulus)),
+            swapped_grooves(literal).map(|slip| slip.contact().interpolated_in_a_table(modulus)),
         ));
     }
     all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));

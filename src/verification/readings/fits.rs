@@ -234,7 +234,7 @@ fn groups(study: &Study, fits: &[Fit]) -> Vec<FitGroup> {
             })
         })
         .collect();
-    groups.sort_by(|a, b| b.fits.cmp(&a.fits));
+    groups.sort_by_key(|group| std::cmp::Reverse(group.fits));
     groups
 }
 
