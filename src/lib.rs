@@ -20,6 +20,7 @@
 //! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
+//! 11. [`verification`]: the built-in checks of `plummer verify`.
 //!
 //! ```no_run
 //! use plummer::case::Case;
@@ -57,3 +58,4 @@ pub mod stages;
 pub mod system;
 pub mod transient;
 pub mod units;
+pub mod verification;

@@ -15,6 +15,7 @@ Examples:
   plummer run examples/tadina2011/outer-dent.toml
   plummer modes examples/tadina2011/beam.toml --set ring.shear=true --out out/with-shear --json
   plummer export examples/scenes/pedestal.toml --to mtx
+  plummer verify
 
 Exit codes:
   0  done
@@ -67,6 +68,16 @@ Files:
   npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
   op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA of the condensed housing, interface first (pyyeti.nastran.op4)
   mbdyn  superelement.fem: data of MBDyn's modal joint";
+
+const VERIFY_EXAMPLE: &str = "\
+Examples: every built-in check; the same, and which readings of the paper give its frequencies (minutes)
+  plummer verify
+  plummer verify --full --out out/readings
+
+Files:
+  verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
+  report.html   the same as tables; with --full the charts of the study
+  readings.csv  with --full: every reading and its frequencies (readings-that-fit.csv: those that give all three)";
 
 /// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
 #[derive(Debug, Clone, Parser)]
@@ -132,6 +143,13 @@ pub enum Command {
         #[arg(long, value_name = "FORMAT", value_enum)]
         to: ExportFormat,
     },
+    /// Built-in checks against published numbers and closed forms; needs no files
+    #[command(after_help = VERIFY_EXAMPLE)]
+    Verify {
+        /// Also study which readings of the paper give its eigenfrequencies (minutes)
+        #[arg(long)]
+        full: bool,
+    },
 }
 
 /// A format of `plummer export`.
@@ -177,6 +195,7 @@ impl Command {
             Self::Frf { .. } => "frf",
             Self::Inspect { .. } => "inspect",
             Self::Export { .. } => "export",
+            Self::Verify { .. } => "verify",
         }
     }
 }
@@ -184,7 +203,8 @@ impl Command {
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
-    /// Folder for the results (default: out/ and the case file's name without ending; inspect writes only if named)
+    /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; inspect writes only
+    /// if named)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
@@ -294,6 +314,7 @@ mod tests {
             "plummer frf --help",
             "plummer inspect --help",
             "plummer export --help",
+            "plummer verify --help",
         ] {
             let help = parse(words).unwrap_err().to_string();
             assert!(help.contains("Example"), "{words}");

@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::ExportError;
 use crate::case::CaseError;
 use crate::stages::StageError;
+use crate::verification::VerificationError;
 
 /// Why a command did not end well.
 #[derive(Debug, Error)]
@@ -55,6 +56,15 @@ pub enum CliError {
     /// Something was not exported.
     #[error(transparent)]
     Export(Box<ExportError>),
+    /// A built-in check could not be carried out.
+    #[error(transparent)]
+    Verification(Box<VerificationError>),
+}
+
+impl From<VerificationError> for CliError {
+    fn from(error: VerificationError) -> Self {
+        Self::Verification(Box::new(error))
+    }
 }
 
 impl From<ExportError> for CliError {
@@ -81,7 +91,8 @@ impl CliError {
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
             | Self::Stage(_)
-            | Self::Export(_) => 1,
+            | Self::Export(_)
+            | Self::Verification(_) => 1,
         }
     }
 
@@ -97,7 +108,7 @@ impl CliError {
             }
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
             Self::BadAnswer { help, .. } => help.clone(),
-            Self::Write { .. } | Self::StandardOutput(_) => None,
+            Self::Write { .. } | Self::StandardOutput(_) | Self::Verification(_) => None,
         }
     }
 
@@ -116,7 +127,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{CliError, ExportError};
+    use super::{CliError, ExportError, VerificationError};
     use crate::case::Case;
     use crate::exchange::DofTableError;
     use crate::stages::StageError;
@@ -185,6 +196,11 @@ mod tests {
                 2,
                 "error: out/a has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
                  help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
+            ),
+            (
+                CliError::from(VerificationError::NoBearing),
+                1,
+                "error: the built-in case has no bearing\n",
             ),
             (
                 CliError::from(ExportError::Dofs(DofTableError {

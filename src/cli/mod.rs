@@ -17,6 +17,7 @@ mod progress;
 mod report_files;
 mod results;
 mod run;
+mod verify;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -71,6 +72,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
         Command::Frf { case } => compute(case, Purpose::Frf, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
+        Command::Verify { full } => verify::verify(*full, options),
         Command::Inspect {
             mesh,
             length_unit,

@@ -91,7 +91,7 @@ impl OutputFolder {
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
     #[must_use]
     pub fn report_name(&self, command: &str) -> String {
-        let others = ["run", "modes", "condense", "frf"]
+        let others = ["run", "modes", "condense", "frf", "verify"]
             .into_iter()
             .filter(|&other| other != command);
         let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
@@ -100,6 +100,20 @@ impl OutputFolder {
         } else {
             "report.html".to_owned()
         }
+    }
+
+    /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
+    ///
+    /// # Errors
+    /// [`CliError::Folder`] or [`CliError::Write`].
+    pub fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+        if let Some(parent) = self.path.join(name).parent() {
+            fs::create_dir_all(parent).map_err(|source| CliError::Folder {
+                path: parent.to_owned(),
+                source,
+            })?;
+        }
+        self.write(name, bytes)
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.

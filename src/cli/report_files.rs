@@ -35,11 +35,25 @@ impl ReportFiles {
         report: Report,
     ) -> Result<Self, CliError> {
         let meshes = mesh_digests(case)?;
-        let mut report = report.tables_in(TABLES, command);
+        let mut report = report;
         let head = report
             .document
             .get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
         head.meshes = meshes.iter().map(MeshFile::from).collect();
+        let files = Self::without_case(folder, command, report)?;
+        Ok(Self { meshes, ..files })
+    }
+
+    /// The same for a command that reads no case.
+    ///
+    /// # Errors
+    /// As [`ReportFiles::write`].
+    pub(super) fn without_case(
+        folder: &OutputFolder,
+        command: &str,
+        report: Report,
+    ) -> Result<Self, CliError> {
+        let report = report.tables_in(TABLES, command);
         let html = report.to_html().map_err(StageError::from)?;
         remove_earlier(folder, command)?;
         let mut tables = Vec::new();
@@ -53,7 +67,7 @@ impl ReportFiles {
         }
         paths.push(folder.write(&folder.report_name(command), html.as_bytes())?);
         Ok(Self {
-            meshes,
+            meshes: Vec::new(),
             tables,
             paths,
         })

@@ -13,6 +13,16 @@ use crate::stages::{
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
+/// How long each stage took, s.
+pub(super) fn stages_s(progress: &Progress) -> Value {
+    let times = progress.times().into_iter();
+    Value::Object(
+        times
+            .map(|stage| (stage.name, json!(stage.seconds)))
+            .collect(),
+    )
+}
+
 /// What every result carries.
 pub(super) fn common(
     command: &str,
@@ -21,11 +31,6 @@ pub(super) fn common(
     wall_s: f64,
     meshes: &[MeshDigest],
 ) -> Map<String, Value> {
-    let stages: Map<String, Value> = progress
-        .times()
-        .into_iter()
-        .map(|stage| (stage.name, json!(stage.seconds)))
-        .collect();
     let mut map = Map::new();
     map.insert("plummer".to_owned(), json!(env!("CARGO_PKG_VERSION")));
     map.insert("command".to_owned(), json!(command));
@@ -33,7 +38,7 @@ pub(super) fn common(
     map.insert("set".to_owned(), json!(case.source.set));
     map.insert("meshes".to_owned(), json!(meshes));
     map.insert("wall_s".to_owned(), json!(wall_s));
-    map.insert("stages_s".to_owned(), Value::Object(stages));
+    map.insert("stages_s".to_owned(), stages_s(progress));
     map.insert("threads".to_owned(), json!(rayon::current_num_threads()));
     map
 }

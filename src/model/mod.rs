@@ -27,7 +27,9 @@ pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use interface::NodeInterface;
 pub use partition::HousingPartition;
-pub use ring::{Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
+pub use ring::{
+    RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,
+};
 pub use solid_ring::{MeshedRing, SolidRing};
 pub(crate) use spread::surface_kind;
 pub use support::{

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Table};
+use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, Table};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -111,6 +111,8 @@ pub enum Block {
     Bars(Bars),
     /// A matrix in colours.
     Matrix(Matrix),
+    /// Spans of one quantity.
+    Spans(Spans),
 }
 
 /// A property of the model: name, value, and where it comes from or what it means.
@@ -198,6 +200,12 @@ impl Section {
     #[must_use]
     pub fn bars(self, bars: Bars) -> Self {
         self.block(Block::Bars(bars))
+    }
+
+    /// The section with a chart of spans more.
+    #[must_use]
+    pub fn spans(self, spans: Spans) -> Self {
+        self.block(Block::Spans(spans))
     }
 
     /// The section with a matrix in colours more.

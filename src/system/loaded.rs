@@ -5,7 +5,7 @@ use super::equilibrium::{Equilibrium, contact_rows};
 use super::error::SystemError;
 use super::resting::{RestingRaces, in_the_plane};
 use super::structure::{Structure, StructureModes};
-use crate::linalg::{DenseMatrix, general_spectrum, symmetric_eigen};
+use crate::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
 use std::f64::consts::TAU;
 
 /// One mode of the loaded system.
@@ -33,6 +33,15 @@ pub struct LoadedModes {
     pub unstable: usize,
 }
 
+/// Loaded modes with their shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedShapes {
+    /// The modes.
+    pub modes: LoadedModes,
+    /// For each of them the amplitudes of the structure's modes, of the shaft's x and y and of the balls, to one scale.
+    pub amplitudes: Vec<Vec<f64>>,
+}
+
 /// Blocks of the linearised equations over (modes, shaft, balls), divided by the masses.
 struct Linearised {
     /// Stiffness, rows divided by the mass of their coordinate [n x n].
@@ -54,6 +63,30 @@ impl LoadedModes {
         setup: &BearingSetup,
         equilibrium: &Equilibrium,
     ) -> Result<Self, SystemError> {
+        Ok(LoadedShapes::at(structure, modes, setup, equilibrium)?.modes)
+    }
+
+    /// The mode nearest to a frequency (Hz) among those that are not the balls' own.
+    pub fn nearest(&self, hz: f64) -> Option<&LoadedMode> {
+        let distance = |mode: &&LoadedMode| (mode.frequency_hz - hz).abs();
+        self.modes
+            .iter()
+            .filter(|mode| !mode.is_ball_mode())
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+impl LoadedShapes {
+    /// As [`LoadedModes::at`], with the shapes. `modes` may be fewer than the structure's own.
+    ///
+    /// # Errors
+    /// As [`LoadedModes::at`].
+    pub fn at(
+        structure: &Structure,
+        modes: &StructureModes,
+        setup: &BearingSetup,
+        equilibrium: &Equilibrium,
+    ) -> Result<Self, SystemError> {
         let linearised = Linearised::new(structure, modes, setup, equilibrium);
         let pairs = match setup.formulation {
             Formulation::Consistent => linearised.symmetric_pairs()?,
@@ -69,24 +102,19 @@ impl LoadedModes {
             } else if pair.value < 0.0 || pair.imaginary.abs() > 1e-6 * pair.value.abs() {
                 unstable += 1;
             } else {
-                found.push(linearised.describe(&pair));
+                found.push((linearised.describe(&pair), pair.amplitudes));
             }
         }
-        found.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        found.sort_by(|(a, _), (b, _)| a.frequency_hz.total_cmp(&b.frequency_hz));
+        let (modes, amplitudes) = found.into_iter().unzip();
         Ok(Self {
-            modes: found,
-            without_stiffness,
-            unstable,
+            modes: LoadedModes {
+                modes,
+                without_stiffness,
+                unstable,
+            },
+            amplitudes,
         })
-    }
-
-    /// The mode nearest to a frequency (Hz) among those that are not the balls' own.
-    pub fn nearest(&self, hz: f64) -> Option<&LoadedMode> {
-        let distance = |mode: &&LoadedMode| (mode.frequency_hz - hz).abs();
-        self.modes
-            .iter()
-            .filter(|mode| !mode.is_ball_mode())
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
 
@@ -97,12 +125,12 @@ impl LoadedMode {
     }
 }
 
-/// Eigenvalue with the weights of its vector.
+/// Eigenvalue with its vector.
 struct Pair {
     value: f64,
     imaginary: f64,
-    /// Squared amplitude of each coordinate.
-    squares: Vec<f64>,
+    /// Amplitude of each coordinate.
+    amplitudes: Vec<f64>,
 }
 
 impl Linearised {
@@ -163,8 +191,8 @@ impl Linearised {
             .map(|pair| Pair {
                 value: spectrum.values[pair],
                 imaginary: 0.0,
-                squares: (0..order)
-                    .map(|i| spectrum.vectors[(i, pair)].powi(2) / self.masses[i])
+                amplitudes: (0..order)
+                    .map(|i| spectrum.vectors[(i, pair)] / root(i))
                     .collect(),
             })
             .collect())
@@ -181,8 +209,10 @@ impl Linearised {
             .map(|pair| Pair {
                 value: spectrum.values[pair].re,
                 imaginary: spectrum.values[pair].im,
-                squares: (0..order)
-                    .map(|i| spectrum.vectors[(i, pair)].norm_sqr() / self.masses[i])
+                amplitudes: real_part(&spectrum, pair)
+                    .iter()
+                    .enumerate()
+                    .map(|(i, entry)| entry / root(i))
                     .collect(),
             })
             .collect())
@@ -190,7 +220,9 @@ impl Linearised {
 
     fn describe(&self, pair: &Pair) -> LoadedMode {
         let energy = |range: std::ops::Range<usize>| -> f64 {
-            range.map(|i| pair.squares[i] * self.masses[i]).sum()
+            range
+                .map(|i| pair.amplitudes[i].powi(2) * self.masses[i])
+                .sum()
         };
         let (n, order) = (self.modes, self.masses.len());
         let total = energy(0..order);
@@ -201,6 +233,20 @@ impl Linearised {
             ball_share: energy(n + 2..order) / total,
         }
     }
+}
+
+/// The vector of an eigenvalue, turned so that its largest entry is real: all of it where the eigenvalue is real.
+fn real_part(spectrum: &GeneralSpectrum, pair: usize) -> Vec<f64> {
+    let vector = spectrum.vectors.col(pair);
+    let largest = vector
+        .iter()
+        .copied()
+        .max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    let Some(largest) = largest.filter(|entry| entry.norm_sqr() > 0.0) else {
+        return vec![0.0; vector.nrows()];
+    };
+    let phase = largest.conj() / largest.norm_sqr().sqrt();
+    vector.iter().map(|entry| (entry * phase).re).collect()
 }
 
 /// Mean ring displacement over the modes [2 x modes]; zero unless the formulation uses it.

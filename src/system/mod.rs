@@ -27,6 +27,6 @@ pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use load::LoadProfile;
-pub use loaded::{LoadedMode, LoadedModes};
+pub use loaded::{LoadedMode, LoadedModes, LoadedShapes};
 pub use recorder::{Recorder, RunRecord};
 pub use structure::{Sensor, Structure, StructureModes};

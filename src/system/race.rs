@@ -223,14 +223,19 @@ impl RaceContact {
         match damage {
             Damage::None => self.plain_force(at.penetration, at.rate),
             Damage::Race(defect) => {
-                let angle = at.angle;
-                let contacts = self.defects[defect]
-                    .defect
-                    .contacts(PolarPosition { radius, angle });
+                let place = PolarPosition {
+                    radius,
+                    angle: at.angle,
+                };
+                let mut contacts = DefectContacts::none();
+                let defect = &self.defects[defect].defect;
+                defect.contacts_into(place, &mut contacts);
                 self.sum(&contacts, at.rate, at.along - radius * at.turning)
             }
             Damage::Flat(flat) => {
-                let contacts = self.flats[flat].contacts(self.race, at.spin[0], radius);
+                let mut contacts = DefectContacts::none();
+                let flat = &self.flats[flat];
+                flat.contacts_into(self.race, at.spin[0], radius, &mut contacts);
                 self.sum(&contacts, at.rate, at.along - radius * at.spin[1])
             }
         }

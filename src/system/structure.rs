@@ -6,6 +6,7 @@ use crate::linalg::{DenseCholesky, DenseMatrix, symmetric_generalised_eigen};
 use crate::model::Ring;
 use crate::reduction::Superelement;
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 /// A displacement to watch: `row . (ring displacements, housing amplitudes)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,9 +26,11 @@ pub struct Structure {
     mass: DenseMatrix,
     gravity: Vec<f64>,
     sensors: Vec<Sensor>,
+    /// Factor of the stiffness once it was asked for; `None` in it: the structure is not held.
+    factor: OnceLock<Option<DenseCholesky>>,
 }
 
-/// All modes of a structure: as many as it has coordinates.
+/// Modes of a structure: all of them, or the lowest with what they leave out of some static responses.
 #[derive(Debug, Clone)]
 pub struct StructureModes {
     /// omega^2, 1/s^2, ascending.
@@ -47,6 +50,7 @@ impl Structure {
             mass: ring.mass().clone(),
             gravity: load,
             sensors: Vec::new(),
+            factor: OnceLock::new(),
             ring,
         }
     }
@@ -85,6 +89,7 @@ impl Structure {
             mass: add_ring(&housing.mass, ring.mass()),
             gravity: load,
             sensors: Vec::new(),
+            factor: OnceLock::new(),
             ring,
         })
     }
@@ -165,13 +170,16 @@ impl Structure {
     /// # Errors
     /// [`SystemError::NotSupported`] if the structure can move without force.
     pub fn static_response(&self, loads: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
-        let free = |_| SystemError::NotSupported;
-        // a free structure may slip through the factorisation with pivots of round-off size
-        let factor = DenseCholesky::new(&self.stiffness).map_err(free)?;
-        if factor.reciprocal_condition() < 1e-14 {
-            return Err(SystemError::NotSupported);
+        let factor = self.factor.get_or_init(|| {
+            // a free structure may slip through the factorisation with pivots of round-off size
+            DenseCholesky::new(&self.stiffness)
+                .ok()
+                .filter(|factor| factor.reciprocal_condition() >= 1e-14)
+        });
+        match factor {
+            Some(factor) => Ok(factor.solve(loads)),
+            None => Err(SystemError::NotSupported),
         }
-        Ok(factor.solve(loads))
     }
 }
 
@@ -179,6 +187,45 @@ impl StructureModes {
     /// Number of modes.
     pub fn count(&self) -> usize {
         self.squared_frequencies.len()
+    }
+
+    /// The modes below `hz`, and what they leave out of the static response to `loads` [dof x k], as k modes more: a basis
+    /// in which a linear coupling through these loads is felt as with all modes, up to terms of order (f / hz)^4.
+    ///
+    /// # Errors
+    /// [`SystemError::NotSupported`] for a structure that is not held; what the eigenvalue computation reports.
+    pub fn with_static_response(
+        &self,
+        structure: &Structure,
+        hz: f64,
+        loads: &DenseMatrix,
+    ) -> Result<Self, SystemError> {
+        let limit = (TAU * hz).powi(2);
+        let kept = self
+            .squared_frequencies
+            .partition_point(|&square| square < limit);
+        let lowest = self.shapes.subcols(0, kept);
+        let parts = lowest.transpose() * loads;
+        let amplitudes = DenseMatrix::from_fn(kept, loads.ncols(), |mode, load| {
+            parts[(mode, load)] / self.squared_frequencies[mode]
+        });
+        let residual = structure.static_response(loads)? - lowest * amplitudes;
+        // orthogonal to the modes kept, in stiffness and in mass, so that its own modes can stand beside them
+        let k = residual.transpose() * (structure.stiffness() * &residual);
+        let m = residual.transpose() * (structure.mass() * &residual);
+        let own = symmetric_generalised_eigen(&k, &m)?;
+        let shapes = &residual * &own.vectors;
+        let mut squares = self.squared_frequencies[..kept].to_vec();
+        squares.extend(&own.values);
+        Ok(Self {
+            squared_frequencies: squares,
+            shapes: DenseMatrix::from_fn(structure.dof(), kept + loads.ncols(), |row, column| {
+                match column.checked_sub(kept) {
+                    None => self.shapes[(row, column)],
+                    Some(own) => shapes[(row, own)],
+                }
+            }),
+        })
     }
 
     /// Frequency of a mode, Hz; rigid ones within round-off of zero.

@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use plummer::bearing::defect::{
-    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect,
+    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect, SurfaceDent,
 };
 use plummer::bearing::{BearingDimensions, BearingGeometry, Race, Wave};
 use plummer::dynamics::{SecondOrderSystem, State};
@@ -79,15 +79,21 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
         cage: rolling_cage(&plain.geometry, SYMMETRIC_DEG, 21.0),
         ..plain
     };
+    let shape = |depth: f64| DentShape {
+        angle: 1.5 * PI,
+        length: 0.75e-3,
+        width: Some(0.41e-3),
+        depth,
+        rim_radius: 0.05e-3,
+        curvature: CurvatureReading::Total,
+    };
+    let (geometry, stiffness) = (plain.geometry, plain.stiffness);
     let dent = |race: Race, depth: f64| {
-        let shape = DentShape {
-            angle: 1.5 * PI,
-            length: 0.75e-3,
-            depth,
-            rim_radius: 0.05e-3,
-            curvature: CurvatureReading::Total,
-        };
-        RaceDefect::Dent(Dent::new(&plain.geometry, race, shape, plain.stiffness).unwrap())
+        RaceDefect::Dent(Dent::new(&geometry, race, shape(depth), stiffness).unwrap())
+    };
+    let surface = |race: Race, depth: f64| {
+        let dent = SurfaceDent::new(&geometry, race, shape(depth), stiffness);
+        RaceDefect::SurfaceDent(dent.unwrap())
     };
     let flat = FlatShape {
         radius: 2e-3,
@@ -95,7 +101,7 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
         rim_radius: 0.05e-3,
         curvature: CurvatureReading::Total,
     };
-    let flat = |geometry: &BearingGeometry| BallFlat::new(geometry, flat, plain.stiffness).unwrap();
+    let flat = BallFlat::new(&geometry, flat, stiffness).unwrap();
     vec![
         (
             "dents",
@@ -105,12 +111,19 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
             },
         ),
         (
+            "dents in three dimensions",
+            BearingSetup {
+                race_defects: vec![surface(Race::Outer, 15e-6), surface(Race::Inner, 2e-6)],
+                ..plain.clone()
+            },
+        ),
+        (
             "flats",
             BearingSetup {
                 flats: (0..7)
                     .map(|ball| FlatOnBall {
                         ball,
-                        shape: flat(&plain.geometry),
+                        shape: flat.clone(),
                         angle: 0.9 * ball as f64,
                     })
                     .collect(),
@@ -179,7 +192,10 @@ fn every_ball_stands_where_it_would_not_accelerate() {
                     .iter()
                     .map(|g| 0.15 * g.abs())
                     .sum::<f64>();
-                let tolerance = 1e-9 * size.max(0.1);
+                // with residual flexibility balls that move are taken where they were found to 1e-7 of their displacement,
+                // and their tangential forces are not continued from there
+                let digits = if residual { 1e-7 } else { 1e-9 };
+                let tolerance = digits * size.max(0.1);
                 for (ball, g) in g[modes + 2..].iter().enumerate() {
                     let left = mass * g;
                     assert!(

@@ -63,13 +63,14 @@ pub struct DefectContacts {
 }
 
 impl DefectContacts {
-    /// No contact yet.
+    /// No contact: what a query `_into` starts from.
+    #[must_use]
     #[inline]
-    pub(super) fn none() -> Self {
+    pub fn none() -> Self {
         let blank = DefectContact {
             feature: Feature::Plain,
             delta: 0.0,
-            normal_radial: 1.0,
+            normal_radial: 0.0,
             normal_tangential: 0.0,
             stiffness: 0.0,
         };
@@ -77,6 +78,12 @@ impl DefectContacts {
             items: [blank; MOST_CONTACTS],
             count: 0,
         }
+    }
+
+    /// Takes all contacts out.
+    #[inline]
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
     }
 
     /// Adds a contact behind the others; of more than [`MOST_CONTACTS`] the one with the least overlap goes.

@@ -187,7 +187,16 @@ impl Dent {
     #[must_use]
     #[inline]
     pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
-        self.profile.contacts(ball.radius, self.offset(ball.angle))
+        let mut found = DefectContacts::none();
+        self.contacts_into(ball, &mut found);
+        found
+    }
+
+    /// [`Self::contacts`] in the place of what was found before.
+    #[inline]
+    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+        let offset = self.offset(ball.angle);
+        self.profile.contacts_into(ball.radius, offset, found);
     }
 
     /// Angle from the dent's middle, within ±π.

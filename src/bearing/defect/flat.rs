@@ -144,7 +144,22 @@ impl BallFlat {
     #[must_use]
     #[inline]
     pub fn contacts(&self, race: Race, spin_angle: f64, radius: f64) -> DefectContacts {
-        self.on(race).contacts(radius, offset(race, spin_angle))
+        let mut found = DefectContacts::none();
+        self.contacts_into(race, spin_angle, radius, &mut found);
+        found
+    }
+
+    /// [`Self::contacts`] in the place of what was found before.
+    #[inline]
+    pub fn contacts_into(
+        &self,
+        race: Race,
+        spin_angle: f64,
+        radius: f64,
+        found: &mut DefectContacts,
+    ) {
+        let offset = offset(race, spin_angle);
+        self.on(race).contacts_into(radius, offset, found);
     }
 
     #[inline]

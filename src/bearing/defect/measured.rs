@@ -155,12 +155,20 @@ impl MeasuredProfile {
     #[must_use]
     #[inline]
     pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
+        let mut found = DefectContacts::none();
+        self.contacts_into(ball, &mut found);
+        found
+    }
+
+    /// [`Self::contacts`] in the place of what was found before.
+    #[inline]
+    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
         let offset = self.offset(ball.angle);
         let circles = &self.profile.circles;
-        let mut found = DefectContacts::none();
+        found.clear();
         if !within(offset, self.brackets.half_angle) || ball.radius.is_nan() {
             found.push(circles.plain(ball.radius));
-            return found;
+            return;
         }
         if offset < -self.half_angle {
             found.push(circles.plain(ball.radius));
@@ -179,7 +187,6 @@ impl MeasuredProfile {
         if offset >= self.half_angle {
             found.push(circles.plain(ball.radius));
         }
-        found
     }
 
     #[inline]

@@ -12,12 +12,12 @@ impl Depression {
     ///
     /// One beside the defect if the roller is not over it, and then one on the far rim if that is within reach.
     #[inline]
-    pub fn contacts(&self, distance: f64, offset: f64) -> DefectContacts {
+    pub fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
         let circles = &self.circles;
-        let mut found = DefectContacts::none();
+        found.clear();
         if !within(offset, self.contact_angle) {
             found.push(circles.plain(distance));
-            return found;
+            return;
         }
         let (direction, centre) = circles.centre(distance, offset);
         let mirrored = centre.mirrored();
@@ -39,7 +39,6 @@ impl Depression {
         } else if let Some(rim) = self.rim.contact(circles, centre) {
             found.push(self.rim_contact(Feature::RimAfter, &rim, direction));
         }
-        found
     }
 
     /// Contact on the floor, if the roller's foot lies where it can touch.

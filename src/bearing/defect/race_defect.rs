@@ -85,7 +85,7 @@ impl RaceDefect {
     #[must_use]
     pub fn rise(&self) -> f64 {
         match self {
-            Self::Dent(_) => 0.0,
+            Self::Dent(_) | Self::SurfaceDent(_) => 0.0,
             Self::Measured(profile) => profile.rise(),
         }
     }
@@ -105,10 +105,18 @@ impl RaceDefect {
     #[must_use]
     #[inline]
     pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
+        let mut found = DefectContacts::none();
+        self.contacts_into(ball, &mut found);
+        found
+    }
+
+    /// [`Self::contacts`] in the place of what was found before.
+    #[inline]
+    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
         match self {
-            Self::Dent(dent) => dent.contacts(ball),
-            Self::SurfaceDent(dent) => dent.contacts(ball),
-            Self::Measured(profile) => profile.contacts(ball),
+            Self::Dent(dent) => dent.contacts_into(ball, found),
+            Self::SurfaceDent(dent) => dent.contacts_into(ball, found),
+            Self::Measured(profile) => profile.contacts_into(ball, found),
         }
     }
 }

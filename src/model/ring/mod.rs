@@ -9,7 +9,7 @@ pub(crate) use energy::RingSpring;
 pub use energy::RingStrain;
 pub use rows::RingRows;
 pub use space::RingSpaceRows;
-pub use support::{RingSupport, SpringShare};
+pub use support::{RadialSupport, RingSupport, SpringShare};
 
 use crate::element::curved_beam::{CurvedBeam, OutOfPlaneArc, RingInterpolation};
 use crate::linalg::DenseMatrix;

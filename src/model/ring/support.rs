@@ -28,6 +28,19 @@ pub enum SpringShare {
     Total,
 }
 
+/// Springs between part of a ring in its plane and the ground that act along the radius, and others across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RadialSupport {
+    /// First angle, rad, included.
+    pub from: f64,
+    /// Last angle, rad, excluded.
+    pub to: f64,
+    /// Stiffness of every node's spring along the radius, N/m, >= 0.
+    pub radial: f64,
+    /// The same along the ring, N/m, >= 0: without it such springs leave the ring free to turn.
+    pub tangential: f64,
+}
+
 impl Ring {
     /// The node of a degree of freedom, and whether it is one of the ring's plane.
     pub(in crate::model) fn node_of(&self, dof: usize) -> (usize, bool) {
@@ -42,25 +55,7 @@ impl Ring {
     /// # Errors
     /// [`RingError::EmptySupport`].
     pub fn add_support(&mut self, support: &RingSupport) -> Result<(), RingError> {
-        let span = support.to - support.from;
-        // an angle counts as `from` itself, and as outside at `to`, within round-off of a turn
-        let round_off = 1e-9;
-        let inside = |angle: f64| {
-            let past = (angle - support.from + round_off).rem_euclid(TAU) - round_off;
-            past < span - round_off
-        };
-        let angles: Vec<(usize, f64)> = (0..self.nodes)
-            .map(|node| (node, self.node_angle(node)))
-            .filter(|&(_, angle)| inside(angle))
-            .collect();
-        if angles.is_empty() {
-            return Err(RingError::EmptySupport {
-                from_deg: support.from.to_degrees(),
-                to_deg: support.to.to_degrees(),
-                nodes: self.nodes,
-                spacing_deg: 360.0 / self.nodes as f64,
-            });
-        }
+        let angles = self.nodes_between(support.from, support.to)?;
         let share = match support.share {
             SpringShare::PerNode => 1.0,
             SpringShare::Total => 1.0 / angles.len() as f64,
@@ -78,21 +73,68 @@ impl Ring {
             let directions = if self.is_in_space() { 3 } else { 2 };
             let acting = rows.iter().zip(support.spring).take(directions);
             for ((first, row), stiffness) in acting {
-                if stiffness > 0.0 {
-                    self.springs.push(RingSpring {
-                        dofs: [*first, first + 1, first + 2],
-                        row: *row,
-                        stiffness: share * stiffness,
-                    });
-                }
-                for i in 0..NODE_DOF {
-                    for j in 0..NODE_DOF {
-                        self.stiffness[(*first + i, *first + j)] +=
-                            share * stiffness * row[i] * row[j];
-                    }
-                }
+                self.add_spring(*first, *row, share * stiffness);
             }
         }
         Ok(())
+    }
+
+    /// Attaches radial springs to the ground, in the ring's plane. Where along the radius they end does not matter: a section
+    /// is rigid.
+    ///
+    /// # Errors
+    /// [`RingError::EmptySupport`].
+    pub fn add_radial_support(&mut self, support: &RadialSupport) -> Result<(), RingError> {
+        for (node, angle) in self.nodes_between(support.from, support.to)? {
+            let (sin, cos) = angle.sin_cos();
+            let first = NODE_DOF * node;
+            for (row, stiffness) in [
+                ([cos, sin, 0.0], support.radial),
+                ([-sin, cos, 0.0], support.tangential),
+            ] {
+                self.add_spring(first, row, stiffness);
+            }
+        }
+        Ok(())
+    }
+
+    /// Attaches one spring to the ground that stretches by `row` times the three displacements from `first` on.
+    fn add_spring(&mut self, first: usize, row: [f64; NODE_DOF], stiffness: f64) {
+        if stiffness > 0.0 {
+            self.springs.push(RingSpring {
+                dofs: [first, first + 1, first + 2],
+                row,
+                stiffness,
+            });
+        }
+        for i in 0..NODE_DOF {
+            for j in 0..NODE_DOF {
+                self.stiffness[(first + i, first + j)] += stiffness * row[i] * row[j];
+            }
+        }
+    }
+
+    /// Nodes from one angle (rad, included) to another (excluded), with their angles.
+    fn nodes_between(&self, from: f64, to: f64) -> Result<Vec<(usize, f64)>, RingError> {
+        let span = to - from;
+        // an angle counts as `from` itself, and as outside at `to`, within round-off of a turn
+        let round_off = 1e-9;
+        let inside = |angle: f64| {
+            let past = (angle - from + round_off).rem_euclid(TAU) - round_off;
+            past < span - round_off
+        };
+        let angles: Vec<(usize, f64)> = (0..self.nodes)
+            .map(|node| (node, self.node_angle(node)))
+            .filter(|&(_, angle)| inside(angle))
+            .collect();
+        if angles.is_empty() {
+            return Err(RingError::EmptySupport {
+                from_deg: from.to_degrees(),
+                to_deg: to.to_degrees(),
+                nodes: self.nodes,
+                spacing_deg: 360.0 / self.nodes as f64,
+            });
+        }
+        Ok(angles)
     }
 }

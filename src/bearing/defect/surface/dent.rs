@@ -124,7 +124,8 @@ impl SurfaceDent {
         let Outline { circles, depth, .. } = self.surface.outline;
         let held = |drop: f64| {
             let distance = circles.carrier - circles.side * (circles.roller - drop);
-            let found = self.surface.contacts(distance, 0.0);
+            let mut found = DefectContacts::none();
+            self.surface.contacts_into(distance, 0.0, &mut found);
             found.as_slice().iter().any(|contact| contact.delta >= 0.0)
         };
         bisect(0.0, depth, |drop| !held(drop))
@@ -165,7 +166,16 @@ impl SurfaceDent {
     #[must_use]
     #[inline]
     pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
-        self.surface.contacts(ball.radius, self.offset(ball.angle))
+        let mut found = DefectContacts::none();
+        self.contacts_into(ball, &mut found);
+        found
+    }
+
+    /// [`Self::contacts`] in the place of what was found before.
+    #[inline]
+    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+        let offset = self.offset(ball.angle);
+        self.surface.contacts_into(ball.radius, offset, found);
     }
 
     /// Angle from the dent's middle, within ±π.

@@ -20,15 +20,16 @@ pub(super) fn to_tube(outline: &Outline, distance: f64, offset: f64) -> f64 {
 }
 
 impl Surface {
-    /// See [`super::SurfaceDent::contacts`]; `offset` (rad) within ±π from the middle.
+    /// See [`super::SurfaceDent::contacts_into`]; `offset` (rad) within ±π from the middle.
     #[inline]
-    pub fn contacts(&self, distance: f64, offset: f64) -> DefectContacts {
-        let (outline, mut found) = (&self.outline, DefectContacts::none());
+    pub fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
+        let outline = &self.outline;
+        found.clear();
         let plain = outline.circles.plain(distance);
         let reached = plain.delta > 0.0;
         if !reached || !within(offset, self.contact_angle) {
             found.push(plain);
-            return found;
+            return;
         }
         let over = Over::new(outline, distance, offset);
         let ends = [-1.0, 1.0].map(|v| over.squares(v));
@@ -72,7 +73,6 @@ impl Surface {
             let edge = Edge::at(&over, 1.0, ends[1][0]);
             found.push_some(self.on_edge(Feature::RimAfter, &edge, gain * vertex[1]));
         }
-        found
     }
 
     /// Contact with the tube, `share` of its stiffness; none beyond where it meets the floor.

@@ -1,0 +1,117 @@
+//! One number against its reference.
+
+use serde::Serialize;
+use serde::ser::{SerializeStruct, Serializer};
+
+/// A number that was computed, what it ought to be, and under which assumptions both are the same thing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Check {
+    /// What it is.
+    pub name: String,
+    /// The section that it belongs to.
+    pub section: String,
+    /// The program's value, in `unit`.
+    pub computed: f64,
+    /// What it is compared with, in `unit`; not zero.
+    pub reference: f64,
+    /// Unit of both; empty for none.
+    pub unit: String,
+    /// Where the reference comes from.
+    pub source: String,
+    /// What was assumed, in words.
+    pub assumptions: String,
+    /// Largest magnitude of the relative error that passes.
+    pub limit: f64,
+    /// Why this limit.
+    pub reason: String,
+}
+
+/// A number that is told, and not judged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Information {
+    /// What it is.
+    pub name: String,
+    /// The section that it belongs to.
+    pub section: String,
+    /// The program's value, in `unit`.
+    pub computed: f64,
+    /// The source's value for what this resembles, in `unit`.
+    pub source_value: Option<f64>,
+    /// Unit of both; empty for none.
+    pub unit: String,
+    /// What was assumed, in words.
+    pub assumptions: String,
+}
+
+impl Check {
+    /// (computed - reference) / reference.
+    #[must_use]
+    pub fn relative_error(&self) -> f64 {
+        (self.computed - self.reference) / self.reference
+    }
+
+    /// Whether it passes; a value that is no number does not.
+    #[must_use]
+    pub fn ok(&self) -> bool {
+        self.relative_error().abs() <= self.limit
+    }
+
+    /// One line for a reader.
+    #[must_use]
+    pub fn line(&self) -> String {
+        format!(
+            "{}: {:.6e} {} against {:.6e} ({}), {:+.2e}, limit {:.1e}",
+            self.name,
+            self.computed,
+            self.unit,
+            self.reference,
+            self.source,
+            self.relative_error(),
+            self.limit
+        )
+    }
+}
+
+impl Serialize for Check {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_struct("Check", 11)?;
+        map.serialize_field("name", &self.name)?;
+        map.serialize_field("section", &self.section)?;
+        map.serialize_field("computed", &self.computed)?;
+        map.serialize_field("reference", &self.reference)?;
+        map.serialize_field("unit", &self.unit)?;
+        map.serialize_field("source", &self.source)?;
+        map.serialize_field("assumptions", &self.assumptions)?;
+        map.serialize_field("relative_error", &self.relative_error())?;
+        map.serialize_field("limit", &self.limit)?;
+        map.serialize_field("limit_reason", &self.reason)?;
+        map.serialize_field("ok", &self.ok())?;
+        map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limit_decides_and_what_is_no_number_fails() {
+        let check = |computed, limit| Check {
+            name: "n".to_owned(),
+            section: "s".to_owned(),
+            computed,
+            reference: -2.0,
+            unit: "N".to_owned(),
+            source: "hand".to_owned(),
+            assumptions: String::new(),
+            limit,
+            reason: String::new(),
+        };
+        assert!(check(-2.25, 0.125).ok() && check(-1.75, 0.125).ok());
+        assert!(!check(-2.25, 0.12).ok() && !check(2.0, 0.5).ok());
+        assert!(!check(f64::NAN, 1.0).ok());
+        let json = serde_json::to_value(check(-2.25, 0.1)).unwrap();
+        assert_eq!(json["relative_error"], 0.125);
+        assert_eq!(json["ok"], false);
+    }
+}

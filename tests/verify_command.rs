@@ -1,0 +1,89 @@
+//! `plummer verify` from outside: it needs no file, and says what it compared with what.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use plummer::verification::BEAM_CASE;
+use serde_json::Value;
+
+/// An empty folder of this test's own.
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("verify_{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn verify(folder: &Path, words: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(folder)
+        .arg("verify")
+        .args(words)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn every_check_passes_in_an_empty_folder_and_stands_in_the_result() {
+    let folder = scratch("passes");
+    let output = verify(&folder, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(shown.contains("The paper's numbers: checks"), "{shown}");
+    let json = fs::read_to_string(folder.join("out/verify/verify.json")).unwrap();
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["command"], "verify");
+    for key in ["plummer", "wall_s", "stages_s", "threads", "tables"] {
+        assert!(!json[key].is_null(), "{key}");
+    }
+    assert!(
+        json["readings"].is_null(),
+        "the study is asked for by --full"
+    );
+    let checks = json["checks"].as_array().unwrap();
+    assert_eq!(checks.len(), 25);
+    for check in checks {
+        for key in ["name", "section", "source", "assumptions", "limit_reason"] {
+            assert!(!check[key].as_str().unwrap().is_empty(), "{key}: {check}");
+        }
+        let number = |key: &str| check[key].as_f64().unwrap();
+        let error = (number("computed") - number("reference")) / number("reference");
+        assert!((error - number("relative_error")).abs() < 1e-12, "{check}");
+        assert!(error.abs() <= number("limit"), "{check}");
+        assert_eq!(check["ok"], true);
+    }
+    let named = |name: &str| {
+        let found = checks.iter().find(|check| check["name"] == name);
+        found.expect(name)["computed"].as_f64().unwrap()
+    };
+    assert!((named("Defect order, ball") - 3.4889).abs() < 1e-4);
+    assert!((named("Eigenfrequency: shaft bounce on the contacts") - 11265.0).abs() < 1.0);
+    let page = fs::read_to_string(folder.join("out/verify/report.html")).unwrap();
+    assert!(page.contains("every radius positive, (21) and (22) as printed"));
+}
+
+#[test]
+fn an_earlier_result_is_not_replaced_and_json_is_all_there_is() {
+    let folder = scratch("again");
+    fs::create_dir_all(folder.join("o")).unwrap();
+    fs::write(folder.join("o/verify.json"), "{}").unwrap();
+    let again = verify(&folder, &["--out", "o"]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(text(&again.stderr).contains("--force"));
+    let forced = verify(&folder, &["--out", "o", "--force", "--json"]);
+    assert_eq!(forced.status.code(), Some(0));
+    let printed: Value = serde_json::from_str(&text(&forced.stdout)).unwrap();
+    let written = fs::read_to_string(folder.join("o/verify.json")).unwrap();
+    assert_eq!(printed, serde_json::from_str::<Value>(&written).unwrap());
+}
+
+#[test]
+fn the_built_in_case_is_the_example() {
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/tadina2011/beam.toml");
+    assert_eq!(fs::read_to_string(example).unwrap(), BEAM_CASE);
+}
