@@ -273,6 +273,58 @@ mod tests {
         assert!(reduced_turn(-1e-18) < 1.0);
     }
 
+    /// Five waves round eight elements, more than one group of lanes.
+    fn waves() -> RacewayTable {
+        let angle = |element: usize, xi: f64| (element as f64 + 0.5 * (xi + 1.0)) * PI / 4.0;
+        RacewayTable::fit(8, 5, &|element, xi| {
+            let at = angle(element, xi);
+            (1..=5).map(|wave| (f64::from(wave) * at).cos()).collect()
+        })
+    }
+
+    #[test]
+    fn rows_slopes_and_sums_are_those_of_the_waves() {
+        let table = waves();
+        let amplitudes = crate::system::lanes::filled(&[1.0, -2.0, 3.0, 0.5, 4.0], 0.0);
+        let (mut row, mut slopes) = (column(5, 0.0), column(5, 0.0));
+        for i in 0..1000 {
+            let turn = f64::from(i) / 1000.0;
+            let sum = table.values_into(turn, &amplitudes, &mut row);
+            table.slopes_into(turn, &mut slopes);
+            let mut expected = 0.0;
+            for (place, wave) in (1..=5).enumerate() {
+                let (sin, cos) = (f64::from(wave) * 2.0 * PI * turn).sin_cos();
+                let [value, slope] = [&row, &slopes].map(|row| row.as_flattened()[place]);
+                // polynomials are good to 1e-12, their slopes to that times degree squared over the element
+                assert!((value - cos).abs() < 1e-11, "{wave} {turn}");
+                assert!(
+                    (slope + f64::from(wave) * sin).abs() < 1e-8,
+                    "{wave} {turn}"
+                );
+                expected += amplitudes.as_flattened()[place] * cos;
+            }
+            assert!((sum - expected).abs() < 1e-10, "{turn}");
+        }
+    }
+
+    #[test]
+    fn no_value_exceeds_its_bound() {
+        let table = waves();
+        let bounds = table.bounds();
+        let mut row = column(5, 0.0);
+        let mut largest = [0.0_f64; 5];
+        for i in 0..1000 {
+            table.values_into(f64::from(i) / 1000.0, &column(5, 0.0), &mut row);
+            for (largest, value) in largest.iter_mut().zip(row.as_flattened()) {
+                *largest = largest.max(value.abs());
+            }
+        }
+        for (largest, bound) in largest.iter().zip(bounds.as_flattened()) {
+            // the bound adds the magnitudes of a polynomial's terms
+            assert!(largest <= bound && *bound < 10.0, "{largest} {bound}");
+        }
+    }
+
     #[test]
     fn powers_reproduce_chebyshev_polynomials() {
         let table = chebyshev_to_powers(5);

@@ -185,29 +185,37 @@ fn report(
 ) -> Section {
     let total = study.readings.len();
     let shaped = fits.fits.iter().filter(|fit| fit.all_shaped()).count();
-    let mut section = Section::new("")
-        .paragraph("The source does not report everything that its three eigenfrequencies rest on. Every combination of the choices below was computed: ring on its springs, balls, shaft, linearised at the static equilibrium. A reading gives a frequency if the mode nearest to it (the balls' own left out) is within 2 %; the third may lie anywhere between 35 and 36 kHz. \"By shape\": the nearest mode is also the one that the source speaks of: the ring across the load and turning (the higher of two such modes), the ring along the load on the contacts, the ring in two waves.")
-        .facts([
-            Fact::new("Readings", total.to_string()),
-            Fact::new("Without an equilibrium", study.without_equilibrium.to_string()),
-            Fact::new(
-                "Give all three",
-                format!("{} ({} %)", fits.fits.len(), percent(fits.fits.len(), total)),
+    let mut facts = vec![
+        Fact::new("Readings", total.to_string()),
+        Fact::new(
+            "Without an equilibrium",
+            study.without_equilibrium.to_string(),
+        ),
+        Fact::new(
+            "Give all three",
+            format!(
+                "{} ({} %)",
+                fits.fits.len(),
+                percent(fits.fits.len(), total)
             ),
-            Fact::new("By shape too", shaped.to_string()),
-            Fact::new(
-                "Nearest modes of another shape, in at least one of three",
-                format!("{} ({} %)", fits.misnamed, percent(fits.misnamed, total)),
-            ),
-            Fact::new("The same in all that fit", determined(study, fits)),
-        ]);
+        ),
+        Fact::new("By shape too", shaped.to_string()),
+        Fact::new(
+            "Nearest modes of another shape, in at least one of three",
+            format!("{} ({} %)", fits.misnamed, percent(fits.misnamed, total)),
+        ),
+        Fact::new("The same in all that fit", determined(study, fits)),
+    ];
     if let Some(known) = study.grid.known() {
         let rank = fits.rank(&known).map_or_else(
             || "it does not fit".to_owned(),
             |rank| format!("{rank} of {}", fits.fits.len()),
         );
-        section = section.facts([Fact::new("Place of the built-in case among them", rank)]);
+        facts.push(Fact::new("Place of the built-in case among them", rank));
     }
+    let mut section = Section::new("")
+        .paragraph("The source does not report everything that its three eigenfrequencies rest on. Every combination of the choices below was computed: ring on its springs, balls, shaft, linearised at the static equilibrium. A reading gives a frequency if the mode nearest to it (the balls' own left out) is within 2 %; the third may lie anywhere between 35 and 36 kHz. \"By shape\": the nearest mode is also the one that the source speaks of: the ring across the load and turning (the higher of two such modes), the ring along the load on the contacts, the ring in two waves.")
+        .facts(facts);
     if let Some(base) = base {
         section = section.table(shape_table(base));
     }

@@ -27,6 +27,31 @@ fn the_profile_passes_through_its_samples() {
     }
 }
 
+/// Lips beside a scratch rise above the race; a profile without them does not.
+#[test]
+fn the_rise_is_that_of_the_highest_lip() {
+    let depths = [0.0, 0.0, -0.8e-6, 2e-6, -1.3e-6, 0.0, 0.0];
+    let samples: Vec<(f64, f64)> = (0..7).map(|i| 50e-6 * f64::from(i)).zip(depths).collect();
+    for race in RACES {
+        let measured = profile(race, &samples);
+        let into = if race == Race::Outer { 1.0 } else { -1.0 };
+        let race_radius = measured.profile_radius(MIDDLE + PI);
+        let highest = (0..=20_000)
+            .map(|i| (f64::from(i) / 10_000.0 - 1.0) * measured.half_angle())
+            .map(|offset| into * (race_radius - measured.profile_radius(MIDDLE + offset)))
+            .fold(0.0, f64::max);
+        assert!(highest > 1.3e-6);
+        let rise = measured.rise();
+        assert!(
+            highest <= rise && rise < 1.02 * highest,
+            "{rise:e} {highest:e}"
+        );
+        let sunk: Vec<(f64, f64)> = samples.iter().map(|&(s, depth)| (s, depth.abs())).collect();
+        // what a spline overshoots
+        assert!(profile(race, &sunk).rise() < 0.5e-6);
+    }
+}
+
 /// The floor of the source's dent told by samples gives the contacts of the dent: overlap to the spline's error
 /// (fourth power of the spacing, 20 um: below 1e-11 m), k to that of its curvature (second power).
 #[test]
