@@ -23,7 +23,7 @@ pub mod speed;
 pub mod waviness;
 
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 
 pub use cage::{Cage, CageError};
 pub use contact::{ContactForce, HertzContact};

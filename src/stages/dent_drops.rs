@@ -39,8 +39,9 @@ pub(super) fn drops(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::Race;
     use crate::bearing::defect::CurvatureReading;
-    use crate::bearing::{BearingDimensions, Race};
+    use crate::bearing::samples::source_bearing;
 
     fn shape(width: Option<f64>) -> DentShape {
         DentShape {
@@ -55,16 +56,7 @@ mod tests {
 
     #[test]
     fn a_dent_with_a_width_has_both_drops() {
-        let source = BearingDimensions {
-            balls: 7,
-            ball_radius: 1e-3,
-            ball_mass: 3.29e-5,
-            inner_race_radius: 2.754e-3,
-            outer_race_radius: 4.7565e-3,
-            inner_groove_radius: 1.04e-3,
-            outer_groove_radius: 1.07e-3,
-        };
-        let geometry = BearingGeometry::new(source).unwrap();
+        let geometry = source_bearing();
         let stiffness = ContactStiffness::given(1e10, 1e10).unwrap();
         let of = |defect: &RaceDefect| {
             let drops = drops(&geometry, stiffness, defect).into_iter();

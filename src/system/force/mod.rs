@@ -53,8 +53,8 @@ impl SecondOrderSystem for CoupledSystem {
     }
 }
 
-/// [`SecondOrderSystem::force_into`] with the vector registers that the machine has; no fused products, so that every
-/// machine gives the same result.
+/// [`SecondOrderSystem::force_into`] with the vector registers that the machine has; no fused products, so that their width
+/// changes no result.
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn evaluate(system: &mut CoupledSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
     let shaft = system.setup.cage.shaft();

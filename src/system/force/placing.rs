@@ -37,8 +37,7 @@ impl CoupledSystem {
         self.setup.cage.ball_angle(self.work.cage_angle, j as u32)
     }
 
-    /// Turns the ball's flat to where it is, and says what the ball may feel at the outer race: a defect of the race before
-    /// a flat of its own.
+    /// What a ball may feel at the outer race: a defect of the race before a flat of its own.
     #[inline(always)]
     pub(super) fn damage_at_the_outer_race(&self, j: usize) -> Damage {
         let defect = self.outer.defect_at(self.work.direction_of(j));
