@@ -41,7 +41,7 @@ impl Piece {
         let dt = time - self.time;
         let acceleration = self.acceleration + self.jerk * dt;
         let gained = dt * (self.acceleration + 0.5 * self.jerk * dt);
-        let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt / 6.0);
+        let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt * (1.0 / 6.0));
         RotationState {
             angle: self.angle + dt * (self.speed + gained_mean),
             speed: self.speed + gained,

@@ -85,6 +85,7 @@ impl BearingSetup {
     }
 
     /// Force on the shaft at `time` (s), its weight included, the rotating unbalance not, N.
+    #[inline]
     pub fn shaft_load(&self, time: f64) -> [f64; 2] {
         let weight = self.gravity.map(|g| self.shaft.mass * g);
         self.shaft.loads.iter().fold(weight, |sum, load| {

@@ -1,11 +1,12 @@
 //! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
 
+use super::balls::Balls;
 use super::bearing_setup::{BallsInertia, BearingSetup, Formulation};
 use super::equilibrium::Equilibrium;
 use super::error::SystemError;
 use super::force::REACH;
-use super::inner::{InnerGap, InnerRace};
-use super::lanes::{self, LANES, Lanes};
+use super::inner::InnerRace;
+use super::lanes::{self, Lanes};
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
 use super::residual::ResidualFlexibility;
@@ -99,80 +100,34 @@ pub struct CoupledSystem {
     /// Gap (m) up to which a ball may be reached by what the others do, or by what rises from the race.
     pub(super) reach: f64,
     pub(super) balls: Balls,
+    /// Inverse masses of the shaft and of a ball, 1/kg.
+    pub(super) shaft_mobility: f64,
+    pub(super) ball_mobility: f64,
     /// Of shaft and cage.
     pub(super) cursors: [RotationCursor; 2],
     pub(super) work: Work,
 }
 
-/// What does not change of the balls; groups of lanes are filled up with balls that touch nothing.
-#[derive(Debug, Clone)]
-pub(super) struct Balls {
-    pub count: usize,
-    /// Cosine and sine of each ball's angle from the first.
-    pub spacing: Vec<[Lanes; 2]>,
-    /// That angle in turns, 0 to 1.
-    pub turns: Vec<Lanes>,
-    /// 1 for a ball, 0 for what fills up a group.
-    pub present: Vec<Lanes>,
-    /// How much larger than nominal, m.
-    pub oversize: Vec<f64>,
-    pub oversize_lanes: Vec<Lanes>,
-    /// Number of the ball's flat.
-    pub flat: Vec<Option<usize>>,
-    /// Bounds of the kept modes' radial displacement along the raceway.
-    pub mode_bounds: Vec<Lanes>,
-    /// Bound of what the weight adds, m.
-    pub weight_bound: f64,
-}
-
-/// Buffers and results of the last force evaluation.
+/// Buffers and results of the last force evaluation, beside those of the balls.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Work {
     /// Of the kept modes \[groups\].
     pub amplitudes: Vec<Lanes>,
     pub velocities: Vec<Lanes>,
     pub modal_force: Vec<Lanes>,
-    /// Radial rows of the balls that are near [balls x groups of modes].
-    pub rows: Vec<Lanes>,
     /// Scratch: the tangential row or the slopes of one ball.
     pub scratch_row: Vec<Lanes>,
     /// Of the first ball, rad.
     pub cage_angle: f64,
     /// Cosine and sine of the shaft's angle.
     pub shaft_direction: [f64; 2],
-    /// Cosine and sine.
-    pub direction: Vec<[Lanes; 2]>,
-    /// Angle in turns, 0 to 1.
-    pub turn: Vec<Lanes>,
     /// Angle of each ball's flat from its radius vector, rad, and its speed in the fixed frame, rad/s.
     pub spin: Vec<[f64; 2]>,
-    /// What the ball may feel at the outer race.
+    /// What each ball may feel at the outer race, and which of them feel anything.
     pub damage: Vec<Damage>,
+    pub damaged: Vec<usize>,
     /// Displacement of the last evaluation and its force.
     pub known: Vec<(f64, RaceForce)>,
-    /// Ball displacements s, m, and their rates, m/s.
-    pub displacement: Vec<Lanes>,
-    pub displacement_rate: Vec<Lanes>,
-    /// Displacement relative to the race, without the residual's part, m; minus infinity where it cannot be reached.
-    pub gap: Vec<Lanes>,
-    /// Velocity towards the outer race and along it, m/s.
-    pub rate: Vec<[f64; 2]>,
-    /// Radial force on the race, N.
-    pub outer_radial: Vec<Lanes>,
-    pub outer_tangential: Vec<f64>,
-    /// Sum of contact force magnitudes, N.
-    pub outer_magnitude: Vec<Lanes>,
-    /// Overlap with the inner race, m.
-    pub penetration: Vec<Lanes>,
-    /// Distance from the inner race's centre, m, and unit vector from there.
-    pub inner_distance: Vec<Lanes>,
-    pub inner_normal: Vec<[Lanes; 2]>,
-    /// Sum of contact force magnitudes, N.
-    pub inner_force: Vec<Lanes>,
-    /// Force on the inner race, N.
-    pub on_inner: Vec<[Lanes; 2]>,
-    /// Its reaction on the ball, along the radius vector, N.
-    pub inner_along: Vec<Lanes>,
     /// Of all balls, N.
     pub on_shaft: [f64; 2],
 }
@@ -254,12 +209,14 @@ impl CoupledSystem {
             linear,
             modes: count,
             gravity: lanes::filled(&gravity, 0.0),
+            shaft_mobility: 1.0 / setup.shaft.mass,
+            ball_mobility: 1.0 / setup.geometry.ball_mass(),
             balls: Balls {
                 mode_bounds: radial.bounds(),
                 weight_bound: residual
                     .as_ref()
                     .map_or(0.0, ResidualFlexibility::weight_bound),
-                ..Balls::new(&setup)
+                ..Balls::new(&setup, radial.groups())
             },
             radial,
             tangential: RacewayTable::new(ring, modes, &kept, |rows| rows.tangential_at(arm)),
@@ -303,32 +260,12 @@ impl CoupledSystem {
     /// shaft and kept modes together.
     pub fn contact_mobility(&self) -> f64 {
         match self.setup.balls_inertia {
-            BallsInertia::Dynamic => 1.0 / self.setup.geometry.ball_mass(),
+            BallsInertia::Dynamic => self.ball_mobility,
             BallsInertia::QuasiStatic => {
                 let bounds = self.balls.mode_bounds.as_flattened().iter();
-                1.0 / self.setup.shaft.mass + bounds.map(|bound| bound * bound).sum::<f64>()
+                self.shaft_mobility + bounds.map(|bound| bound * bound).sum::<f64>()
             }
         }
-    }
-
-    /// Ball displacements of the last evaluation \[balls\], m.
-    pub(super) fn displacements(&self) -> &[f64] {
-        &self.work.displacement.as_flattened()[..self.balls.count]
-    }
-
-    /// Radial forces of the last evaluation on the outer race \[balls\], N.
-    pub(super) fn outer_radial(&self) -> &[f64] {
-        &self.work.outer_radial.as_flattened()[..self.balls.count]
-    }
-
-    /// Contact forces of the last evaluation at the outer race \[balls\], N.
-    pub(super) fn outer_magnitude(&self) -> &[f64] {
-        &self.work.outer_magnitude.as_flattened()[..self.balls.count]
-    }
-
-    /// Contact forces of the last evaluation at the inner race \[balls\], N.
-    pub(super) fn inner_magnitude(&self) -> &[f64] {
-        &self.work.inner_force.as_flattened()[..self.balls.count]
     }
 
     /// State at rest in an equilibrium, the cage held at its angle at `t` (s).
@@ -352,85 +289,21 @@ impl CoupledSystem {
     }
 }
 
-impl Balls {
-    /// Without the bounds.
-    fn new(setup: &BearingSetup) -> Self {
-        let count = setup.balls();
-        let numbers = |f: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..count).map(f).collect() };
-        let turns = numbers(&|j| j as f64 / count as f64);
-        let angle = |j: usize| TAU * turns[j];
-        let cosines = lanes::filled(&numbers(&|j| angle(j).cos()), 1.0);
-        let sines = lanes::filled(&numbers(&|j| angle(j).sin()), 0.0);
-        let oversize = numbers(&|j| setup.oversize(j));
-        Self {
-            spacing: cosines
-                .into_iter()
-                .zip(sines)
-                .map(|(c, s)| [c, s])
-                .collect(),
-            turns: lanes::filled(&turns, 0.0),
-            present: lanes::filled(&vec![1.0; count], 0.0),
-            oversize_lanes: lanes::filled(&oversize, 0.0),
-            oversize,
-            flat: (0..count)
-                .map(|ball| setup.spin(ball, 0.0).map(|(flat, _)| flat))
-                .collect(),
-            mode_bounds: Vec::new(),
-            weight_bound: 0.0,
-            count,
-        }
-    }
-}
-
 impl Work {
     fn new(balls: usize, modes: usize) -> Self {
-        let of_balls = || lanes::column(balls, 0.0);
         let of_modes = || lanes::column(modes, 0.0);
-        let groups = of_balls().len();
         Self {
             amplitudes: of_modes(),
             velocities: of_modes(),
             modal_force: of_modes(),
-            rows: vec![[0.0; LANES]; balls * of_modes().len()],
             scratch_row: of_modes(),
             cage_angle: 0.0,
             shaft_direction: [1.0, 0.0],
-            direction: vec![[[0.0; LANES]; 2]; groups],
-            turn: of_balls(),
             spin: vec![[0.0; 2]; balls],
             damage: vec![Damage::None; balls],
+            damaged: Vec::with_capacity(balls),
             known: vec![(0.0, RaceForce::default()); balls],
-            displacement: of_balls(),
-            displacement_rate: of_balls(),
-            gap: lanes::column(balls, f64::NEG_INFINITY),
-            rate: vec![[0.0; 2]; balls],
-            outer_radial: of_balls(),
-            outer_tangential: vec![0.0; balls],
-            outer_magnitude: of_balls(),
-            penetration: of_balls(),
-            inner_distance: of_balls(),
-            inner_normal: vec![[[0.0; LANES]; 2]; groups],
-            inner_force: of_balls(),
-            on_inner: vec![[[0.0; LANES]; 2]; groups],
-            inner_along: of_balls(),
             on_shaft: [0.0; 2],
-        }
-    }
-
-    /// Unit vector towards ball `j` from the bearing's centre.
-    #[inline]
-    pub fn direction_of(&self, j: usize) -> [f64; 2] {
-        self.direction[j / LANES].map(|component| component[j % LANES])
-    }
-
-    /// Where ball `j` stands to the inner race.
-    #[inline]
-    pub fn inner_gap(&self, j: usize) -> InnerGap {
-        let (group, lane) = (j / LANES, j % LANES);
-        InnerGap {
-            penetration: self.penetration[group][lane],
-            distance: self.inner_distance[group][lane],
-            normal: self.inner_normal[group].map(|component| component[lane]),
         }
     }
 }

@@ -19,35 +19,49 @@ pub(super) fn column(count: usize, value: f64) -> Vec<Lanes> {
 /// Groups that hold `values`, filled up with `rest`.
 pub(super) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
     let mut groups = column(values.len(), rest);
-    set(&mut groups, values);
+    for (lane, value) in groups.as_flattened_mut().iter_mut().zip(values) {
+        *lane = *value;
+    }
     groups
 }
 
-/// Copies `values` to the front.
+/// Copies `values` to the front; what fills up the last group becomes zero.
 #[inline(always)]
 pub(super) fn set(groups: &mut [Lanes], values: &[f64]) {
-    let (whole, rest) = values.as_chunks::<LANES>();
-    for (group, values) in groups.iter_mut().zip(whole) {
-        *group = *values;
+    for (group, values) in groups.iter_mut().zip(values.chunks(LANES)) {
+        *group = from(values);
     }
-    if let Some(group) = groups.get_mut(whole.len()) {
-        for (lane, value) in group.iter_mut().zip(rest) {
-            *lane = *value;
-        }
+}
+
+/// The first values as a group, filled up with zeros: stored as a whole, so that it can be read as a whole at once.
+#[inline(always)]
+pub(super) fn from(values: &[f64]) -> Lanes {
+    match *values {
+        [a, b, c, d, ..] => [a, b, c, d],
+        [a, b, c] => [a, b, c, 0.0],
+        [a, b] => [a, b, 0.0, 0.0],
+        [a] => [a, 0.0, 0.0, 0.0],
+        [] => [0.0; LANES],
     }
 }
 
 /// Copies what stands at the front out again.
 #[inline(always)]
 pub(super) fn get(groups: &[Lanes], values: &mut [f64]) {
-    let (whole, rest) = values.as_chunks_mut::<LANES>();
-    for (values, group) in whole.iter_mut().zip(groups) {
-        *values = *group;
+    for (values, group) in values.chunks_mut(LANES).zip(groups) {
+        put(group, values);
     }
-    if let Some(group) = groups.get(whole.len()) {
-        for (value, lane) in rest.iter_mut().zip(group) {
-            *value = *lane;
-        }
+}
+
+/// Copies a group to at most so many values.
+#[inline(always)]
+pub(super) fn put(group: &Lanes, values: &mut [f64]) {
+    match values {
+        [a, b, c, d, ..] => [*a, *b, *c, *d] = *group,
+        [a, b, c] => [*a, *b, *c, _] = *group,
+        [a, b] => [*a, *b, ..] = *group,
+        [a] => [*a, ..] = *group,
+        [] => {}
     }
 }
 

@@ -5,6 +5,7 @@
 //! time integrator steps. [`Equilibrium`] finds where everything rests, [`LoadedModes`] linearises
 //! there.
 
+mod balls;
 mod bearing_setup;
 mod coupled;
 mod equilibrium;

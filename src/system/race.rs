@@ -1,6 +1,7 @@
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 
 use super::bearing_setup::BearingSetup;
+use super::lanes::{Lanes, each};
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use std::f64::consts::PI;
@@ -60,6 +61,7 @@ pub(super) struct RaceContact {
     touching_radius: f64,
     waviness: Waviness,
     rise: f64,
+    irregular: bool,
     defects: Vec<DefectArc>,
     flats: Vec<BallFlat>,
 }
@@ -109,6 +111,7 @@ impl RaceContact {
                 damping: setup.contact_damping,
             },
             touching_radius,
+            irregular: !waviness.is_empty() || own().next().is_some() || !setup.flats.is_empty(),
             rise: waviness.most() + own().fold(0.0, |most, defect| defect.rise().max(most)),
             waviness,
             defects: own().map(arc).collect(),
@@ -123,8 +126,9 @@ impl RaceContact {
     }
 
     /// Whether a ball may meet anything but a plain circle.
+    #[inline(always)]
     pub fn is_irregular(&self) -> bool {
-        !(self.waviness.is_empty() && self.defects.is_empty() && self.flats.is_empty())
+        self.irregular
     }
 
     /// Whether the race has waves.
@@ -167,6 +171,20 @@ impl RaceContact {
         self.defects
             .iter()
             .position(|arc| e[0] * arc.middle[0] + e[1] * arc.middle[1] >= arc.reach)
+    }
+
+    /// Number of defects.
+    #[inline(always)]
+    pub fn defects(&self) -> usize {
+        self.defects.len()
+    }
+
+    /// Zero or positive where balls in directions (`cos`, `sin`), unit vectors in the race's frame, may feel a defect.
+    #[inline(always)]
+    pub fn inside(&self, defect: usize, [cos, sin]: [&Lanes; 2]) -> Lanes {
+        let arc = &self.defects[defect];
+        let [c, s] = arc.middle;
+        each(|l| (cos[l] * c + sin[l] * s) - arc.reach)
     }
 
     /// Whether the flat with this number can be felt at a spin angle (rad).

@@ -132,7 +132,9 @@ impl Observer<CoupledSystem> for Recorder {
         for (sensor, track) in self.tracks.iter_mut().enumerate() {
             let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
-                dot(residual.sensor_row(sensor), system.outer_radial())
+                let forces = system.balls.all(|ball| &ball.outer_radial);
+                let row = residual.sensor_row(sensor).iter();
+                row.zip(forces).map(|(row, force)| row * force).sum()
             });
             if let Some(acceleration) = track.filter.push(modal + residual) {
                 track.accelerations.push(acceleration);
@@ -144,14 +146,11 @@ impl Observer<CoupledSystem> for Recorder {
             record.shaft_x.push(now.y[modes]);
             record.shaft_y.push(now.y[modes + 1]);
             let touching = system.inner_race.touching_radius;
-            let radii = system.displacements().iter().map(|s| touching + s);
-            record.ball_radius.extend(radii);
-            record
-                .outer_force
-                .extend_from_slice(system.outer_magnitude());
-            record
-                .inner_force
-                .extend_from_slice(system.inner_magnitude());
+            let balls = &system.balls;
+            let displacements = balls.all(|ball| &ball.displacement);
+            record.ball_radius.extend(displacements.map(|s| touching + s));
+            record.outer_force.extend(balls.all(|ball| &ball.outer_magnitude));
+            record.inner_force.extend(balls.all(|ball| &ball.inner_force));
         }
     }
 }

@@ -8,7 +8,8 @@
 
 use super::SystemError;
 use super::lanes::{LANES, Lanes};
-use super::raceway::{RacewayTable, locate};
+use super::raceway::{Place, Places, RacewayTable};
+use std::f64::consts::TAU;
 use super::structure::{Structure, StructureModes};
 use crate::linalg::DenseMatrix;
 use crate::model::Ring;
@@ -34,8 +35,8 @@ pub(super) struct ResidualFlexibility {
     sensors: Vec<f64>,
     /// Element of every ball and its radial interpolation there.
     places: Vec<(usize, Row)>,
-    /// Local coordinate of every ball in its element.
-    local: Vec<f64>,
+    /// Place of every ball in its element.
+    local: Vec<Place>,
     /// Derivative of that interpolation by the angle, 1/rad.
     slopes: Vec<Row>,
     /// Radial displacement at ball j for a radial force at ball k [balls x balls], m/N.
@@ -103,7 +104,7 @@ impl ResidualFlexibility {
             flexibility: by_rows(&flexibility),
             weight: by_rows(&weight),
             places: vec![(0, Row::default()); balls],
-            local: vec![0.0; balls],
+            local: vec![Place::default(); balls],
             slopes: vec![Row::default(); balls],
             contact: vec![0.0; balls * balls],
             contact_slope: vec![0.0; balls * balls],
@@ -116,11 +117,13 @@ impl ResidualFlexibility {
     /// Moves ball `j` to a place in turns, 0 <= turn < 1.
     #[inline]
     pub fn place(&mut self, j: usize, turn: f64) {
-        let (element, xi) = locate(turn, self.elements);
+        let element = Places::among(self.elements as f64, &[turn; LANES]).get(0);
+        let inside = 0.5 * (element.xi + 1.0);
         let (place, row) = &mut self.places[j];
-        *place = element;
-        self.interpolation.local_values_into(0, xi, row);
-        self.local[j] = xi;
+        *place = element.piece;
+        let element = element.piece;
+        self.local[j] = self.interpolation.locate(&[inside; LANES]).get(0);
+        self.interpolation.values_into(self.local[j], &[[0.0; LANES]; 2], row);
         let first = ELEMENT_DOF / 2 * element;
         self.weight_now[j] = product(row, &self.weight[first..first + ELEMENT_DOF]);
         let balls = self.places.len();
@@ -135,10 +138,11 @@ impl ResidualFlexibility {
     #[inline]
     pub fn couple(&mut self, near: impl Fn(usize) -> bool) {
         let balls = self.places.len();
-        let by_angle = self.elements as f64 / std::f64::consts::PI;
+        // elements, each a turn of the interpolation, in a radian
+        let by_angle = self.elements as f64 / TAU;
         for j in (0..balls).filter(|&j| near(j)) {
             self.interpolation
-                .local_slopes_into(0, self.local[j], by_angle, &mut self.slopes[j]);
+                .slopes_into(self.local[j], by_angle, &mut self.slopes[j]);
             let (element, row) = &self.places[j];
             let top = ELEMENT_DOF / 2 * element;
             for k in (0..=j).filter(|&k| near(k)) {

@@ -2,7 +2,7 @@
 
 use super::super::coupled::CoupledSystem;
 use super::super::inner::InnerGap;
-use super::super::lanes::{self, Lanes, positive};
+use super::super::lanes::{self, LANES, Lanes, positive};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::CentreMotion;
 use crate::bearing::RotationState;
@@ -21,17 +21,16 @@ impl CoupledSystem {
         let modes = self.modes;
         let relative = [0, 1].map(|k| y[modes + k] - centre.position[k]);
         let velocity = [0, 1].map(|k| v[modes + k] - centre.velocity[k]);
-        let (law, work) = (self.inner.plain(), &mut self.work);
-        let rise = self.inner.rise();
-        for group in 0..work.displacement.len() {
-            let (s, [cos, sin]) = (&work.displacement[group], &work.direction[group]);
-            let oversize = &self.balls.oversize_lanes[group];
+        let (law, rise) = (self.inner.plain(), self.inner.rise());
+        for group in &mut self.balls.groups {
+            let (s, [cos, sin]) = (&group.displacement, &group.direction);
+            let oversize = &group.oversize;
             let bounds = self.inner_race.penetration_bounds([cos, sin], s, relative);
             let bounds = lanes::each(|l| bounds[l] + oversize[l]);
             if bounds.iter().all(|&bound| bound <= -rise) {
-                work.penetration[group] = bounds;
-                work.inner_force[group] = [0.0; lanes::LANES];
-                work.on_inner[group] = [[0.0; lanes::LANES]; 2];
+                group.penetration = bounds;
+                group.inner_force = [0.0; LANES];
+                group.on_inner = [[0.0; LANES]; 2];
                 continue;
             }
             let gap = self.inner_race.gaps([cos, sin], s, relative);
@@ -42,7 +41,7 @@ impl CoupledSystem {
             });
             let [n_x, n_y] = &gap.normal;
             if law.damping > 0.0 {
-                let rate = &work.displacement_rate[group];
+                let rate = &group.displacement_rate;
                 force = lanes::each(|l| {
                     let turn = (self.inner_race.touching_radius + s[l]) * cage.speed;
                     let moving = [
@@ -53,37 +52,27 @@ impl CoupledSystem {
                     force[l] * positive(1.0 + law.damping * approach)
                 });
             }
-            let present = &self.balls.present[group];
-            force = lanes::each(|l| present[l] * force[l]);
-            work.penetration[group] = penetration;
-            work.inner_distance[group] = gap.distance;
-            work.inner_normal[group] = gap.normal;
-            work.inner_force[group] = force;
-            work.on_inner[group] = [
+            group.on_inner = [
                 lanes::each(|l| -force[l] * n_x[l]),
                 lanes::each(|l| -force[l] * n_y[l]),
             ];
+            group.penetration = penetration;
+            group.inner_distance = gap.distance;
+            group.inner_normal = gap.normal;
+            group.inner_force = force;
         }
         if self.inner.is_irregular() {
             self.irregular_inner_forces(velocity, shaft, cage);
         }
-        self.sum_inner_forces();
-    }
-
-    /// Force on the shaft, and each ball's along its radius vector.
-    #[inline(always)]
-    fn sum_inner_forces(&mut self) {
-        let work = &mut self.work;
-        let mut sums = [[0.0; lanes::LANES]; 2];
-        for group in 0..work.on_inner.len() {
-            let ([x, y], [cos, sin]) = (&work.on_inner[group], &work.direction[group]);
-            work.inner_along[group] = lanes::each(|l| -(x[l] * cos[l] + y[l] * sin[l]));
+        let mut sums = [[0.0; LANES]; 2];
+        for group in &self.balls.groups {
+            let [x, y] = &group.on_inner;
             sums = [
                 lanes::each(|l| sums[0][l] + x[l]),
                 lanes::each(|l| sums[1][l] + y[l]),
             ];
         }
-        work.on_shaft = [lanes::total(&sums[0]), lanes::total(&sums[1])];
+        self.work.on_shaft = [lanes::total(&sums[0]), lanes::total(&sums[1])];
     }
 
     /// The same for balls near a race that carries waves or defects, or that may meet a ball's flat.
@@ -95,12 +84,12 @@ impl CoupledSystem {
     ) {
         let rise = self.inner.rise();
         for j in 0..self.balls.count {
-            let gap = self.work.inner_gap(j);
+            let gap = self.balls.inner_gap(j);
             if gap.penetration <= -rise {
                 continue;
             }
-            let (n, e) = (gap.normal, self.work.direction_of(j));
-            let rate = self.work.displacement_rate.as_flattened()[j];
+            let (n, e) = (gap.normal, self.balls.direction_of(j));
+            let rate = self.balls.get(j, |ball| &ball.displacement_rate);
             let turn = self.radius(j) * cage.speed;
             let moving = [
                 rate * e[0] - turn * e[1] - velocity[0],
@@ -109,11 +98,10 @@ impl CoupledSystem {
             let approach = -(n[0] * moving[0] + n[1] * moving[1]);
             let across = n[0] * moving[1] - n[1] * moving[0];
             let force = self.irregular_inner_force(j, &gap, [approach, across], shaft);
-            let work = &mut self.work;
-            let (group, lane) = (j / lanes::LANES, j % lanes::LANES);
-            work.inner_force[group][lane] = force.magnitude;
-            work.on_inner[group][0][lane] = force.radial * n[0] - force.tangential * n[1];
-            work.on_inner[group][1][lane] = force.radial * n[1] + force.tangential * n[0];
+            let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
+            group.inner_force[lane] = force.magnitude;
+            group.on_inner[0][lane] = force.radial * n[0] - force.tangential * n[1];
+            group.on_inner[1][lane] = force.radial * n[1] + force.tangential * n[0];
         }
     }
 
@@ -125,7 +113,7 @@ impl CoupledSystem {
         [rate, along]: [f64; 2],
         shaft: &RotationState,
     ) -> RaceForce {
-        let (e, n) = (self.work.direction_of(j), gap.normal);
+        let (e, n) = (self.balls.direction_of(j), gap.normal);
         let [cos, sin] = self.work.shaft_direction;
         let in_the_race = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
         let defect = self.inner.defect_at(in_the_race);

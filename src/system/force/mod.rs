@@ -11,7 +11,7 @@ mod with_residual;
 
 use super::bearing_setup::{BallsInertia, Formulation};
 use super::coupled::CoupledSystem;
-use super::lanes::{self, Lanes};
+use super::lanes::{self, LANES};
 use crate::bearing::RotationState;
 use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
 use multiversion::multiversion;
@@ -98,37 +98,59 @@ impl CoupledSystem {
         if self.setup.contact_damping > 0.0 {
             lanes::set(&mut work.velocities, &v[..modes]);
         }
-        match self.setup.balls_inertia {
-            BallsInertia::Dynamic => {
-                lanes::set(&mut work.displacement, &y[modes + 2..]);
-                lanes::set(&mut work.displacement_rate, &v[modes + 2..]);
+        if self.setup.balls_inertia == BallsInertia::QuasiStatic {
+            for group in &mut self.balls.groups {
+                group.displacement = [0.0; LANES];
             }
-            BallsInertia::QuasiStatic => work.displacement.as_flattened_mut().fill(0.0),
+            return;
+        }
+        let displacements = y[modes + 2..].chunks(LANES);
+        for (group, displacements) in self.balls.groups.iter_mut().zip(displacements) {
+            group.displacement = lanes::from(displacements);
+        }
+        if self.setup.contact_damping > 0.0 {
+            for (group, rates) in self.balls.groups.iter_mut().zip(v[modes + 2..].chunks(LANES)) {
+                group.displacement_rate = lanes::from(rates);
+            }
         }
     }
 
     /// Weight and contact forces on the kept modes.
     #[inline(always)]
     fn structure_force(&mut self, g: &mut [f64]) {
-        let groups = self.radial.groups();
         let work = &mut self.work;
         for (force, gravity) in work.modal_force.iter_mut().zip(&self.gravity) {
             *force = *gravity;
         }
-        let forces = work.outer_radial.as_flattened()[..self.balls.count].iter();
-        for (radial, row) in forces.zip(work.rows.chunks_exact(groups)) {
-            if *radial != 0.0 {
-                lanes::add_scaled(&mut work.modal_force, *radial, row);
+        for group in &self.balls.groups {
+            for (radial, row) in group.outer_radial.iter().zip(&group.rows) {
+                if *radial != 0.0 {
+                    lanes::add_scaled(&mut work.modal_force, *radial, row);
+                }
             }
         }
-        for (j, &tangential) in work.outer_tangential.iter().enumerate() {
-            if tangential != 0.0 {
-                let (turn, row) = (work.turn.as_flattened()[j], &mut work.scratch_row);
-                self.tangential.values_into(turn, &work.amplitudes, row);
-                lanes::add_scaled(&mut work.modal_force, tangential, row);
+        if self.outer.is_irregular() {
+            self.tangential_structure_force();
+        }
+        lanes::get(&self.work.modal_force, &mut g[..self.modes]);
+    }
+
+    #[inline(always)]
+    fn tangential_structure_force(&mut self) {
+        for number in 0..self.balls.groups.len() {
+            let forces = self.balls.groups[number].outer_tangential;
+            if forces == [0.0; LANES] {
+                continue;
+            }
+            for (lane, force) in forces.into_iter().enumerate() {
+                if force != 0.0 {
+                    let at = self.tangential_place(number * LANES + lane);
+                    let (work, row) = (&mut self.work.modal_force, &mut self.work.scratch_row);
+                    self.tangential.values_into(at, &self.work.amplitudes, row);
+                    lanes::add_scaled(work, force, row);
+                }
             }
         }
-        lanes::get(&work.modal_force, &mut g[..self.modes]);
     }
 
     #[inline(always)]
@@ -175,8 +197,10 @@ impl CoupledSystem {
             total[0] += centrifugal * cos + tangential * sin;
             total[1] += centrifugal * sin - tangential * cos;
         }
-        g[self.modes] = total[0] / self.setup.shaft.mass;
-        g[self.modes + 1] = total[1] / self.setup.shaft.mass;
+        if let [x, y, ..] = &mut g[self.modes..] {
+            *x = total[0] * self.shaft_mobility;
+            *y = total[1] * self.shaft_mobility;
+        }
     }
 
     /// Contacts, weight and centrifugal load on the balls.
@@ -184,22 +208,20 @@ impl CoupledSystem {
     fn ball_forces(&mut self, centre: &CentreMotion, cage: &RotationState, g: &mut [f64]) {
         let gravity = self.setup.gravity;
         let frame = [0, 1].map(|k| gravity[k] - centre.acceleration[k]);
-        let softness = 1.0 / self.setup.geometry.ball_mass();
+        let softness = self.ball_mobility;
         let (touching, square) = (self.inner_race.touching_radius, cage.speed * cage.speed);
-        let work = &self.work;
-        let mut forces = g[self.modes + 2..].chunks_mut(lanes::LANES);
-        for group in 0..work.displacement.len() {
-            let [cos, sin] = work.direction[group];
-            let (s, outer) = (&work.displacement[group], &work.outer_radial[group]);
-            let inner = &work.inner_along[group];
-            let force: Lanes = lanes::each(|l| {
+        let forces = g[self.modes + 2..].chunks_mut(LANES);
+        for (group, out) in self.balls.groups.iter().zip(forces) {
+            let [cos, sin] = &group.direction;
+            let ([x, y], s) = (&group.on_inner, &group.displacement);
+            let outer = &group.outer_radial;
+            let force = lanes::each(|l| {
+                let inner = -(x[l] * cos[l] + y[l] * sin[l]);
                 (touching + s[l]) * square
-                    + (inner[l] - outer[l]) * softness
+                    + (inner - outer[l]) * softness
                     + (cos[l] * frame[0] + sin[l] * frame[1])
             });
-            if let Some(out) = forces.next() {
-                out.copy_from_slice(&force[..out.len()]);
-            }
+            lanes::put(&force, out);
         }
     }
 }

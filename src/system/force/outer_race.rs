@@ -2,9 +2,11 @@
 
 use super::super::bearing_setup::BallsInertia;
 use super::super::coupled::{CoupledSystem, Work};
-use super::super::lanes::{self, positive};
+use super::super::lanes::{self, LANES, Lanes, positive};
 use super::super::race::{Damage, RaceForce, RacePlace};
+use super::super::raceway::{Place, RacewayTable};
 use crate::bearing::RotationState;
+use std::f64::consts::TAU;
 
 impl CoupledSystem {
     /// Finds the balls that touch the outer race or may be reached by it, what they may feel there, their displacements
@@ -31,61 +33,54 @@ impl CoupledSystem {
             // where they are is not known yet
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
-        let (count, groups) = (self.balls.count, self.radial.groups());
-        let Work {
-            amplitudes,
-            displacement,
-            turn,
-            rows,
-            gap,
-            ..
-        } = &mut self.work;
-        let displacement = displacement.as_flattened()[..count].iter();
-        let balls = displacement.zip(&self.balls.oversize).enumerate();
-        let gaps = gap.as_flattened_mut().iter_mut();
-        let places = turn.as_flattened().iter().zip(gaps);
-        let rows = rows.chunks_exact_mut(groups);
-        for (((j, (s, oversize)), (&turn, gap)), row) in balls.zip(places).zip(rows) {
-            let s = s + oversize;
-            // what is not a number goes on and shows itself
-            if s <= -limit {
-                *gap = f64::NEG_INFINITY;
-                continue;
-            }
-            *gap = s - self.radial.values_into(turn, amplitudes, row);
-            if let Some(residual) = &mut self.residual {
-                residual.place(j, turn);
-                *gap -= residual.weight(j);
-            }
+        let (radial, amplitudes) = (&self.radial, self.work.amplitudes.as_slice());
+        for group in &mut self.balls.groups {
+            let places = radial.locate(&group.turn);
+            let (s, oversize) = (&group.displacement, &group.oversize);
+            let s = lanes::each(|l| s[l] + oversize[l]);
+            // stored as a whole, so that it can be read as a whole at once
+            let [a, b, c, d] = &mut group.rows;
+            group.gap = [
+                gap(s[0], limit, radial, places.get(0), amplitudes, a),
+                gap(s[1], limit, radial, places.get(1), amplitudes, b),
+                gap(s[2], limit, radial, places.get(2), amplitudes, c),
+                gap(s[3], limit, radial, places.get(3), amplitudes, d),
+            ];
+        }
+        if self.residual.is_some() {
+            self.place_residual();
         }
     }
 
-    /// What the balls that are near may feel.
-    fn find_damage(&mut self) {
+    /// Places the residual's displacements under the balls, and takes what the weight moves there out of their gaps.
+    fn place_residual(&mut self) {
+        let Some(residual) = &mut self.residual else {
+            return;
+        };
         for j in 0..self.balls.count {
-            self.work.damage[j] = if self.is_near(j) {
-                self.damage_at_the_outer_race(j)
-            } else {
-                Damage::None
-            };
+            let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
+            if group.gap[lane] > f64::NEG_INFINITY {
+                residual.place(j, group.turn[lane]);
+                group.gap[lane] -= residual.weight(j);
+            }
         }
     }
 
     /// Whether a ball is near enough to the race to be reached by what the other balls do.
     #[inline(always)]
     pub(super) fn is_near(&self, j: usize) -> bool {
-        self.work.gap.as_flattened()[j] > -self.reach
+        self.balls.get(j, |ball| &ball.gap) > -self.reach
             || self.setup.balls_inertia == BallsInertia::QuasiStatic
     }
 
     /// How far the kept modes and the weight can have moved the race anywhere, m.
     #[inline(always)]
     fn race_bound(&self) -> f64 {
-        let mut sum = self.balls.weight_bound;
+        let mut sums = [0.0; LANES];
         for (bound, amplitude) in self.balls.mode_bounds.iter().zip(&self.work.amplitudes) {
-            sum += lanes::total(&lanes::each(|l| bound[l] * amplitude[l].abs()));
+            sums = lanes::each(|l| sums[l] + bound[l] * amplitude[l].abs());
         }
-        sum
+        self.balls.weight_bound + lanes::total(&sums)
     }
 
     /// Velocities of the near balls relative to the race: the race's radial velocity under a ball is `d/dt w(theta(t), t)`,
@@ -93,98 +88,128 @@ impl CoupledSystem {
     /// is known.
     #[inline(always)]
     fn rates_towards_outer_race(&mut self, cage: &RotationState) {
-        let groups = self.radial.groups();
-        for j in 0..self.balls.count {
-            if !self.is_near(j) {
-                self.work.rate[j] = [0.0; 2];
-                continue;
+        let Work {
+            amplitudes,
+            velocities,
+            scratch_row,
+            ..
+        } = &mut self.work;
+        for group in &mut self.balls.groups {
+            let places = self.radial.locate(&group.turn);
+            for (l, row) in group.rows.iter().enumerate() {
+                group.rate[l] = 0.0;
+                // the opposite would leave out what is not a number
+                if group.gap[l] <= -self.reach {
+                    continue;
+                }
+                self.radial
+                    .slopes_into(places.get(l), cage.speed / TAU, scratch_row);
+                let race = lanes::dot(row, velocities) + lanes::dot(scratch_row, amplitudes);
+                group.rate[l] = group.displacement_rate[l] - race;
             }
-            let along = self.radius(j) * cage.speed;
-            let work = &mut self.work;
-            let slopes = &mut work.scratch_row;
-            self.radial.slopes_into(work.turn.as_flattened()[j], slopes);
-            let row = &work.rows[j * groups..(j + 1) * groups];
-            let race = lanes::dot(row, &work.velocities)
-                + cage.speed * lanes::dot(slopes, &work.amplitudes);
-            work.rate[j] = [work.displacement_rate.as_flattened()[j] - race, along];
+            let touching = self.inner_race.touching_radius;
+            group.along = lanes::each(|l| (touching + group.displacement[l]) * cage.speed);
         }
     }
 
     /// Distance of a ball's centre from the bearing's, m.
     #[inline(always)]
     pub(super) fn radius(&self, j: usize) -> f64 {
-        self.inner_race.touching_radius + self.work.displacement.as_flattened()[j]
+        self.inner_race.touching_radius + self.balls.get(j, |ball| &ball.displacement)
     }
 
     /// Forces on a race that only the kept modes move.
     #[inline(always)]
     pub(super) fn outer_forces(&mut self) {
-        let work = &mut self.work;
         let law = self.outer.plain();
-        for group in 0..work.gap.len() {
-            let (gap, rate) = (&work.gap[group], &work.rate);
+        for group in &mut self.balls.groups {
             let mut force = lanes::each(|l| {
-                let overlap = positive(gap[l]);
+                let overlap = positive(group.gap[l]);
                 law.stiffness * (overlap * overlap.sqrt())
             });
             if law.damping > 0.0 {
-                let first = group * lanes::LANES;
-                force = lanes::each(|l| {
-                    let rate = rate.get(first + l).map_or(0.0, |rate| rate[0]);
-                    force[l] * positive(1.0 + law.damping * rate)
-                });
+                let rate = &group.rate;
+                force = lanes::each(|l| force[l] * positive(1.0 + law.damping * rate[l]));
             }
-            work.outer_radial[group] = force;
-            work.outer_magnitude[group] = force;
+            group.outer_radial = force;
+            group.outer_magnitude = force;
+            group.outer_tangential = [0.0; LANES];
         }
-        if self.outer.is_irregular() {
-            self.irregular_outer_forces();
+        if self.outer.is_wavy() {
+            for j in 0..self.balls.count {
+                if self.is_near(j) {
+                    self.irregular_outer_force(j);
+                }
+            }
+        } else {
+            for place in 0..self.work.damaged.len() {
+                self.irregular_outer_force(self.work.damaged[place]);
+            }
         }
     }
 
-    /// The same for balls on waves or damage.
-    fn irregular_outer_forces(&mut self) {
-        self.work.outer_tangential.fill(0.0);
-        let wavy = self.outer.is_wavy();
-        for j in 0..self.balls.count {
-            if self.is_near(j) && (wavy || self.work.damage[j] != Damage::None) {
-                let force = self.outer_force(j, self.work.gap.as_flattened()[j]);
-                self.keep_outer(j, &force);
-            }
-        }
+    /// The same for a ball on waves or damage.
+    fn irregular_outer_force(&mut self, j: usize) {
+        let force = self.outer_force(j, self.balls.get(j, |ball| &ball.gap));
+        self.keep_outer(j, &force);
     }
 
     /// Outer force of ball `j` at the displacement `s` relative to the race.
     #[inline]
     pub(super) fn outer_force(&mut self, j: usize, s: f64) -> RaceForce {
         let damage = self.work.damage[j];
+        let rate = self.balls.get(j, |ball| &ball.rate);
         if damage == Damage::None && !self.outer.is_wavy() {
-            return self.outer.plain_force(s, self.work.rate[j][0]);
+            return self.outer.plain_force(s, rate);
         }
-        let (turn, radius) = (self.work.turn.as_flattened()[j], self.radius(j));
+        let at = self.tangential_place(j);
         let work = &mut self.work;
         let along = self
             .tangential
-            .values_into(turn, &work.amplitudes, &mut work.scratch_row);
-        let shift = along / radius;
-        let [rate, along] = self.work.rate[j];
+            .values_into(at, &work.amplitudes, &mut work.scratch_row);
+        let shift = along / self.radius(j);
         let [spin, speed] = self.work.spin[j];
         let place = RacePlace {
             angle: self.ball_angle(j) - shift,
             penetration: s,
             rate,
-            along,
+            along: self.balls.get(j, |ball| &ball.along),
             spin: [spin + shift, speed],
             turning: 0.0,
         };
         self.outer.force(damage, &place)
     }
 
+    /// Where ball `j` is in the table of tangential displacements.
+    #[inline]
+    pub(super) fn tangential_place(&self, j: usize) -> Place {
+        let turns = &self.balls.groups[j / LANES].turn;
+        self.tangential.locate(turns).get(j % LANES)
+    }
+
     #[inline]
     pub(super) fn keep_outer(&mut self, j: usize, force: &RaceForce) {
-        let work = &mut self.work;
-        work.outer_radial.as_flattened_mut()[j] = force.radial;
-        work.outer_magnitude.as_flattened_mut()[j] = force.magnitude;
-        work.outer_tangential[j] = force.tangential;
+        let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
+        group.outer_radial[lane] = force.radial;
+        group.outer_magnitude[lane] = force.magnitude;
+        group.outer_tangential[lane] = force.tangential;
+    }
+}
+
+/// Displacement of a ball relative to the race, minus infinity within `limit` of none; keeps the race's `row` there.
+#[inline(always)]
+fn gap(
+    s: f64,
+    limit: f64,
+    radial: &RacewayTable,
+    at: Place,
+    amplitudes: &[Lanes],
+    row: &mut [Lanes],
+) -> f64 {
+    // what is not a number goes on and shows itself
+    if s <= -limit {
+        f64::NEG_INFINITY
+    } else {
+        s - radial.values_into(at, amplitudes, row)
     }
 }

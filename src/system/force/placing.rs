@@ -1,10 +1,10 @@
 //! Where the balls are, and what they may feel there.
 
 use super::super::coupled::CoupledSystem;
-use super::super::lanes;
+use super::super::lanes::{self, Lanes};
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
-use super::super::turning::directions;
+use super::super::turning::direction;
 use crate::bearing::RotationState;
 
 impl CoupledSystem {
@@ -12,21 +12,25 @@ impl CoupledSystem {
     /// the fixed spacing.
     #[inline(always)]
     pub(super) fn place_balls(&mut self, shaft: &RotationState, cage: &RotationState) {
-        let work = &mut self.work;
-        work.cage_angle = cage.angle;
-        let first = self.setup.cage.ball_angle(cage.angle, 0);
-        let turn = reduced_turn(first);
-        let [[cos, sin], shaft] = directions([turn, reduced_turn(shaft.angle)]);
-        work.shaft_direction = shaft;
-        for group in 0..work.direction.len() {
-            let ([c, s], turns) = (&self.balls.spacing[group], &self.balls.turns[group]);
-            work.direction[group] = [
+        self.work.cage_angle = cage.angle;
+        if self.inner.is_irregular() || self.setup.shaft.unbalance != 0.0 {
+            self.work.shaft_direction = direction(reduced_turn(shaft.angle));
+        }
+        let turn = reduced_turn(self.setup.cage.ball_angle(cage.angle, 0));
+        let [cos, sin] = direction(turn);
+        for group in &mut self.balls.groups {
+            let [c, s] = &group.spacing;
+            group.direction = [
                 lanes::each(|l| cos * c[l] - sin * s[l]),
                 lanes::each(|l| sin * c[l] + cos * s[l]),
             ];
-            work.turn[group] = lanes::each(|l| {
-                let place = turn + turns[l];
-                if place < 1.0 { place } else { place - 1.0 }
+            let place = lanes::each(|l| turn + group.spacing_turns[l]);
+            group.turn = lanes::each(|l| {
+                if place[l] < 1.0 {
+                    place[l]
+                } else {
+                    place[l] - 1.0
+                }
             });
         }
     }
@@ -37,17 +41,45 @@ impl CoupledSystem {
         self.setup.cage.ball_angle(self.work.cage_angle, j as u32)
     }
 
-    /// What a ball may feel at the outer race: a defect of the race before a flat of its own.
+    /// What the balls that are near may feel at the outer race: a defect of the race before a flat of their own.
     #[inline(always)]
-    pub(super) fn damage_at_the_outer_race(&self, j: usize) -> Damage {
-        let defect = self.outer.defect_at(self.work.direction_of(j));
-        defect.map_or_else(
-            || match self.balls.flat[j] {
-                Some(flat) if self.outer.feels(flat, self.work.spin[j][0]) => Damage::Flat(flat),
-                _ => Damage::None,
-            },
-            Damage::Race,
-        )
+    pub(super) fn find_damage(&mut self) {
+        while let Some(ball) = self.work.damaged.pop() {
+            self.work.damage[ball] = Damage::None;
+        }
+        for number in 0..self.balls.groups.len() {
+            for defect in 0..self.outer.defects() {
+                let [cos, sin] = &self.balls.groups[number].direction;
+                let inside = self.outer.inside(defect, [cos, sin]);
+                if inside.iter().any(|&inside| inside >= 0.0) {
+                    self.damage_in_group(number, &inside, defect);
+                }
+            }
+        }
+        for number in 0..self.setup.flats.len() {
+            let ball = self.setup.flats[number].ball;
+            if self.outer.feels(number, self.work.spin[ball][0]) {
+                self.damage_near(ball, Damage::Flat(number));
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn damage_in_group(&mut self, number: usize, inside: &Lanes, defect: usize) {
+        for (lane, &inside) in inside.iter().enumerate() {
+            let ball = number * lanes::LANES + lane;
+            if inside >= 0.0 && ball < self.balls.count {
+                self.damage_near(ball, Damage::Race(defect));
+            }
+        }
+    }
+
+    /// Lets a ball feel this if it is near and feels nothing else.
+    fn damage_near(&mut self, ball: usize, damage: Damage) {
+        if self.is_near(ball) && self.work.damage[ball] == Damage::None {
+            self.work.damage[ball] = damage;
+            self.work.damaged.push(ball);
+        }
     }
 
     /// Turns the balls' flats to where they are.

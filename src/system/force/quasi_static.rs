@@ -71,7 +71,7 @@ impl CoupledSystem {
         cage: &RotationState,
     ) {
         let (mass, gravity) = (self.setup.geometry.ball_mass(), self.setup.gravity);
-        self.work.outer_radial.as_flattened_mut().fill(0.0);
+        self.clear_outer_radial();
         if let Some(residual) = &mut self.residual {
             residual.couple(|_| true);
         }
@@ -82,13 +82,13 @@ impl CoupledSystem {
             1
         };
         for j in 0..self.balls.count {
-            self.work.known[j].0 = -self.work.gap.as_flattened()[j];
+            self.work.known[j].0 = -self.balls.get(j, |ball| &ball.gap);
         }
         for _ in 0..sweeps {
             let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
             for j in 0..self.balls.count {
                 let (own, others) = self.residual_shares(j);
-                let [x, y] = self.work.direction_of(j);
+                let [x, y] = self.balls.direction_of(j);
                 let seat = Seat {
                     shaft,
                     centre,
@@ -97,10 +97,11 @@ impl CoupledSystem {
                     weight: mass * (gravity[0] * x + gravity[1] * y),
                     spin: mass * cage.speed * cage.speed,
                 };
-                let before = self.work.outer_radial.as_flattened()[j];
+                let before = self.balls.get(j, |ball| &ball.outer_radial);
                 let (overlap, balance) = self.settle(j, &seat);
-                self.work.gap.as_flattened_mut()[j] = overlap;
-                self.work.displacement.as_flattened_mut()[j] = balance.position;
+                self.balls.set(j, |ball| &mut ball.gap, overlap);
+                self.balls
+                    .set(j, |ball| &mut ball.displacement, balance.position);
                 self.keep_outer(j, &balance.outer);
                 change = change.max((balance.outer.radial - before).abs());
                 largest = largest.max(balance.outer.radial.abs());
@@ -177,10 +178,10 @@ impl CoupledSystem {
     fn balance(&mut self, j: usize, seat: &Seat, overlap: f64) -> Balance {
         let outer = self.outer_force(j, overlap);
         let position = seat.place + overlap + seat.own * outer.radial;
-        self.work.displacement.as_flattened_mut()[j] = position;
-        let e = self.work.direction_of(j);
+        self.balls.set(j, |ball| &mut ball.displacement, position);
+        let e = self.balls.direction_of(j);
         let mut gap = self.inner_race.gap(e, position, seat.centre);
-        gap.penetration += self.balls.oversize[j];
+        gap.penetration += self.balls.get(j, |ball| &ball.oversize);
         let inner = self.inner_force_at(j, &gap, seat.shaft);
         let n = gap.normal;
         let (along, across) = (n[0] * e[0] + n[1] * e[1], n[0] * e[1] - n[1] * e[0]);

@@ -1,6 +1,7 @@
 //! Outer contacts on a race that also gives way by the static residual of the modes left out.
 
 use super::super::coupled::CoupledSystem;
+use super::super::lanes::LANES;
 use super::super::race::RaceForce;
 use crate::bearing::RotationState;
 
@@ -22,13 +23,13 @@ impl CoupledSystem {
     /// continued along its tangent instead of being evaluated again.
     pub(super) fn outer_forces_with_residual(&mut self, cage: &RotationState) {
         let balls = self.balls.count;
-        self.work.outer_radial.as_flattened_mut().fill(0.0);
+        self.clear_outer_radial();
         if let Some(residual) = &mut self.residual {
-            let (gap, reach) = (self.work.gap.as_flattened(), self.reach);
-            residual.couple(|j| gap[j] > -reach);
+            let (balls, reach) = (&self.balls, self.reach);
+            residual.couple(|j| balls.get(j, |ball| &ball.gap) > -reach);
         }
         for j in 0..balls {
-            let gap = self.work.gap.as_flattened()[j];
+            let gap = self.balls.get(j, |ball| &ball.gap);
             let force = if self.is_near(j) {
                 self.outer_force(j, gap)
             } else {
@@ -46,8 +47,8 @@ impl CoupledSystem {
                     continue;
                 }
                 let (own, others) = self.residual_shares(j);
-                let before = self.work.outer_radial.as_flattened()[j];
-                let s = self.work.gap.as_flattened()[j] - others - own * before;
+                let before = self.balls.get(j, |ball| &ball.outer_radial);
+                let s = self.balls.get(j, |ball| &ball.gap) - others - own * before;
                 let (at, mut force) = self.work.known[j];
                 if (s - at).abs() > SAME_PLACE * s.abs() {
                     force = self.outer_force(j, s);
@@ -55,7 +56,8 @@ impl CoupledSystem {
                 }
                 let continued = force.radial + force.tangent[0] * (s - self.work.known[j].0);
                 let step = (continued.max(0.0) - before) / (1.0 + own * force.tangent[0]);
-                self.work.outer_radial.as_flattened_mut()[j] = before + step;
+                self.balls
+                    .set(j, |ball| &mut ball.outer_radial, before + step);
                 change = change.max(step.abs());
                 largest = largest.max(force.radial);
             }
@@ -65,8 +67,16 @@ impl CoupledSystem {
         }
         for j in 0..balls {
             let force = self.work.known[j].1;
-            self.work.outer_tangential[j] = force.tangential;
-            self.work.outer_magnitude.as_flattened_mut()[j] = force.magnitude;
+            self.balls
+                .set(j, |ball| &mut ball.outer_tangential, force.tangential);
+            self.balls
+                .set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
+        }
+    }
+
+    pub(super) fn clear_outer_radial(&mut self) {
+        for group in &mut self.balls.groups {
+            group.outer_radial = [0.0; LANES];
         }
     }
 
@@ -77,9 +87,9 @@ impl CoupledSystem {
         let Some(residual) = &self.residual else {
             return;
         };
-        let work = &mut self.work;
+        let work = &self.work;
         for j in 0..self.balls.count {
-            if work.gap.as_flattened()[j] <= -self.reach {
+            if self.balls.get(j, |ball| &ball.gap) <= -self.reach {
                 continue;
             }
             let slopes = residual.contact_slope_row(j);
@@ -91,7 +101,8 @@ impl CoupledSystem {
                     moved += slope * force.radial / (1.0 + own * force.tangent[0]);
                 }
             }
-            work.rate[j][0] -= cage.speed * moved;
+            let rate = self.balls.get(j, |ball| &ball.rate) - cage.speed * moved;
+            self.balls.set(j, |ball| &mut ball.rate, rate);
         }
     }
 
@@ -102,7 +113,7 @@ impl CoupledSystem {
             return (0.0, 0.0);
         };
         let row = residual.contact_row(j);
-        let forces = self.work.outer_radial.as_flattened();
+        let forces = self.balls.all(|ball| &ball.outer_radial);
         let mut others = 0.0;
         for (k, (g, force)) in row.iter().zip(forces).enumerate() {
             if k != j {

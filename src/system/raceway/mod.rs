@@ -1,0 +1,261 @@
+//! Mode shapes along the raceway, ready for the hot loop: cubic pieces, modes side by side.
+//!
+//! Values and slopes are continuous from piece to piece, a ball stays on one for several steps, and a value costs three
+//! products.
+
+mod polynomials;
+
+use super::lanes::{LANES, Lanes, each, total};
+use super::structure::StructureModes;
+use crate::model::{Ring, RingRows};
+use polynomials::ElementPolynomials;
+use std::f64::consts::PI;
+
+/// Coefficients of a cubic in its local coordinate in [-1, 1], highest power first.
+type Cubic = [Lanes; 4];
+
+/// Values of the kept modes along the raceway.
+#[derive(Debug, Clone)]
+pub(super) struct RacewayTable {
+    /// Pieces all round, as a number that places are multiplied with.
+    pieces: f64,
+    /// Groups of modes: the length of a row.
+    groups: usize,
+    /// [piece][group of modes]
+    cubics: Vec<Cubic>,
+}
+
+impl RacewayTable {
+    /// Table of `component(rows) . phi` for the given modes.
+    pub fn new(
+        ring: &Ring,
+        modes: &StructureModes,
+        kept: &[usize],
+        component: impl Fn(&RingRows) -> [f64; 6],
+    ) -> Self {
+        let sample = |element: usize, xi: f64| -> Vec<f64> {
+            let half = PI / ring.nodes() as f64;
+            let rows = ring.rows_in_element(element, xi * half);
+            let factors = component(&rows);
+            kept.iter()
+                .map(|&mode| {
+                    let shape = modes.shapes.col(mode);
+                    (0..6).map(|k| factors[k] * shape[rows.dofs[k]]).sum()
+                })
+                .collect()
+        };
+        Self::fit(ring.nodes(), kept.len(), &sample)
+    }
+
+    /// Table of the radial interpolation itself: six values over the polar components of an
+    /// element's nodes, one element for all.
+    pub fn of_interpolation(ring: &Ring) -> Self {
+        let half = PI / ring.nodes() as f64;
+        Self::fit(1, 6, &|_, xi| ring.polar_radial_row(xi * half).to_vec())
+    }
+
+    /// Reproduces `sample(element, xi)`.
+    fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
+        let polynomials = ElementPolynomials::fit(elements, modes, sample);
+        let cuts = polynomials.cuts();
+        Self {
+            pieces: (elements * cuts) as f64,
+            groups: modes.div_ceil(LANES),
+            cubics: polynomials.cut(cuts),
+        }
+    }
+
+    /// Groups of modes: the length of a row, at least one.
+    #[inline(always)]
+    pub fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// Where places in turns, 0 <= turn < 1, lie.
+    #[inline(always)]
+    pub fn locate(&self, turns: &Lanes) -> Places {
+        Places::among(self.pieces, turns)
+    }
+
+    /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
+    #[inline(always)]
+    pub fn values_into(&self, at: Place, amplitudes: &[Lanes], out: &mut [Lanes]) -> f64 {
+        let mut sums = [0.0; LANES];
+        let cubics = self.row(at.piece).iter().zip(amplitudes);
+        for (out, (cubic, amplitude)) in out.iter_mut().zip(cubics) {
+            let value = value(cubic, at.xi);
+            *out = value;
+            sums = each(|l| sums[l] + value[l] * amplitude[l]);
+        }
+        total(&sums)
+    }
+
+    /// Derivatives of all modes at a place, per turn times `scale`, into `out` \[groups\].
+    #[inline(always)]
+    pub fn slopes_into(&self, at: Place, scale: f64, out: &mut [Lanes]) {
+        let scale = 2.0 * self.pieces * scale;
+        for (out, cubic) in out.iter_mut().zip(self.row(at.piece)) {
+            let slope = slope(cubic, at.xi);
+            *out = each(|l| scale * slope[l]);
+        }
+    }
+
+    /// A bound of each mode's magnitude along the whole raceway \[groups\].
+    pub fn bounds(&self) -> Vec<Lanes> {
+        let mut bounds = vec![[0.0; LANES]; self.groups];
+        for row in self.cubics.chunks_exact(self.groups) {
+            for (bound, cubic) in bounds.iter_mut().zip(row) {
+                // |xi| <= 1
+                let most = each(|l| cubic.iter().map(|power| power[l].abs()).sum());
+                *bound = each(|l| f64::max(bound[l], most[l]));
+            }
+        }
+        bounds
+    }
+
+    #[inline(always)]
+    fn row(&self, piece: usize) -> &[Cubic] {
+        // ends where the other side of a pairing ends
+        &self.cubics[piece * self.groups..]
+    }
+}
+
+#[inline(always)]
+fn value([a, b, c, d]: &Cubic, xi: f64) -> Lanes {
+    each(|l| ((a[l] * xi + b[l]) * xi + c[l]) * xi + d[l])
+}
+
+#[inline(always)]
+fn slope([a, b, c, _]: &Cubic, xi: f64) -> Lanes {
+    each(|l| (3.0 * a[l] * xi + 2.0 * b[l]) * xi + c[l])
+}
+
+/// A place on the raceway: piece, and local coordinate there, -1 <= xi <= 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Place {
+    pub piece: usize,
+    pub xi: f64,
+}
+
+/// Places side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places {
+    pieces: [u32; LANES],
+    xi: Lanes,
+}
+
+impl Places {
+    /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
+    #[inline(always)]
+    pub fn among(pieces: f64, turns: &Lanes) -> Self {
+        let (place, last) = (turns.map(|turn| turn * pieces), pieces - 1.0);
+        let whole = each(|l| nearest_whole(place[l] - 0.5));
+        // also what is not a number gets a piece, and shows itself in the value
+        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
+        let piece = each(|l| if piece[l] > 0.0 { piece[l] } else { 0.0 });
+        Self {
+            pieces: piece.map(lowest_bits),
+            xi: each(|l| 2.0 * (place[l] - piece[l]) - 1.0),
+        }
+    }
+
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> Place {
+        Place {
+            piece: self.pieces[lane] as usize,
+            xi: self.xi[lane],
+        }
+    }
+}
+
+/// Added to it, a number below 2^51 has its nearest whole one in the lowest bits: fewer instructions than a conversion.
+const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
+
+/// The nearest whole number, for magnitudes below 2^51.
+#[inline(always)]
+pub(super) fn nearest_whole(x: f64) -> f64 {
+    (x + WHOLE) - WHOLE
+}
+
+/// The lowest bits of a whole number, for magnitudes below 2^51.
+#[inline(always)]
+pub(super) fn lowest_bits(whole: f64) -> u32 {
+    (whole + WHOLE).to_bits() as u32
+}
+
+/// An angle (rad) in turns, reduced to 0 <= turn < 1; beyond 1e15 rad, where no fraction of a turn is left, 0.
+#[inline(always)]
+pub(super) fn reduced_turn(angle: f64) -> f64 {
+    let turns = angle * (0.5 / PI);
+    let rest = turns - nearest_whole(turns);
+    let turn = if rest < 0.0 { rest + 1.0 } else { rest };
+    if turn < 1.0 { turn } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lanes::column;
+    use super::*;
+
+    #[test]
+    fn turns_are_reduced_from_both_sides() {
+        for (angle, turn) in [(0.0, 0.0), (PI, 0.5), (-0.5 * PI, 0.75), (7.0 * PI, 0.5)] {
+            assert!((reduced_turn(angle) - turn).abs() < 1e-15, "{angle}");
+        }
+        assert!(reduced_turn(-1e-18) < 1.0);
+    }
+
+    /// Five waves round eight elements, more than one group of lanes.
+    fn waves() -> RacewayTable {
+        let angle = |element: usize, xi: f64| (element as f64 + 0.5 * (xi + 1.0)) * PI / 4.0;
+        RacewayTable::fit(8, 5, &|element, xi| {
+            let at = angle(element, xi);
+            (1..=5).map(|wave| (f64::from(wave) * at).cos()).collect()
+        })
+    }
+
+    #[test]
+    fn rows_slopes_and_sums_are_those_of_the_waves() {
+        let table = waves();
+        let amplitudes = crate::system::lanes::filled(&[1.0, -2.0, 3.0, 0.5, 4.0], 0.0);
+        let (mut row, mut slopes) = (column(5, 0.0), column(5, 0.0));
+        for i in 0..1000 {
+            let turn = f64::from(i) / 1000.0;
+            let at = table.locate(&[turn; LANES]).get(2);
+            let sum = table.values_into(at, &amplitudes, &mut row);
+            table.slopes_into(at, 0.5 / PI, &mut slopes);
+            let mut expected = 0.0;
+            for (place, wave) in (1..=5).enumerate() {
+                let (sin, cos) = (f64::from(wave) * 2.0 * PI * turn).sin_cos();
+                let [value, slope] = [&row, &slopes].map(|row| row.as_flattened()[place]);
+                // values are good to 1e-12 of the largest, slopes to that over a piece's length
+                assert!((value - cos).abs() < 1e-11, "{wave} {turn}");
+                assert!(
+                    (slope + f64::from(wave) * sin).abs() < 1e-8,
+                    "{wave} {turn}"
+                );
+                expected += amplitudes.as_flattened()[place] * cos;
+            }
+            assert!((sum - expected).abs() < 1e-10, "{turn}");
+        }
+    }
+
+    #[test]
+    fn no_value_exceeds_its_bound() {
+        let table = waves();
+        let bounds = table.bounds();
+        let mut row = column(5, 0.0);
+        let mut largest = [0.0_f64; 5];
+        for i in 0..1000 {
+            let at = table.locate(&[f64::from(i) / 1000.0; LANES]).get(0);
+            table.values_into(at, &column(5, 0.0), &mut row);
+            for (largest, value) in largest.iter_mut().zip(row.as_flattened()) {
+                *largest = largest.max(value.abs());
+            }
+        }
+        for (largest, bound) in largest.iter().zip(bounds.as_flattened()) {
+            // the bound adds the magnitudes of a polynomial's terms
+            assert!(largest <= bound && *bound < 10.0, "{largest} {bound}");
+        }
+    }
+}
