@@ -36,8 +36,8 @@ pub(super) struct BallGroup {
     pub displacement_rate: Lanes,
     /// Displacement relative to the outer race, without the residual's part, m; minus infinity where it cannot be reached.
     pub gap: Lanes,
-    /// Radial rows of the balls that are near, each \[groups of modes\].
-    pub rows: [Vec<Lanes>; LANES],
+    /// Radial rows of the balls that are near, the others' stale \[groups of modes\]; never anything but finite numbers.
+    pub rows: Vec<[Lanes; LANES]>,
     /// Velocity towards the outer race and along it, m/s.
     pub rate: Lanes,
     pub along: Lanes,
@@ -78,7 +78,7 @@ impl Balls {
                     spacing_turns,
                     oversize,
                     gap: [f64::NEG_INFINITY; LANES],
-                    rows: std::array::from_fn(|_| vec![[0.0; LANES]; mode_groups]),
+                    rows: vec![[[0.0; LANES]; LANES]; mode_groups],
                     ..BallGroup::default()
                 })
                 .collect(),

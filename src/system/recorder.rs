@@ -148,9 +148,15 @@ impl Observer<CoupledSystem> for Recorder {
             let touching = system.inner_race.touching_radius;
             let balls = &system.balls;
             let displacements = balls.all(|ball| &ball.displacement);
-            record.ball_radius.extend(displacements.map(|s| touching + s));
-            record.outer_force.extend(balls.all(|ball| &ball.outer_magnitude));
-            record.inner_force.extend(balls.all(|ball| &ball.inner_force));
+            record
+                .ball_radius
+                .extend(displacements.map(|s| touching + s));
+            record
+                .outer_force
+                .extend(balls.all(|ball| &ball.outer_magnitude));
+            record
+                .inner_force
+                .extend(balls.all(|ball| &ball.inner_force));
         }
     }
 }

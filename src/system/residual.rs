@@ -9,10 +9,10 @@
 use super::SystemError;
 use super::lanes::{LANES, Lanes};
 use super::raceway::{Place, Places, RacewayTable};
-use std::f64::consts::TAU;
 use super::structure::{Structure, StructureModes};
 use crate::linalg::DenseMatrix;
 use crate::model::Ring;
+use std::f64::consts::TAU;
 
 /// Components of an element's two nodes.
 const ELEMENT_DOF: usize = 6;
@@ -123,7 +123,8 @@ impl ResidualFlexibility {
         *place = element.piece;
         let element = element.piece;
         self.local[j] = self.interpolation.locate(&[inside; LANES]).get(0);
-        self.interpolation.values_into(self.local[j], &[[0.0; LANES]; 2], row);
+        self.interpolation
+            .values_into(self.local[j], &[[0.0; LANES]; 2], row.iter_mut());
         let first = ELEMENT_DOF / 2 * element;
         self.weight_now[j] = product(row, &self.weight[first..first + ELEMENT_DOF]);
         let balls = self.places.len();

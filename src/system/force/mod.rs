@@ -109,7 +109,12 @@ impl CoupledSystem {
             group.displacement = lanes::from(displacements);
         }
         if self.setup.contact_damping > 0.0 {
-            for (group, rates) in self.balls.groups.iter_mut().zip(v[modes + 2..].chunks(LANES)) {
+            for (group, rates) in self
+                .balls
+                .groups
+                .iter_mut()
+                .zip(v[modes + 2..].chunks(LANES))
+            {
                 group.displacement_rate = lanes::from(rates);
             }
         }
@@ -123,10 +128,15 @@ impl CoupledSystem {
             *force = *gravity;
         }
         for group in &self.balls.groups {
-            for (radial, row) in group.outer_radial.iter().zip(&group.rows) {
-                if *radial != 0.0 {
-                    lanes::add_scaled(&mut work.modal_force, *radial, row);
-                }
+            let radial = &group.outer_radial;
+            if radial.iter().all(|&radial| radial == 0.0) {
+                continue;
+            }
+            for (force, [a, b, c, d]) in work.modal_force.iter_mut().zip(&group.rows) {
+                *force = lanes::each(|l| {
+                    (force[l] + (radial[0] * a[l] + radial[1] * b[l]))
+                        + (radial[2] * c[l] + radial[3] * d[l])
+                });
             }
         }
         if self.outer.is_irregular() {
@@ -139,14 +149,15 @@ impl CoupledSystem {
     fn tangential_structure_force(&mut self) {
         for number in 0..self.balls.groups.len() {
             let forces = self.balls.groups[number].outer_tangential;
-            if forces == [0.0; LANES] {
+            if forces.iter().all(|&force| force == 0.0) {
                 continue;
             }
             for (lane, force) in forces.into_iter().enumerate() {
                 if force != 0.0 {
                     let at = self.tangential_place(number * LANES + lane);
                     let (work, row) = (&mut self.work.modal_force, &mut self.work.scratch_row);
-                    self.tangential.values_into(at, &self.work.amplitudes, row);
+                    self.tangential
+                        .values_into(at, &self.work.amplitudes, row.iter_mut());
                     lanes::add_scaled(work, force, row);
                 }
             }

@@ -25,7 +25,8 @@ impl CoupledSystem {
         }
     }
 
-    /// Displacements relative to the race; of a ball that cannot be reached by it, minus infinity.
+    /// Displacements relative to the race, of a ball that cannot be reached by it minus infinity, and the forces that plain
+    /// contact without residual and damping would give.
     #[inline(always)]
     fn find_gaps(&mut self) {
         let limit = match self.setup.balls_inertia {
@@ -34,18 +35,29 @@ impl CoupledSystem {
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
         let (radial, amplitudes) = (&self.radial, self.work.amplitudes.as_slice());
+        let stiffness = self.outer.plain().stiffness;
         for group in &mut self.balls.groups {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
             let s = lanes::each(|l| s[l] + oversize[l]);
-            // stored as a whole, so that it can be read as a whole at once
-            let [a, b, c, d] = &mut group.rows;
-            group.gap = [
-                gap(s[0], limit, radial, places.get(0), amplitudes, a),
-                gap(s[1], limit, radial, places.get(1), amplitudes, b),
-                gap(s[2], limit, radial, places.get(2), amplitudes, c),
-                gap(s[3], limit, radial, places.get(3), amplitudes, d),
+            let mut gap = Gaps {
+                limit,
+                radial,
+                amplitudes,
+                rows: &mut group.rows,
+            };
+            let gap = [
+                gap.of::<0>(s[0], places.get(0)),
+                gap.of::<1>(s[1], places.get(1)),
+                gap.of::<2>(s[2], places.get(2)),
+                gap.of::<3>(s[3], places.get(3)),
             ];
+            group.gap = gap;
+            // here, where the gaps need not be collected from memory
+            group.outer_radial = lanes::each(|l| {
+                let overlap = positive(gap[l]);
+                stiffness * (overlap * overlap.sqrt())
+            });
         }
         if self.residual.is_some() {
             self.place_residual();
@@ -96,7 +108,7 @@ impl CoupledSystem {
         } = &mut self.work;
         for group in &mut self.balls.groups {
             let places = self.radial.locate(&group.turn);
-            for (l, row) in group.rows.iter().enumerate() {
+            for l in 0..LANES {
                 group.rate[l] = 0.0;
                 // the opposite would leave out what is not a number
                 if group.gap[l] <= -self.reach {
@@ -104,7 +116,9 @@ impl CoupledSystem {
                 }
                 self.radial
                     .slopes_into(places.get(l), cage.speed / TAU, scratch_row);
-                let race = lanes::dot(row, velocities) + lanes::dot(scratch_row, amplitudes);
+                let rows = group.rows.iter().map(|rows| &rows[l]);
+                let race =
+                    lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
                 group.rate[l] = group.displacement_rate[l] - race;
             }
             let touching = self.inner_race.touching_radius;
@@ -118,21 +132,16 @@ impl CoupledSystem {
         self.inner_race.touching_radius + self.balls.get(j, |ball| &ball.displacement)
     }
 
-    /// Forces on a race that only the kept modes move.
+    /// Forces on a race that only the kept modes move, from those of plain contact without damping.
     #[inline(always)]
     pub(super) fn outer_forces(&mut self) {
-        let law = self.outer.plain();
+        let damping = self.outer.plain().damping;
         for group in &mut self.balls.groups {
-            let mut force = lanes::each(|l| {
-                let overlap = positive(group.gap[l]);
-                law.stiffness * (overlap * overlap.sqrt())
-            });
-            if law.damping > 0.0 {
-                let rate = &group.rate;
-                force = lanes::each(|l| force[l] * positive(1.0 + law.damping * rate[l]));
+            if damping > 0.0 {
+                let (force, rate) = (&group.outer_radial, &group.rate);
+                group.outer_radial = lanes::each(|l| force[l] * positive(1.0 + damping * rate[l]));
             }
-            group.outer_radial = force;
-            group.outer_magnitude = force;
+            group.outer_magnitude = group.outer_radial;
             group.outer_tangential = [0.0; LANES];
         }
         if self.outer.is_wavy() {
@@ -166,7 +175,7 @@ impl CoupledSystem {
         let work = &mut self.work;
         let along = self
             .tangential
-            .values_into(at, &work.amplitudes, &mut work.scratch_row);
+            .values_into(at, &work.amplitudes, work.scratch_row.iter_mut());
         let shift = along / self.radius(j);
         let [spin, speed] = self.work.spin[j];
         let place = RacePlace {
@@ -196,20 +205,24 @@ impl CoupledSystem {
     }
 }
 
-/// Displacement of a ball relative to the race, minus infinity within `limit` of none; keeps the race's `row` there.
-#[inline(always)]
-fn gap(
-    s: f64,
+/// What the gaps of a group of balls are found with.
+struct Gaps<'a> {
     limit: f64,
-    radial: &RacewayTable,
-    at: Place,
-    amplitudes: &[Lanes],
-    row: &mut [Lanes],
-) -> f64 {
-    // what is not a number goes on and shows itself
-    if s <= -limit {
-        f64::NEG_INFINITY
-    } else {
-        s - radial.values_into(at, amplitudes, row)
+    radial: &'a RacewayTable,
+    amplitudes: &'a [Lanes],
+    rows: &'a mut [[Lanes; LANES]],
+}
+
+impl Gaps<'_> {
+    /// Displacement of the ball in lane `L` relative to the race, at `s` (m) from its undeformed place, minus infinity if it
+    /// cannot be reached; keeps the race's row there.
+    #[inline(always)]
+    fn of<const L: usize>(&mut self, s: f64, at: Place) -> f64 {
+        // what is not a number goes on and shows itself
+        if s <= -self.limit {
+            return f64::NEG_INFINITY;
+        }
+        let rows = self.rows.iter_mut().map(|rows| &mut rows[L]);
+        s - self.radial.values_into(at, self.amplitudes, rows)
     }
 }

@@ -4,7 +4,7 @@ use super::super::coupled::CoupledSystem;
 use super::super::lanes::{self, Lanes};
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
-use super::super::turning::direction;
+use super::super::turning::directions;
 use crate::bearing::RotationState;
 
 impl CoupledSystem {
@@ -13,11 +13,9 @@ impl CoupledSystem {
     #[inline(always)]
     pub(super) fn place_balls(&mut self, shaft: &RotationState, cage: &RotationState) {
         self.work.cage_angle = cage.angle;
-        if self.inner.is_irregular() || self.setup.shaft.unbalance != 0.0 {
-            self.work.shaft_direction = direction(reduced_turn(shaft.angle));
-        }
         let turn = reduced_turn(self.setup.cage.ball_angle(cage.angle, 0));
-        let [cos, sin] = direction(turn);
+        let [[cos, sin], shaft] = directions([turn, reduced_turn(shaft.angle)]);
+        self.work.shaft_direction = shaft;
         for group in &mut self.balls.groups {
             let [c, s] = &group.spacing;
             group.direction = [

@@ -5,7 +5,7 @@
 
 mod polynomials;
 
-use super::lanes::{LANES, Lanes, each, total};
+use super::lanes::{LANES, Lanes, each, together, total};
 use super::structure::StructureModes;
 use crate::model::{Ring, RingRows};
 use polynomials::ElementPolynomials;
@@ -79,10 +79,14 @@ impl RacewayTable {
 
     /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
     #[inline(always)]
-    pub fn values_into(&self, at: Place, amplitudes: &[Lanes], out: &mut [Lanes]) -> f64 {
+    pub fn values_into<'a>(
+        &self,
+        at: Place,
+        amplitudes: &[Lanes],
+        out: impl Iterator<Item = &'a mut Lanes>,
+    ) -> f64 {
         let mut sums = [0.0; LANES];
-        let cubics = self.row(at.piece).iter().zip(amplitudes);
-        for (out, (cubic, amplitude)) in out.iter_mut().zip(cubics) {
+        for ((cubic, amplitude), out) in self.row(at.piece).iter().zip(amplitudes).zip(out) {
             let value = value(cubic, at.xi);
             *out = value;
             sums = each(|l| sums[l] + value[l] * amplitude[l]);
@@ -140,7 +144,8 @@ pub(super) struct Place {
 /// Places side by side.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Places {
-    pieces: [u32; LANES],
+    /// With the piece in the lowest bits.
+    pieces: Lanes,
     xi: Lanes,
 }
 
@@ -148,21 +153,20 @@ impl Places {
     /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
     #[inline(always)]
     pub fn among(pieces: f64, turns: &Lanes) -> Self {
-        let (place, last) = (turns.map(|turn| turn * pieces), pieces - 1.0);
+        let (place, last) = (each(|l| turns[l] * pieces), pieces - 1.0);
         let whole = each(|l| nearest_whole(place[l] - 0.5));
         // also what is not a number gets a piece, and shows itself in the value
         let piece = each(|l| if whole[l] < last { whole[l] } else { last });
-        let piece = each(|l| if piece[l] > 0.0 { piece[l] } else { 0.0 });
         Self {
-            pieces: piece.map(lowest_bits),
-            xi: each(|l| 2.0 * (place[l] - piece[l]) - 1.0),
+            pieces: together(each(|l| piece[l] + WHOLE)),
+            xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)),
         }
     }
 
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Place {
         Place {
-            piece: self.pieces[lane] as usize,
+            piece: self.pieces[lane].to_bits() as u32 as usize,
             xi: self.xi[lane],
         }
     }
@@ -222,7 +226,7 @@ mod tests {
         for i in 0..1000 {
             let turn = f64::from(i) / 1000.0;
             let at = table.locate(&[turn; LANES]).get(2);
-            let sum = table.values_into(at, &amplitudes, &mut row);
+            let sum = table.values_into(at, &amplitudes, row.iter_mut());
             table.slopes_into(at, 0.5 / PI, &mut slopes);
             let mut expected = 0.0;
             for (place, wave) in (1..=5).enumerate() {
@@ -248,7 +252,7 @@ mod tests {
         let mut largest = [0.0_f64; 5];
         for i in 0..1000 {
             let at = table.locate(&[f64::from(i) / 1000.0; LANES]).get(0);
-            table.values_into(at, &column(5, 0.0), &mut row);
+            table.values_into(at, &column(5, 0.0), row.iter_mut());
             for (largest, value) in largest.iter_mut().zip(row.as_flattened()) {
                 *largest = largest.max(value.abs());
             }
