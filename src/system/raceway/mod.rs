@@ -1,7 +1,7 @@
-//! Mode shapes along the raceway, ready for the hot loop: cubic pieces, modes side by side.
+//! Mode shapes along the raceway, ready for the hot loop: pieces of fifth degree, modes side by side.
 //!
-//! Values and slopes are continuous from piece to piece, a ball stays on one for several steps, and a value costs three
-//! products.
+//! Values, slopes and curvatures are continuous from piece to piece, a ball stays on one for many steps, and a value costs
+//! five products.
 
 mod polynomials;
 
@@ -11,8 +11,8 @@ use crate::model::{Ring, RingRows};
 use polynomials::ElementPolynomials;
 use std::f64::consts::PI;
 
-/// Coefficients of a cubic in its local coordinate in [-1, 1], highest power first.
-type Cubic = [Lanes; 4];
+/// Coefficients of a polynomial in its local coordinate in [-1, 1], highest power first.
+type Quintic = [Lanes; 6];
 
 /// Values of the kept modes along the raceway.
 #[derive(Debug, Clone)]
@@ -22,7 +22,7 @@ pub(super) struct RacewayTable {
     /// Groups of modes: the length of a row.
     groups: usize,
     /// [piece][group of modes]
-    cubics: Vec<Cubic>,
+    quintics: Vec<Quintic>,
 }
 
 impl RacewayTable {
@@ -61,7 +61,7 @@ impl RacewayTable {
         Self {
             pieces: (elements * cuts) as f64,
             groups: modes.div_ceil(LANES),
-            cubics: polynomials.cut(cuts),
+            quintics: polynomials.cut(cuts),
         }
     }
 
@@ -86,8 +86,8 @@ impl RacewayTable {
         out: impl Iterator<Item = &'a mut Lanes>,
     ) -> f64 {
         let mut sums = [0.0; LANES];
-        for ((cubic, amplitude), out) in self.row(at.piece).iter().zip(amplitudes).zip(out) {
-            let value = value(cubic, at.xi);
+        for ((quintic, amplitude), out) in self.row(at.piece).iter().zip(amplitudes).zip(out) {
+            let value = value(quintic, at.xi);
             *out = value;
             sums = each(|l| sums[l] + value[l] * amplitude[l]);
         }
@@ -98,8 +98,8 @@ impl RacewayTable {
     #[inline(always)]
     pub fn slopes_into(&self, at: Place, scale: f64, out: &mut [Lanes]) {
         let scale = 2.0 * self.pieces * scale;
-        for (out, cubic) in out.iter_mut().zip(self.row(at.piece)) {
-            let slope = slope(cubic, at.xi);
+        for (out, quintic) in out.iter_mut().zip(self.row(at.piece)) {
+            let slope = slope(quintic, at.xi);
             *out = each(|l| scale * slope[l]);
         }
     }
@@ -107,10 +107,10 @@ impl RacewayTable {
     /// A bound of each mode's magnitude along the whole raceway \[groups\].
     pub fn bounds(&self) -> Vec<Lanes> {
         let mut bounds = vec![[0.0; LANES]; self.groups];
-        for row in self.cubics.chunks_exact(self.groups) {
-            for (bound, cubic) in bounds.iter_mut().zip(row) {
+        for row in self.quintics.chunks_exact(self.groups) {
+            for (bound, quintic) in bounds.iter_mut().zip(row) {
                 // |xi| <= 1
-                let most = each(|l| cubic.iter().map(|power| power[l].abs()).sum());
+                let most = each(|l| quintic.iter().map(|power| power[l].abs()).sum());
                 *bound = each(|l| f64::max(bound[l], most[l]));
             }
         }
@@ -118,20 +118,20 @@ impl RacewayTable {
     }
 
     #[inline(always)]
-    fn row(&self, piece: usize) -> &[Cubic] {
+    fn row(&self, piece: usize) -> &[Quintic] {
         // ends where the other side of a pairing ends
-        &self.cubics[piece * self.groups..]
+        &self.quintics[piece * self.groups..]
     }
 }
 
 #[inline(always)]
-fn value([a, b, c, d]: &Cubic, xi: f64) -> Lanes {
-    each(|l| ((a[l] * xi + b[l]) * xi + c[l]) * xi + d[l])
+fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
+    each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
 }
 
 #[inline(always)]
-fn slope([a, b, c, _]: &Cubic, xi: f64) -> Lanes {
-    each(|l| (3.0 * a[l] * xi + 2.0 * b[l]) * xi + c[l])
+fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
+    each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
 }
 
 /// A place on the raceway: piece, and local coordinate there, -1 <= xi <= 1.

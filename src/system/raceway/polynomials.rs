@@ -1,10 +1,10 @@
-//! Polynomials that reproduce the interpolation inside an element, and the cubics into which they are cut.
+//! Polynomials that reproduce the interpolation inside an element, and the quintics into which they are cut.
 //!
 //! Inside an element the interpolation is smooth. A polynomial through Chebyshev points reproduces it to [`ACCURACY`]; each
-//! element is then cut into so many pieces that cubics with its values and slopes at their ends do so too.
+//! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
 use super::super::lanes::{LANES, Lanes, each};
-use super::Cubic;
+use super::Quintic;
 use std::f64::consts::PI;
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.
@@ -13,7 +13,7 @@ const ACCURACY: f64 = 1e-12;
 /// Degrees of an element's polynomial that are tried, in order.
 const DEGREES: [usize; 6] = [3, 5, 7, 9, 13, 17];
 
-/// Pieces of an element at most.
+/// Pieces of an element at most: enough for five waves over eight elements.
 const MOST_CUTS: usize = 64;
 
 /// One polynomial an element and a mode.
@@ -76,42 +76,49 @@ impl ElementPolynomials {
         }
     }
 
-    /// Value and slope of a group of modes at the local coordinate of an element.
-    fn at(&self, element: usize, group: usize, xi: f64) -> [Lanes; 2] {
+    /// Value and first two derivatives of a group of modes by the local coordinate of an element.
+    fn at(&self, element: usize, group: usize, xi: f64) -> [Lanes; 3] {
         let powers = &self.powers[element][group];
-        let (mut value, mut slope) = (powers[0], [0.0; LANES]);
+        let (mut value, mut slope, mut half_bend) = (powers[0], [0.0; LANES], [0.0; LANES]);
         for power in &powers[1..] {
+            half_bend = each(|l| half_bend[l] * xi + slope[l]);
             slope = each(|l| slope[l] * xi + value[l]);
             value = each(|l| value[l] * xi + power[l]);
         }
-        [value, slope]
+        [value, slope, half_bend.map(|half| 2.0 * half)]
     }
 
-    /// The cubic with the values and slopes at the ends of piece `cut` of `cuts`.
-    fn cubic(&self, element: usize, group: usize, cut: usize, cuts: usize) -> Cubic {
+    /// The quintic with the values, slopes and curvatures at the ends of piece `cut` of `cuts`: even and odd powers apart,
+    /// each from their value and derivatives at 1.
+    fn quintic(&self, element: usize, group: usize, cut: usize, cuts: usize) -> Quintic {
         let end = |k: usize| 2.0 * k as f64 / cuts as f64 - 1.0;
         let [first, last] = [cut, cut + 1].map(|k| self.at(element, group, end(k)));
-        let [rise, fall] = [&first[1], &last[1]].map(|slope| slope.map(|x| x / cuts as f64));
-        let (y, z) = (&first[0], &last[0]);
-        let third = each(|l| 0.25 * (rise[l] + fall[l] - (z[l] - y[l])));
-        let second = each(|l| 0.25 * (fall[l] - rise[l]));
+        let scale = 1.0 / cuts as f64;
+        let mean = |k: usize, l: usize| 0.5 * (last[k][l] + first[k][l]) * scale.powi(k as i32);
+        let half = |k: usize, l: usize| 0.5 * (last[k][l] - first[k][l]) * scale.powi(k as i32);
+        let fifth = each(|l| 0.125 * (half(2, l) - 3.0 * (mean(1, l) - half(0, l))));
+        let fourth = each(|l| 0.125 * (mean(2, l) - half(1, l)));
+        let third = each(|l| 0.5 * (mean(1, l) - half(0, l)) - 2.0 * fifth[l]);
+        let second = each(|l| 0.5 * half(1, l) - 2.0 * fourth[l]);
         [
+            fifth,
+            fourth,
             third,
             second,
-            each(|l| 0.5 * (z[l] - y[l]) - third[l]),
-            each(|l| 0.5 * (y[l] + z[l]) - second[l]),
+            each(|l| half(0, l) - third[l] - fifth[l]),
+            each(|l| mean(0, l) - second[l] - fourth[l]),
         ]
     }
 
-    /// Largest deviation of the cubics, in the middle of pieces, relative to the largest value there.
-    fn deviation_of_cubics(&self, cuts: usize) -> f64 {
+    /// Largest deviation of the quintics, in the middle of pieces, relative to the largest value there.
+    fn deviation_of_quintics(&self, cuts: usize) -> f64 {
         let mut worst = Deviation::default();
         for element in 0..self.elements {
             for group in 0..self.modes.div_ceil(LANES) {
                 for cut in 0..cuts {
                     let middle = (2 * cut + 1) as f64 / cuts as f64 - 1.0;
-                    let [exact, _] = self.at(element, group, middle);
-                    let [.., found] = self.cubic(element, group, cut, cuts);
+                    let [exact, ..] = self.at(element, group, middle);
+                    let [.., found] = self.quintic(element, group, cut, cuts);
                     for (found, exact) in found.into_iter().zip(exact) {
                         worst.take(found, exact);
                     }
@@ -127,7 +134,7 @@ impl ElementPolynomials {
         for element in 0..self.elements {
             for xi in [-1.0, -0.61, 0.13, 0.77, 1.0] {
                 for (mode, exact) in sample(element, xi).into_iter().enumerate() {
-                    let [found, _] = self.at(element, mode / LANES, xi);
+                    let [found, ..] = self.at(element, mode / LANES, xi);
                     worst.take(found[mode % LANES], exact);
                 }
             }
@@ -135,25 +142,25 @@ impl ElementPolynomials {
         worst.relative()
     }
 
-    /// Into how many pieces elements must be cut for cubics to reproduce them.
+    /// Into how many pieces elements must be cut for quintics to reproduce them.
     pub fn cuts(&self) -> usize {
         let mut cuts = 1;
-        while cuts < MOST_CUTS && self.deviation_of_cubics(cuts) > ACCURACY {
+        while cuts < MOST_CUTS && self.deviation_of_quintics(cuts) > ACCURACY {
             cuts *= 2;
         }
         cuts
     }
 
-    /// The cubics with each element in so many pieces [piece][group of modes].
-    pub fn cut(&self, cuts: usize) -> Vec<Cubic> {
+    /// The quintics with each element in so many pieces [piece][group of modes].
+    pub fn cut(&self, cuts: usize) -> Vec<Quintic> {
         let groups = self.modes.div_ceil(LANES);
-        let mut cubics = Vec::with_capacity(self.elements * cuts * groups);
+        let mut quintics = Vec::with_capacity(self.elements * cuts * groups);
         for element in 0..self.elements {
             for cut in 0..cuts {
-                cubics.extend((0..groups).map(|group| self.cubic(element, group, cut, cuts)));
+                quintics.extend((0..groups).map(|group| self.quintic(element, group, cut, cuts)));
             }
         }
-        cubics
+        quintics
     }
 }
 
