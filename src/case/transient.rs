@@ -55,6 +55,8 @@ pub enum Method {
     Exponential,
     /// Explicit Newmark, the source paper's.
     NewmarkExplicit,
+    /// Impulses of the contact forces between exact flows of the linear part: to see it fail.
+    Splitting,
 }
 
 /// Length of a time step.

@@ -8,6 +8,10 @@
 //!
 //! and `g` (contact, gravity, unbalance) is what has to be evaluated step by step.
 
+mod tangent;
+
+pub use tangent::{Tangent, TangentTerm};
+
 use thiserror::Error;
 
 /// Linear part of one coordinate.
@@ -28,6 +32,17 @@ pub trait SecondOrderSystem {
     ///
     /// Called once or a few times a step: no allocation.
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]);
+
+    /// Adds how `g` changes with `y` and `v` at a state to an empty `tangent`, for methods that solve for the force.
+    ///
+    /// What is left out costs such a method iterations, not accuracy; by default all is.
+    fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _tangent: &mut Tangent) {}
+
+    /// The first instant after `t` (s) at which `g` or a derivative of it by time may jump whatever the state: where a
+    /// prescribed motion or load changes its law. Infinity if there is none.
+    fn next_change(&self, _t: f64) -> f64 {
+        f64::INFINITY
+    }
 
     /// Whether the state is still one that the model can mean.
     ///

@@ -133,6 +133,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     let method = match asked.method {
         case::Method::Auto | case::Method::Exponential => Method::Exponential,
         case::Method::NewmarkExplicit => Method::NewmarkExplicit,
+        case::Method::Splitting => Method::Splitting,
     };
     let mut system = CoupledSystem::new(
         &stage.structure,
@@ -181,20 +182,18 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     let residual = system.has_residual();
     let (statistics, end, record) = match stepped {
         Ok(statistics) => (statistics, RunEnd::Complete, recorder.finish()),
-        Err(error @ TransientError::BlewUp { step, .. }) => {
-            let statistics = Statistics {
-                steps: step,
-                evaluations: step + 1,
-            };
-            // the interval in which it was noticed is not good any more
-            let good = (step / u64::from(schedule.steps_per_interval)).saturating_sub(1);
-            (
+        Err(error) => {
+            let TransientError::BlewUp {
+                good_intervals,
                 statistics,
-                RunEnd::BlewUp(error),
-                recorder.finish_after(good),
-            )
+                ..
+            } = error
+            else {
+                return Err(error.into());
+            };
+            let record = recorder.finish_after(good_intervals);
+            (statistics, RunEnd::BlewUp(error), record)
         }
-        Err(error) => return Err(error.into()),
     };
     let mut result = RunResult {
         modes,
@@ -276,13 +275,12 @@ fn auto_step(
         BallsInertia::QuasiStatic => inner * outer / (inner + outer),
     };
     let resolved = AUTO_PHASE / (stiffness * system.contact_mobility()).sqrt();
-    match method {
-        Method::Exponential => resolved,
-        Method::NewmarkExplicit => {
-            let highest = system.highest_squared_frequency().sqrt();
-            // half the stability limit, and never above the source's own step
-            NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE))
-        }
+    if method == Method::NewmarkExplicit {
+        let highest = system.highest_squared_frequency().sqrt();
+        // half the stability limit, and never above the source's own step
+        NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE))
+    } else {
+        resolved
     }
 }
 

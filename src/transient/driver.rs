@@ -3,7 +3,8 @@
 use super::error::TransientError;
 use super::exponential::Exponential;
 use super::newmark::NewmarkExplicit;
-use crate::dynamics::{Instant, Observer, SecondOrderSystem, State};
+use super::splitting::Splitting;
+use crate::dynamics::{Divergence, Instant, Observer, SecondOrderSystem, State};
 use std::f64::consts::TAU;
 
 /// Integration method.
@@ -13,6 +14,8 @@ pub enum Method {
     Exponential,
     /// Central differences with implicit damping, the source paper's.
     NewmarkExplicit,
+    /// Impulses of the force between exact flows: keeps no equilibrium between a force and a spring.
+    Splitting,
 }
 
 /// When a run ends, how it is cut into steps, and how often it is checked.
@@ -31,8 +34,12 @@ pub struct Schedule {
 pub struct Statistics {
     /// Steps taken.
     pub steps: u64,
+    /// Steps that were tried and not good enough.
+    pub rejected: u64,
     /// Force evaluations.
     pub evaluations: u64,
+    /// Linear systems solved.
+    pub solves: u64,
 }
 
 /// Whether to go on after an interval.
@@ -50,6 +57,7 @@ impl Method {
         match self {
             Self::Exponential => "exponential",
             Self::NewmarkExplicit => "newmark-explicit",
+            Self::Splitting => "splitting",
         }
     }
 }
@@ -99,17 +107,42 @@ impl Schedule {
     pub fn step(&self) -> f64 {
         self.interval / f64::from(self.steps_per_interval)
     }
+
+    /// Sample `place` (from 1) of an interval in a run from `start` (s), s. Counted, not summed: every method has the same
+    /// instants to the last bit.
+    fn instant(&self, start: f64, interval: u64, place: u32) -> f64 {
+        if place == self.steps_per_interval {
+            start + (interval + 1) as f64 * self.interval
+        } else {
+            start + interval as f64 * self.interval + f64::from(place) * self.step()
+        }
+    }
 }
 
-/// One step of a method; `g` is the force at the state on entry and on return.
+/// A method on its way from sample to sample.
 pub(super) trait Stepper<S> {
-    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]);
+    /// Goes from the last instant to `t1` (s), the next sample's; `g` is the force at the state on entry and on return. A
+    /// method with a step of its own goes beyond it and gives what is between.
+    ///
+    /// # Errors
+    /// [`Divergence`] if no step can be found that the method can take.
+    fn step(
+        &mut self,
+        system: &mut S,
+        t1: f64,
+        y: &mut [f64],
+        v: &mut [f64],
+        g: &mut [f64],
+    ) -> Result<(), Divergence>;
+
+    /// What it took so far.
+    fn statistics(&self) -> Statistics;
 }
 
 /// Integrates `system` from `state`, which is left at the end or at the last good instant.
 ///
-/// `observer` sees every step; `after_interval(done, total)` is called between intervals and may
-/// stop the run.
+/// `observer` sees every sample, `schedule.steps_per_interval` an interval: the steps of a method that has none of its own.
+/// `after_interval(done, total)` is called between intervals and may stop the run.
 ///
 /// # Errors
 /// [`TransientError::Unstable`] before the first step, [`TransientError::BlewUp`] with the state
@@ -122,18 +155,33 @@ pub fn integrate<S: SecondOrderSystem>(
     observer: &mut impl Observer<S>,
     after_interval: impl FnMut(u64, u64) -> Stepping,
 ) -> Result<Statistics, TransientError> {
+    let mut stepper = stepper(system, method, schedule, state)?;
+    run(
+        stepper.as_mut(),
+        system,
+        schedule,
+        state,
+        observer,
+        after_interval,
+    )
+}
+
+/// The method ready to go from `state` with the schedule's steps.
+fn stepper<S: SecondOrderSystem>(
+    system: &S,
+    method: Method,
+    schedule: &Schedule,
+    _state: &State,
+) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
-    match method {
-        Method::Exponential => {
-            let stepper = Exponential::new(system, h);
-            run(stepper, system, schedule, state, observer, after_interval)
-        }
+    Ok(match method {
+        Method::Exponential => Box::new(Exponential::new(system, h)),
+        Method::Splitting => Box::new(Splitting::new(system, h)),
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
-            let stepper = NewmarkExplicit::new(system, h);
-            run(stepper, system, schedule, state, observer, after_interval)
+            Box::new(NewmarkExplicit::new(system, h))
         }
-    }
+    })
 }
 
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
@@ -155,44 +203,38 @@ fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), Transi
 }
 
 fn run<S: SecondOrderSystem>(
-    mut stepper: impl Stepper<S>,
+    stepper: &mut dyn Stepper<S>,
     system: &mut S,
     schedule: &Schedule,
     state: &mut State,
     observer: &mut impl Observer<S>,
     mut after_interval: impl FnMut(u64, u64) -> Stepping,
 ) -> Result<Statistics, TransientError> {
-    let dof = state.y.len();
-    let (start, h) = (state.t, schedule.step());
-    let mut g = vec![0.0; dof];
-    let mut statistics = Statistics {
-        steps: 0,
-        evaluations: 1,
-    };
+    let mut g = vec![0.0; state.y.len()];
+    let start = state.t;
     system.force_into(start, &state.y, &state.v, &mut g);
     observe(system, observer, 0, state);
     let mut last_good = state.clone();
+    let mut sample = 0;
     for interval in 0..schedule.intervals {
-        for step in 1..=schedule.steps_per_interval {
-            // times are counted, not summed: every method has the same instants to the last bit
-            let t = if step == schedule.steps_per_interval {
-                start + (interval + 1) as f64 * schedule.interval
-            } else {
-                start + interval as f64 * schedule.interval + f64::from(step) * h
-            };
-            stepper.step(system, t, &mut state.y, &mut state.v, &mut g);
-            state.t = t;
-            statistics.steps += 1;
-            statistics.evaluations += 1;
-            observe(system, observer, statistics.steps, state);
+        let mut stepped = Ok(());
+        for place in 1..=schedule.steps_per_interval {
+            state.t = schedule.instant(start, interval, place);
+            stepped = stepper.step(system, state.t, &mut state.y, &mut state.v, &mut g);
+            if stepped.is_err() {
+                break;
+            }
+            sample += 1;
+            observe(system, observer, sample, state);
         }
-        if let Err(cause) = system.check(&state.y, &state.v) {
+        if let Err(cause) = stepped.and_then(|()| system.check(&state.y, &state.v)) {
             let time = state.t;
             *state = last_good;
             return Err(TransientError::BlewUp {
                 time,
-                step: statistics.steps,
-                step_s: h,
+                good_intervals: interval,
+                step_s: schedule.step(),
+                statistics: stepper.statistics(),
                 cause,
             });
         }
@@ -203,7 +245,7 @@ fn run<S: SecondOrderSystem>(
             break;
         }
     }
-    Ok(statistics)
+    Ok(stepper.statistics())
 }
 
 fn observe<S>(system: &S, observer: &mut impl Observer<S>, step: u64, state: &State) {

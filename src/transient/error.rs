@@ -1,5 +1,6 @@
 //! What can go wrong in a time integration.
 
+use super::driver::Statistics;
 use crate::dynamics::Divergence;
 use thiserror::Error;
 
@@ -17,14 +18,19 @@ pub enum TransientError {
         rule: &'static str,
     },
     /// The solution blew up.
-    #[error("the solution blew up at t = {time:.9} s (step {step} of {step_s:.3e} s): {cause}")]
+    #[error(
+        "the solution blew up at t = {time:.9} s (step {} of {step_s:.3e} s): {cause}",
+        statistics.steps
+    )]
     BlewUp {
         /// When it was noticed, s.
         time: f64,
-        /// Steps taken.
-        step: u64,
-        /// Step length, s.
+        /// Whole intervals before it.
+        good_intervals: u64,
+        /// Step length, or time between samples of a method with a step of its own, s.
         step_s: f64,
+        /// What it took until then.
+        statistics: Statistics,
         /// What was noticed.
         cause: Divergence,
     },

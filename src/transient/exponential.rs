@@ -14,9 +14,9 @@
 //! impulse splitting does not. v* is the velocity under the held force; it enters through contact
 //! damping alone. With w = 0 this is the velocity Verlet method.
 
-use super::driver::Stepper;
+use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
-use crate::dynamics::SecondOrderSystem;
+use crate::dynamics::{Divergence, SecondOrderSystem};
 
 /// Flow coefficients of every coordinate for one step length.
 #[derive(Debug)]
@@ -24,6 +24,7 @@ pub(super) struct Exponential {
     flow: Vec<Propagator>,
     predicted: Vec<f64>,
     next_force: Vec<f64>,
+    steps: u64,
 }
 
 impl Exponential {
@@ -38,12 +39,20 @@ impl Exponential {
             flow,
             predicted: vec![0.0; dof],
             next_force: vec![0.0; dof],
+            steps: 0,
         }
     }
 }
 
 impl<S: SecondOrderSystem> Stepper<S> for Exponential {
-    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
+    fn step(
+        &mut self,
+        system: &mut S,
+        t1: f64,
+        y: &mut [f64],
+        v: &mut [f64],
+        g: &mut [f64],
+    ) -> Result<(), Divergence> {
         for i in 0..self.flow.len() {
             let p = &self.flow[i];
             let (y0, v0, g0) = (y[i], v[i], g[i]);
@@ -57,6 +66,16 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
             // the prediction holds g0 over the whole step with the weight a + b
             v[i] = self.predicted[i] + p.kick_after * (self.next_force[i] - g[i]);
             g[i] = self.next_force[i];
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics {
+            steps: self.steps,
+            evaluations: self.steps + 1,
+            ..Statistics::default()
         }
     }
 }

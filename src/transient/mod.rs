@@ -11,6 +11,7 @@ mod error;
 mod exponential;
 mod newmark;
 mod propagator;
+mod splitting;
 
 pub use driver::{Method, Schedule, Statistics, Stepping, integrate};
 pub use error::TransientError;

@@ -10,8 +10,8 @@
 //! lower it. In modal coordinates the method is the same as in nodal ones, step by step: it
 //! commutes with a change of basis.
 
-use super::driver::Stepper;
-use crate::dynamics::{LinearCoordinate, SecondOrderSystem};
+use super::driver::{Statistics, Stepper};
+use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
 
 #[derive(Debug)]
 pub(super) struct NewmarkExplicit {
@@ -21,6 +21,7 @@ pub(super) struct NewmarkExplicit {
     implicit_damping: Vec<f64>,
     predicted: Vec<f64>,
     half_velocity: Vec<f64>,
+    steps: u64,
 }
 
 impl NewmarkExplicit {
@@ -37,12 +38,20 @@ impl NewmarkExplicit {
             implicit_damping,
             predicted: vec![0.0; dof],
             half_velocity: vec![0.0; dof],
+            steps: 0,
         }
     }
 }
 
 impl<S: SecondOrderSystem> Stepper<S> for NewmarkExplicit {
-    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
+    fn step(
+        &mut self,
+        system: &mut S,
+        t1: f64,
+        y: &mut [f64],
+        v: &mut [f64],
+        g: &mut [f64],
+    ) -> Result<(), Divergence> {
         let h = self.h;
         for i in 0..self.linear.len() {
             let LinearCoordinate {
@@ -58,6 +67,16 @@ impl<S: SecondOrderSystem> Stepper<S> for NewmarkExplicit {
         for i in 0..self.linear.len() {
             let pull = g[i] - self.linear[i].squared_frequency * y[i];
             v[i] = self.implicit_damping[i] * (self.half_velocity[i] + 0.5 * h * pull);
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics {
+            steps: self.steps,
+            evaluations: self.steps + 1,
+            ..Statistics::default()
         }
     }
 }
