@@ -53,6 +53,8 @@ pub enum Method {
     Auto,
     /// The linear part exactly, the contact forces held over a step.
     Exponential,
+    /// The same with a polynomial through the forces of three steps: third order, for contacts and modes that a step resolves.
+    ExponentialAdams,
     /// Explicit Newmark, the source paper's.
     NewmarkExplicit,
     /// Impulses of the contact forces between exact flows of the linear part: to see it fail.

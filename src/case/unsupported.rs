@@ -33,9 +33,10 @@ const fn refused(
     }
 }
 
-const OTHER_METHOD: &str = "use \"auto\", \"exponential\" or \"newmark-explicit\"";
+const OTHER_METHOD: &str =
+    "use \"auto\", \"exponential\", \"exponential-adams\", \"newmark-explicit\" or \"splitting\"";
 
-const UNSUPPORTED: [Unsupported; 6] = [
+const UNSUPPORTED: [Unsupported; 5] = [
     refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
     refused(
         &["transient", "method"],
@@ -45,11 +46,6 @@ const UNSUPPORTED: [Unsupported; 6] = [
     refused(
         &["transient", "method"],
         Extent::Word("generalized-alpha"),
-        OTHER_METHOD,
-    ),
-    refused(
-        &["transient", "method"],
-        Extent::Word("splitting"),
         OTHER_METHOD,
     ),
     refused(
@@ -114,10 +110,6 @@ mod tests {
         (
             "transient.method=generalized-alpha",
             "transient.method = \"generalized-alpha\"",
-        ),
-        (
-            "transient.method=splitting",
-            "transient.method = \"splitting\"",
         ),
         ("transient.method=dop853", "transient.method = \"dop853\""),
         ("analysis.scalogram={from=2.2,to=2.5}", "analysis.scalogram"),

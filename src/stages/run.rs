@@ -133,6 +133,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     let method = match asked.method {
         case::Method::Auto | case::Method::Exponential => Method::Exponential,
         case::Method::NewmarkExplicit => Method::NewmarkExplicit,
+        case::Method::ExponentialAdams => Method::ExponentialAdams,
         case::Method::Splitting => Method::Splitting,
     };
     let mut system = CoupledSystem::new(

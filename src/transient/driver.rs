@@ -1,5 +1,6 @@
 //! One loop for all methods: steps, records, checks.
 
+use super::adams::Adams;
 use super::error::TransientError;
 use super::exponential::Exponential;
 use super::newmark::NewmarkExplicit;
@@ -12,6 +13,8 @@ use std::f64::consts::TAU;
 pub enum Method {
     /// Exponential velocity Verlet.
     Exponential,
+    /// Exponential Adams method of third order.
+    ExponentialAdams,
     /// Central differences with implicit damping, the source paper's.
     NewmarkExplicit,
     /// Impulses of the force between exact flows: keeps no equilibrium between a force and a spring.
@@ -56,6 +59,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Exponential => "exponential",
+            Self::ExponentialAdams => "exponential-adams",
             Self::NewmarkExplicit => "newmark-explicit",
             Self::Splitting => "splitting",
         }
@@ -176,6 +180,7 @@ fn stepper<S: SecondOrderSystem>(
     let h = schedule.step();
     Ok(match method {
         Method::Exponential => Box::new(Exponential::new(system, h)),
+        Method::ExponentialAdams => Box::new(Adams::new(system, h)),
         Method::Splitting => Box::new(Splitting::new(system, h)),
         Method::NewmarkExplicit => {
             check_stability(system, h)?;

@@ -3,9 +3,14 @@
 //!
 //! - [`Method::Exponential`]: the linear part is stepped exactly, the force is held over the step;
 //!   second order, keeps every equilibrium, no linear stability limit.
+//! - [`Method::ExponentialAdams`]: the same with the force a polynomial through what is known of it; third order for the same
+//!   one evaluation a step, stable below `h = ` [`ADAMS_STABILITY_LIMIT`] ` / omega` of what the force holds.
 //! - [`Method::NewmarkExplicit`]: central differences with the damping at the new velocity, the
 //!   source paper's method; stable below `h = 2 / omega_max`.
+//! - [`Method::Splitting`]: kicks by the force between exact flows; moves every equilibrium between a force and a spring. To see
+//!   it fail.
 
+mod adams;
 mod driver;
 mod error;
 mod exponential;
@@ -13,6 +18,7 @@ mod newmark;
 mod propagator;
 mod splitting;
 
+pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub use driver::{Method, Schedule, Statistics, Stepping, integrate};
 pub use error::TransientError;
 

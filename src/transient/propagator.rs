@@ -24,6 +24,8 @@ pub(super) struct Propagator {
     pub velocity_velocity: f64,
     /// d y1 / d g = integral of s, s^2; `(1 - position_position) / w^2`, so an equilibrium stays.
     pub response: f64,
+    /// y1 from rest under a force that grows from 0 to 1 over the step, s^2; v1 is then `response / h`.
+    pub ramp: f64,
     /// Weight of the force at the start in v1, s: `velocity_velocity response / position_velocity`.
     pub kick_before: f64,
     /// Weight of the force at the end, s: `position_velocity - kick_before`, so that `g = w^2 y`
@@ -58,8 +60,8 @@ impl Propagator {
         if w2.sqrt() * h < SERIES_LIMIT {
             let doublings = (c * h / SERIES_LIMIT).log2().ceil().max(0.0) as i32;
             let mut flow = Self::series(w2, c, h / f64::from(doublings).exp2());
-            for _ in 0..doublings {
-                flow = flow.twice(w2);
+            for doubling in 0..doublings {
+                flow = flow.twice(w2, h / f64::from(doublings - doubling).exp2());
             }
             return flow;
         }
@@ -81,19 +83,21 @@ impl Propagator {
         };
         let s = h * sine;
         let position_position = cosine + 0.5 * c * s;
+        let response = (1.0 - position_position) / w2;
         Self {
             position_position,
             position_velocity: s,
             velocity_position: -w2 * s,
             velocity_velocity: cosine - 0.5 * c * s,
-            response: (1.0 - position_position) / w2,
+            response,
+            ramp: (1.0 - (s + c * response) / h) / w2,
             kick_before: 0.0,
             kick_after: 0.0,
         }
     }
 
-    /// The flow over twice the step.
-    fn twice(self, w2: f64) -> Self {
+    /// The flow over twice the step h.
+    fn twice(self, w2: f64, h: f64) -> Self {
         let s = self.position_velocity;
         let response = self.response * (1.0 + self.position_position) + s * s;
         let position_velocity = s * (self.position_position + self.velocity_velocity);
@@ -103,6 +107,12 @@ impl Propagator {
             velocity_position: -w2 * position_velocity,
             velocity_velocity: self.velocity_velocity * self.velocity_velocity - w2 * s * s,
             response,
+            // half the ramp, then the other half on top of a constant half
+            ramp: 0.5
+                * (self.position_position * self.ramp
+                    + s * self.response / h
+                    + self.response
+                    + self.ramp),
             kick_before: 0.0,
             kick_after: 0.0,
         }
@@ -112,7 +122,7 @@ impl Propagator {
     fn series(w2: f64, c: f64, h: f64) -> Self {
         // terms a_k h^k of s; a_(k+2) (k+1)(k+2) = -c (k+1) a_(k+1) - w^2 a_k
         let (mut before, mut term) = (0.0, h);
-        let (mut s, mut slope, mut integral) = (h, 1.0, 0.5 * h * h);
+        let (mut s, mut slope, mut integral, mut ramp) = (h, 1.0, 0.5 * h * h, h * h / 6.0);
         for k in 1..24 {
             let order = f64::from(k);
             let next = -(c * h * term + w2 * h * h * before / order) / (order + 1.0);
@@ -120,6 +130,7 @@ impl Propagator {
             s += next;
             slope += (order + 1.0) * next / h;
             integral += next * h / (order + 2.0);
+            ramp += next * h / ((order + 2.0) * (order + 3.0));
         }
         Self {
             position_position: 1.0 - w2 * integral,
@@ -127,6 +138,7 @@ impl Propagator {
             velocity_position: -w2 * s,
             velocity_velocity: slope,
             response: integral,
+            ramp,
             kick_before: 0.0,
             kick_after: 0.0,
         }
@@ -182,6 +194,47 @@ mod tests {
                     "{w} {c}"
                 );
             }
+        }
+    }
+
+    /// A ramp is the mean of steps that begin one after the other: the response by quadrature over those over shorter steps.
+    #[test]
+    fn a_ramp_is_a_sum_of_steps() {
+        let h = 1e-6;
+        for (w, c) in [
+            (0.0, 0.0),
+            (1e3, 2e3),
+            (3e5, 1e4),
+            (6e5, 1.2e6),
+            (2e6, 4e6),
+            (3e7, 1e8),
+            (1e3, 5e6),
+        ] {
+            let at = |h: f64| {
+                let coordinate = LinearCoordinate {
+                    squared_frequency: w * w,
+                    damping: c,
+                };
+                Propagator::new(coordinate, h)
+            };
+            // Simpson's rule: 400 intervals leave (h w / 400)^4 / 180 of the largest
+            let count = 400;
+            let sum: f64 = (1..=count)
+                .map(|i| {
+                    let weight = match i {
+                        i if i == count => 1.0,
+                        i if i % 2 == 1 => 4.0,
+                        _ => 2.0,
+                    };
+                    weight * at(h * f64::from(i) / f64::from(count)).response
+                })
+                .sum();
+            let expected = sum / f64::from(3 * count);
+            let found = at(h).ramp;
+            assert!(
+                (found / expected - 1.0).abs() < 1e-6,
+                "{w} {c}: {found} {expected}"
+            );
         }
     }
 

@@ -7,7 +7,7 @@
 //! Second order, symmetric without damping, and the method that fails here (Verlet-I, r-RESPA: Hairer, Lubich, Wanner,
 //! Geometric Numerical Integration, 2nd ed., XIII.1.3): between the kicks a coordinate with `g = w^2 y` moves, so that its
 //! equilibrium is not kept. What it keeps is `g = (2 w / h) tan(h w / 2) y`: between a large contact force and a large spring
-//! force the place of balance is wrong by `(h w)^2 / 12`, and no force holds it at `h w = pi`.
+//! force the place of balance is wrong by `(h w)^2 / 12`, and at `h w = pi` no force moves it.
 
 use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
