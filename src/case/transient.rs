@@ -31,6 +31,10 @@ pub struct Transient {
     /// How time is stepped.
     #[serde(default)]
     pub method: Method,
+    /// For `generalized-alpha`: share of the amplitude that a step leaves of motions far too fast for it, 0 to 1; `None`:
+    /// 0.8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spectral_radius: Option<f64>,
     /// Length of a step.
     #[serde(default)]
     pub step: StepLength,
@@ -59,6 +63,10 @@ pub enum Method {
     NewmarkExplicit,
     /// Impulses of the contact forces between exact flows of the linear part: to see it fail.
     Splitting,
+    /// Implicit: Newmark's method of average acceleration.
+    Newmark,
+    /// Implicit, with damping of what the step does not resolve.
+    GeneralizedAlpha,
 }
 
 /// Length of a time step.

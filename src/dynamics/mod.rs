@@ -38,6 +38,19 @@ pub trait SecondOrderSystem {
     /// What is left out costs such a method iterations, not accuracy; by default all is.
     fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _tangent: &mut Tangent) {}
 
+    /// [`Self::force_into`] and [`Self::tangent_into`] at once, for a system that need not evaluate twice.
+    fn force_and_tangent_into(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        v: &[f64],
+        g: &mut [f64],
+        tangent: &mut Tangent,
+    ) {
+        self.tangent_into(t, y, v, tangent);
+        self.force_into(t, y, v, g);
+    }
+
     /// The first instant after `t` (s) at which `g` or a derivative of it by time may jump whatever the state: where a
     /// prescribed motion or load changes its law. Infinity if there is none.
     fn next_change(&self, _t: f64) -> f64 {
@@ -64,6 +77,16 @@ pub enum Divergence {
     /// A value is infinite or not a number.
     #[error("a value is infinite or not a number")]
     NotFinite,
+    /// The equations of a step were not solved.
+    #[error(
+        "the equations of a step were not solved in {iterations} iterations: the last changed the force by {change:.1e} of its size"
+    )]
+    NotSolved {
+        /// Iterations of Newton's method.
+        iterations: u32,
+        /// Last change of the force, relative.
+        change: f64,
+    },
     /// A coordinate left the range that the model holds for.
     #[error("{what} is {value:.3e} {unit}, beyond {limit:.3e} {unit}")]
     OutOfRange {

@@ -22,6 +22,7 @@ mod factor;
 mod harmonic;
 mod idle;
 mod lowest;
+mod lu;
 #[allow(unsafe_code)]
 mod metis;
 mod numeric;
@@ -46,6 +47,7 @@ pub use harmonic::{
     HarmonicTimes, complex_columns, complex_solve,
 };
 pub use idle::{acting_generalised_eigen, acting_motions, congruent};
+pub use lu::SmallLu;
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
     transpose_times_dense,

@@ -130,6 +130,8 @@ pub(super) struct Work {
     pub known: Vec<(f64, RaceForce)>,
     /// Of all balls, N.
     pub on_shaft: [f64; 2],
+    /// Force that is evaluated for its tangent alone.
+    pub force: Vec<f64>,
 }
 
 impl CoupledSystem {
@@ -304,6 +306,7 @@ impl Work {
             damaged: Vec::with_capacity(balls),
             known: vec![(0.0, RaceForce::default()); balls],
             on_shaft: [0.0; 2],
+            force: Vec::new(),
         }
     }
 }

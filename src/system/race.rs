@@ -17,6 +17,8 @@ pub(super) struct RaceForce {
     /// Derivatives by the ball's radial and tangential position relative to the race, N/m:
     /// (radial by radial, radial by tangential = tangential by radial, tangential by tangential).
     pub tangent: [f64; 3],
+    /// Derivative of the radial force by the ball's radial velocity relative to the race, N s/m.
+    pub by_rate: f64,
     /// Sum of the contact forces' magnitudes, N.
     pub magnitude: f64,
 }
@@ -201,6 +203,7 @@ impl RaceContact {
             radial: self.sign * force.force,
             tangential: 0.0,
             tangent: [force.by_penetration, 0.0, 0.0],
+            by_rate: force.by_rate,
             magnitude: force.force,
         }
     }
@@ -271,6 +274,7 @@ impl RaceContact {
             sum.radial += force.force * n_r;
             sum.tangential += force.force * n_t;
             sum.magnitude += force.force;
+            sum.by_rate += force.by_rate * n_r * n_r;
             sum.tangent[0] += force.by_penetration * n_r * n_r;
             sum.tangent[1] += force.by_penetration * n_r * n_t;
             sum.tangent[2] += force.by_penetration * n_t * n_t;

@@ -3,13 +3,14 @@
 use super::adams::Adams;
 use super::error::TransientError;
 use super::exponential::Exponential;
+use super::implicit::Implicit;
 use super::newmark::NewmarkExplicit;
 use super::splitting::Splitting;
 use crate::dynamics::{Divergence, Instant, Observer, SecondOrderSystem, State};
 use std::f64::consts::TAU;
 
 /// Integration method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// Exponential velocity Verlet.
     Exponential,
@@ -19,6 +20,13 @@ pub enum Method {
     NewmarkExplicit,
     /// Impulses of the force between exact flows: keeps no equilibrium between a force and a spring.
     Splitting,
+    /// Newmark's method of average acceleration, implicit: stable at every step, keeps energy.
+    Newmark,
+    /// Generalized-alpha, implicit: stable at every step, damps what the step does not resolve.
+    GeneralizedAlpha {
+        /// Share of the amplitude that a step leaves of a motion far too fast for it, 0 to 1.
+        spectral_radius: f64,
+    },
 }
 
 /// When a run ends, how it is cut into steps, and how often it is checked.
@@ -62,6 +70,8 @@ impl Method {
             Self::ExponentialAdams => "exponential-adams",
             Self::NewmarkExplicit => "newmark-explicit",
             Self::Splitting => "splitting",
+            Self::Newmark => "newmark",
+            Self::GeneralizedAlpha { .. } => "generalized-alpha",
         }
     }
 }
@@ -149,7 +159,7 @@ pub(super) trait Stepper<S> {
 /// `after_interval(done, total)` is called between intervals and may stop the run.
 ///
 /// # Errors
-/// [`TransientError::Unstable`] before the first step, [`TransientError::BlewUp`] with the state
+/// [`TransientError::Unstable`] and [`TransientError::Schedule`] before the first step, [`TransientError::BlewUp`] with the state
 /// and the records of the steps before it left in place.
 pub fn integrate<S: SecondOrderSystem>(
     system: &mut S,
@@ -182,11 +192,28 @@ fn stepper<S: SecondOrderSystem>(
         Method::Exponential => Box::new(Exponential::new(system, h)),
         Method::ExponentialAdams => Box::new(Adams::new(system, h)),
         Method::Splitting => Box::new(Splitting::new(system, h)),
+        Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
+        Method::GeneralizedAlpha { spectral_radius } => {
+            check_spectral_radius(spectral_radius)?;
+            Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
+        }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
             Box::new(NewmarkExplicit::new(system, h))
         }
     })
+}
+
+fn check_spectral_radius(value: f64) -> Result<(), TransientError> {
+    if (0.0..=1.0).contains(&value) {
+        Ok(())
+    } else {
+        Err(TransientError::Schedule {
+            what: "spectral radius",
+            value,
+            rule: "from 0 to 1",
+        })
+    }
 }
 
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {

@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Failure of a time integration.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TransientError {
-    /// The time span or the step does not make sense.
+    /// The time span, the step or a parameter of the method does not make sense.
     #[error("{what} must be {rule}, found {value}")]
     Schedule {
         /// Which quantity.

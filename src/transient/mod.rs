@@ -9,12 +9,16 @@
 //!   source paper's method; stable below `h = 2 / omega_max`.
 //! - [`Method::Splitting`]: kicks by the force between exact flows; moves every equilibrium between a force and a spring. To see
 //!   it fail.
+//! - [`Method::Newmark`] and [`Method::GeneralizedAlpha`]: implicit, solved with the tangent that the system gives; second
+//!   order, keep every equilibrium, no linear stability limit.
 
 mod adams;
 mod driver;
 mod error;
 mod exponential;
+mod implicit;
 mod newmark;
+mod newton;
 mod propagator;
 mod splitting;
 
@@ -22,5 +26,7 @@ pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub use driver::{Method, Schedule, Statistics, Stepping, integrate};
 pub use error::TransientError;
 
+#[cfg(test)]
+mod implicit_tests;
 #[cfg(test)]
 mod tests;

@@ -1,14 +1,14 @@
 //! Order, equilibrium and stability on oscillators with known answers.
 
 use super::*;
-use crate::dynamics::{LinearCoordinate, NoRecord, SecondOrderSystem, State};
+use crate::dynamics::{LinearCoordinate, NoRecord, SecondOrderSystem, State, Tangent};
 
 /// A damped oscillator with part `split` of its spring outside the linear part, under a cosine
 /// force: `y'' + c y' + w^2 y = cos(p t)`.
-struct Oscillator {
-    linear: [LinearCoordinate; 1],
-    outside: f64,
-    drive: f64,
+pub(super) struct Oscillator {
+    pub linear: [LinearCoordinate; 1],
+    pub outside: f64,
+    pub drive: f64,
 }
 
 const W: f64 = 3.0;
@@ -16,7 +16,7 @@ const C: f64 = 0.3;
 const P: f64 = 2.0;
 
 impl Oscillator {
-    fn new(split: f64) -> Self {
+    pub fn new(split: f64) -> Self {
         Self {
             linear: [LinearCoordinate {
                 squared_frequency: W * W * (1.0 - split),
@@ -35,6 +35,12 @@ impl SecondOrderSystem for Oscillator {
 
     fn force_into(&mut self, t: f64, y: &[f64], _v: &[f64], g: &mut [f64]) {
         g[0] = self.drive * (P * t).cos() - self.outside * y[0];
+    }
+
+    fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
+        let term = tangent.add();
+        term.left[0] = 1.0;
+        term.position[0] = -self.outside;
     }
 }
 
@@ -71,10 +77,15 @@ fn error_after(method: Method, step: f64, split: f64) -> f64 {
 
 #[test]
 fn orders_are_those_that_are_said() {
+    let alpha = |spectral_radius| Method::GeneralizedAlpha { spectral_radius };
     for (method, expected) in [
         (Method::Exponential, 2.0),
         (Method::NewmarkExplicit, 2.0),
         (Method::Splitting, 2.0),
+        (Method::Newmark, 2.0),
+        (alpha(0.0), 2.0),
+        (alpha(0.8), 2.0),
+        (alpha(1.0), 2.0),
         (Method::ExponentialAdams, 3.0),
     ] {
         for split in [0.0, 0.7] {

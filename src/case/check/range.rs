@@ -55,6 +55,16 @@ pub(super) fn share(key: impl Into<String>, found: f64) -> Result<(), BrokenRule
     )
 }
 
+/// Both included.
+pub(super) fn zero_to_one(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        (0.0..=1.0).contains(&found),
+        key,
+        found,
+        "a number from 0 to 1",
+    )
+}
+
 /// Zero included, two not.
 pub(super) fn loss_factor(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
     within(

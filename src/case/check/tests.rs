@@ -115,6 +115,25 @@ fn what_may_be_zero_is_not_below() {
 }
 
 #[test]
+fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
+    let (key, alpha) = (
+        "transient.spectral_radius",
+        "transient.method=generalized-alpha",
+    );
+    for value in ["-0.1", "1.01"] {
+        let rule = format!("found {value}, expected a number from 0 to 1");
+        breaks(FULL, &[alpha, &format!("{key}={value}")], key, &rule);
+    }
+    for value in ["0", "1"] {
+        holds(FULL, &[alpha, &format!("{key}={value}")]);
+    }
+    full(
+        "transient.spectral_radius=0.5",
+        "needs `transient.method = \"generalized-alpha\"`, which the case lacks",
+    );
+}
+
+#[test]
 fn ratios_and_fractions_stay_within_one() {
     for key in ["damping.ratios[1].ratio", "bearing.slip"] {
         for value in ["-0.1", "1"] {

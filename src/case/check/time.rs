@@ -1,12 +1,12 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, ModeExtent,
-    ModesKept, SensorSpot, StepLength,
+    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, Method,
+    ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
-    share, zero_or_more,
+    share, zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
 
@@ -258,6 +258,15 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
         "`transient.start`",
         transient.start,
     )?;
+    if let Some(radius) = transient.spectral_radius {
+        zero_to_one("transient.spectral_radius", radius)?;
+        if transient.method != Method::GeneralizedAlpha {
+            return Err(Rule::Needs {
+                other: "`transient.method = \"generalized-alpha\"`",
+            }
+            .at("transient.spectral_radius"));
+        }
+    }
     if let StepLength::Seconds(step) = transient.step {
         above_zero("transient.step", step)?;
         let length = transient.end - transient.start;

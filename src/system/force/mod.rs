@@ -7,13 +7,16 @@ mod inner_race;
 mod outer_race;
 mod placing;
 mod quasi_static;
+mod tangent;
+#[cfg(test)]
+mod tangent_tests;
 mod with_residual;
 
 use super::bearing_setup::{BallsInertia, Formulation};
 use super::coupled::CoupledSystem;
 use super::lanes::{self, LANES};
 use crate::bearing::RotationState;
-use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
+use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent};
 use multiversion::multiversion;
 
 /// A ball that is farther from the race than this (m) cannot be reached by the residual
@@ -27,6 +30,25 @@ impl SecondOrderSystem for CoupledSystem {
 
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         evaluate(self, t, y, v, g);
+    }
+
+    fn tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], tangent: &mut Tangent) {
+        let mut g = std::mem::take(&mut self.work.force);
+        g.resize(y.len(), 0.0);
+        self.force_and_tangent_into(t, y, v, &mut g, tangent);
+        self.work.force = g;
+    }
+
+    fn force_and_tangent_into(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        v: &[f64],
+        g: &mut [f64],
+        tangent: &mut Tangent,
+    ) {
+        evaluate(self, t, y, v, g);
+        self.add_tangent(t, [y, v, g], tangent);
     }
 
     fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {

@@ -201,7 +201,12 @@ impl CoupledSystem {
     }
 
     /// Force of ball `j` at rest on the inner race.
-    fn inner_force_at(&self, j: usize, gap: &InnerGap, shaft: &RotationState) -> RaceForce {
+    pub(super) fn inner_force_at(
+        &self,
+        j: usize,
+        gap: &InnerGap,
+        shaft: &RotationState,
+    ) -> RaceForce {
         if self.inner.is_irregular() {
             self.irregular_inner_force(j, gap, [0.0; 2], shaft)
         } else {
