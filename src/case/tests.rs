@@ -160,6 +160,7 @@ fn defaults_are_those_of_the_format() {
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.method, Method::Auto);
     assert_eq!(transient.step, StepLength::Auto);
+    assert!(transient.tolerance.is_none() && transient.spectral_radius.is_none());
     assert_eq!(transient.modes, ModesKept::Auto);
     assert!(transient.residual);
     assert_eq!(case.band_hz(), Some([0.0, 5e4]));

@@ -35,9 +35,12 @@ pub struct Transient {
     /// 0.8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectral_radius: Option<f64>,
-    /// Length of a step.
+    /// Length of a step; time between samples of a method that chooses its steps.
     #[serde(default)]
     pub step: StepLength,
+    /// For `dop853`: relative error of a step, > 0 and < 1; `None`: 1e-6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Sampling rate of the signals in Hz, at least twice the highest frequency of interest.
     pub output_hz: f64,
     /// Which coupled modes of ring and housing are kept.
@@ -67,6 +70,8 @@ pub enum Method {
     Newmark,
     /// Implicit, with damping of what the step does not resolve.
     GeneralizedAlpha,
+    /// Explicit Runge-Kutta of order 8(5,3) by the tolerance, its steps ending where contacts begin and end.
+    Dop853,
 }
 
 /// Length of a time step.

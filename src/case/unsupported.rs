@@ -1,48 +1,25 @@
-//! Keys and values of the case-file format that this version cannot honour. They are refused by name, never ignored.
+//! Keys of the case-file format that this version cannot honour. They are refused by name, never ignored.
 
 use super::document::Document;
 use super::error::CaseError;
 use super::path::{Step, format_path};
-use super::tree::{Mark, Node, Value};
+use super::tree::{Mark, Node};
 
-/// What under a key is not supported.
-#[derive(Debug, Clone, Copy)]
-enum Extent {
-    /// The key at all.
-    Key,
-    /// This word.
-    Word(&'static str),
-}
-
-/// A key path, what of it is refused, and what to write instead.
+/// A key path and what to write instead.
 struct Unsupported {
     path: &'static [&'static str],
-    extent: Extent,
     instead: &'static str,
 }
 
-const fn refused(
-    path: &'static [&'static str],
-    extent: Extent,
-    instead: &'static str,
-) -> Unsupported {
+const UNSUPPORTED: [Unsupported; 2] = [
     Unsupported {
-        path,
-        extent,
-        instead,
-    }
-}
-
-const OTHER_METHOD: &str = "use \"auto\", \"exponential\", \"exponential-adams\", \"newmark-explicit\", \"newmark\", \"generalized-alpha\" or \"splitting\"";
-
-const UNSUPPORTED: [Unsupported; 3] = [
-    refused(&["transient", "ensemble"], Extent::Key, "leave the key out"),
-    refused(
-        &["transient", "method"],
-        Extent::Word("dop853"),
-        OTHER_METHOD,
-    ),
-    refused(&["analysis", "scalogram"], Extent::Key, "leave the key out"),
+        path: &["transient", "ensemble"],
+        instead: "leave the key out",
+    },
+    Unsupported {
+        path: &["analysis", "scalogram"],
+        instead: "leave the key out",
+    },
 ];
 
 /// Returns an error for the first thing in the document that this version cannot honour.
@@ -52,14 +29,10 @@ const UNSUPPORTED: [Unsupported; 3] = [
 pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
     for entry in &UNSUPPORTED {
         let mut walked = Vec::new();
-        if let Some(mark) = find(&document.root, entry.path, entry.extent, &mut walked) {
-            let path = format_path(&walked);
+        if let Some(mark) = find(&document.root, entry.path, &mut walked) {
             return Err(CaseError::NotSupported {
                 place: document.marked(Some(mark)),
-                key: match entry.extent {
-                    Extent::Word(word) => format!("{path} = \"{word}\""),
-                    Extent::Key => path,
-                },
+                key: format_path(&walked),
                 instead: entry.instead,
             });
         }
@@ -67,24 +40,15 @@ pub(super) fn refuse(document: &Document<'_>) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Returns the mark of a match below `node`; `walked` is then the path to it.
-fn find(
-    node: &Node,
-    path: &'static [&'static str],
-    extent: Extent,
-    walked: &mut Vec<Step>,
-) -> Option<Mark> {
+/// Returns the mark of what stands at a path below `node`; `walked` is then the path to it.
+fn find(node: &Node, path: &'static [&'static str], walked: &mut Vec<Step>) -> Option<Mark> {
     let Some((first, rest)) = path.split_first() else {
-        let matches = match extent {
-            Extent::Key => true,
-            Extent::Word(word) => matches!(&node.value, Value::Text(text) if text == word),
-        };
-        return matches.then_some(node.mark);
+        return Some(node.mark);
     };
     let step = Step::Key((*first).to_owned());
     let child = node.child(&step)?;
     walked.push(step);
-    find(child, rest, extent, walked)
+    find(child, rest, walked)
 }
 
 #[cfg(test)]
@@ -95,7 +59,6 @@ mod tests {
     /// One argument for each entry of the table, and the key that the error names.
     const SAMPLES: [(&str, &str); UNSUPPORTED.len()] = [
         ("transient.ensemble={runs=64}", "transient.ensemble"),
-        ("transient.method=dop853", "transient.method = \"dop853\""),
         ("analysis.scalogram={from=2.2,to=2.5}", "analysis.scalogram"),
     ];
 

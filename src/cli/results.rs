@@ -62,7 +62,7 @@ pub(super) fn run_json(
         "method": result.method.name(),
         "step_s": result.schedule.step(),
         "steps": result.statistics.steps,
-        "rejected": 0,
+        "rejected": result.statistics.rejected,
         "simulated_s": result.simulated_s,
         "realtime_factor": result.realtime_factor(),
         "stepping_s": result.stepping_s,

@@ -57,6 +57,18 @@ pub trait SecondOrderSystem {
         f64::INFINITY
     }
 
+    /// Number of event functions: how many [`events_into`](Self::events_into) sets.
+    fn events(&self) -> usize {
+        0
+    }
+
+    /// Sets the event functions, in any unit: continuous along a motion, and of one sign on each side of where `g` or a
+    /// derivative of it is not continuous. For contacts they are the overlaps.
+    ///
+    /// What is left out costs a method of high order accuracy there, no more. May be called between any two calls of
+    /// [`force_into`](Self::force_into).
+    fn events_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _events: &mut [f64]) {}
+
     /// Whether the state is still one that the model can mean.
     ///
     /// # Errors
@@ -86,6 +98,12 @@ pub enum Divergence {
         iterations: u32,
         /// Last change of the force, relative.
         change: f64,
+    },
+    /// No step is short enough for the tolerance.
+    #[error("no step is short enough for the tolerance: tried down to {step:.1e} s")]
+    NoStep {
+        /// The last one tried, s.
+        step: f64,
     },
     /// A coordinate left the range that the model holds for.
     #[error("{what} is {value:.3e} {unit}, beyond {limit:.3e} {unit}")]

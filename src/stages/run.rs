@@ -26,6 +26,9 @@ const AUTO_FORCE: f64 = 10.0;
 /// The source's step for explicit Newmark, s (section 4.1).
 const NEWMARK_STEP: f64 = 1.5e-8;
 
+/// Tolerance of `dop853` unless one is given: far below one percent after some milliseconds of impacts.
+const TOLERANCE: f64 = 1e-6;
+
 /// Default of generalized-alpha: takes what is not resolved out within some tens of steps, and of a motion of 0.1 rad a step
 /// 7e-8 of the amplitude.
 const SPECTRAL_RADIUS: f64 = 0.8;
@@ -244,6 +247,10 @@ fn method(asked: &case::Transient) -> Method {
         case::Method::Newmark => Method::Newmark,
         case::Method::GeneralizedAlpha => Method::GeneralizedAlpha {
             spectral_radius: asked.spectral_radius.unwrap_or(SPECTRAL_RADIUS),
+        },
+        case::Method::Dop853 => Method::Dop853 {
+            tolerance: asked.tolerance.unwrap_or(TOLERANCE),
+            events: true,
         },
     }
 }

@@ -1,6 +1,7 @@
 //! One loop for all methods: steps, records, checks.
 
 use super::adams::Adams;
+use super::dop853::Dop853;
 use super::error::TransientError;
 use super::exponential::Exponential;
 use super::implicit::Implicit;
@@ -27,7 +28,17 @@ pub enum Method {
         /// Share of the amplitude that a step leaves of a motion far too fast for it, 0 to 1.
         spectral_radius: f64,
     },
+    /// Explicit Runge-Kutta of order 8(5,3) with a step of its own.
+    Dop853 {
+        /// Largest error of a step in units of what each coordinate reaches in the run, from [`LEAST_TOLERANCE`] to 1.
+        tolerance: f64,
+        /// Whether steps end where the force is not smooth, as far as the system tells.
+        events: bool,
+    },
 }
+
+/// Least tolerance of a method with a step of its own: below this round-off alone would shorten the steps.
+pub const LEAST_TOLERANCE: f64 = 1e-14;
 
 /// When a run ends, how it is cut into steps, and how often it is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +62,8 @@ pub struct Statistics {
     pub evaluations: u64,
     /// Linear systems solved.
     pub solves: u64,
+    /// Steps that ended at an event.
+    pub events: u64,
 }
 
 /// Whether to go on after an interval.
@@ -72,6 +85,7 @@ impl Method {
             Self::Splitting => "splitting",
             Self::Newmark => "newmark",
             Self::GeneralizedAlpha { .. } => "generalized-alpha",
+            Self::Dop853 { .. } => "dop853",
         }
     }
 }
@@ -185,7 +199,7 @@ fn stepper<S: SecondOrderSystem>(
     system: &S,
     method: Method,
     schedule: &Schedule,
-    _state: &State,
+    state: &State,
 ) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
     Ok(match method {
@@ -196,6 +210,10 @@ fn stepper<S: SecondOrderSystem>(
         Method::GeneralizedAlpha { spectral_radius } => {
             check_spectral_radius(spectral_radius)?;
             Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
+        }
+        Method::Dop853 { tolerance, events } => {
+            check_tolerance(tolerance)?;
+            Box::new(Dop853::new(system, state.t, tolerance, events))
         }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
@@ -212,6 +230,18 @@ fn check_spectral_radius(value: f64) -> Result<(), TransientError> {
             what: "spectral radius",
             value,
             rule: "from 0 to 1",
+        })
+    }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
+    if (LEAST_TOLERANCE..1.0).contains(&tolerance) {
+        Ok(())
+    } else {
+        Err(TransientError::Schedule {
+            what: "tolerance",
+            value: tolerance,
+            rule: "at least 1e-14 and below 1",
         })
     }
 }

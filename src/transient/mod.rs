@@ -11,8 +11,11 @@
 //!   it fail.
 //! - [`Method::Newmark`] and [`Method::GeneralizedAlpha`]: implicit, solved with the tangent that the system gives; second
 //!   order, keep every equilibrium, no linear stability limit.
+//! - [`Method::Dop853`]: explicit Runge-Kutta of order 8 by a tolerance, interpolated at the samples; its steps may end where
+//!   contacts begin and end.
 
 mod adams;
+mod dop853;
 mod driver;
 mod error;
 mod exponential;
@@ -23,7 +26,7 @@ mod propagator;
 mod splitting;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
-pub use driver::{Method, Schedule, Statistics, Stepping, integrate};
+pub use driver::{LEAST_TOLERANCE, Method, Schedule, Statistics, Stepping, integrate};
 pub use error::TransientError;
 
 #[cfg(test)]

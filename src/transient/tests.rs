@@ -45,7 +45,7 @@ impl SecondOrderSystem for Oscillator {
 }
 
 /// Steady answer `y = A cos(p t) + B sin(p t)` of the driven oscillator.
-fn steady(t: f64) -> (f64, f64) {
+pub(super) fn steady(t: f64) -> (f64, f64) {
     let (stiff, damp) = (W * W - P * P, C * P);
     let scale = 1.0 / (stiff * stiff + damp * damp);
     let (a, b) = (stiff * scale, damp * scale);
@@ -53,7 +53,7 @@ fn steady(t: f64) -> (f64, f64) {
     (a * cos + b * sin, P * (b * cos - a * sin))
 }
 
-fn error_after(method: Method, step: f64, split: f64) -> f64 {
+pub(super) fn error_after(method: Method, step: f64, split: f64) -> f64 {
     let mut system = Oscillator::new(split);
     let (y, v) = steady(0.0);
     let mut state = State {

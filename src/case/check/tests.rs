@@ -134,6 +134,20 @@ fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
 }
 
 #[test]
+fn a_tolerance_is_of_one_method_and_between_zero_and_one() {
+    let (key, method) = ("transient.tolerance", "transient.method=dop853");
+    for value in ["0", "1"] {
+        let rule = format!("found {value}, expected a number above 0 and below 1");
+        breaks(FULL, &[method, &format!("{key}={value}")], key, &rule);
+    }
+    holds(FULL, &[method, "transient.tolerance=1e-8"]);
+    full(
+        "transient.tolerance=1e-8",
+        "needs `transient.method = \"dop853\"`, which the case lacks",
+    );
+}
+
+#[test]
 fn ratios_and_fractions_stay_within_one() {
     for key in ["damping.ratios[1].ratio", "bearing.slip"] {
         for value in ["-0.1", "1"] {

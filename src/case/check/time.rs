@@ -272,6 +272,15 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
         let length = transient.end - transient.start;
         below("transient.step", step, "the simulated time", length)?;
     }
+    if let Some(tolerance) = transient.tolerance {
+        fraction("transient.tolerance", tolerance)?;
+        if transient.method != Method::Dop853 {
+            return Err(Rule::Needs {
+                other: "`transient.method = \"dop853\"`",
+            }
+            .at("transient.tolerance"));
+        }
+    }
     if let ModesKept::Count(count) = transient.modes {
         at_least_one("transient.modes", count)?;
     }

@@ -3,6 +3,7 @@
 //! Balls stand side by side in lanes, and so do modes. A ball that cannot reach the outer race, however the kept modes move
 //! it, costs no mode row.
 
+mod events;
 mod inner_race;
 mod outer_race;
 mod placing;
@@ -49,6 +50,14 @@ impl SecondOrderSystem for CoupledSystem {
     ) {
         evaluate(self, t, y, v, g);
         self.add_tangent(t, [y, v, g], tangent);
+    }
+
+    fn events(&self) -> usize {
+        self.contact_events()
+    }
+
+    fn events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
+        self.contact_events_into(t, y, v, events);
     }
 
     fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
