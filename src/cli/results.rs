@@ -60,7 +60,7 @@ pub(super) fn run_json(
     let orders = result.setup.geometry.orders();
     let fields = json!({
         "method": result.method.name(),
-        "step_s": result.schedule.step(),
+        "step_s": result.step_s(),
         "steps": result.statistics.steps,
         "rejected": result.statistics.rejected,
         "simulated_s": result.simulated_s,

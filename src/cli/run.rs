@@ -42,14 +42,25 @@ fn verdict(result: &RunResult) -> Verdict {
         RunEnd::BlewUp(error) => Verdict::Bad {
             what: error.to_string(),
             help: Some(format!(
-                "the step is the likely cause: a ball between its contacts vibrates above 100 kHz; \
-                 halve it with --set transient.step={:.1e}, or leave it to the program with \
-                 --set transient.step=auto; {} instants computed until then are in signals.npz",
-                0.5 * result.schedule.step(),
+                "{}; {} instants computed until then are in signals.npz",
+                smaller_steps(result),
                 result.record.time_s.len()
             )),
         },
     }
+}
+
+fn smaller_steps(result: &RunResult) -> String {
+    if result.method.chooses_its_steps() {
+        return "a smaller --set transient.tolerance says whether the steps are the cause"
+            .to_owned();
+    }
+    format!(
+        "the step is the likely cause: a ball between its contacts vibrates above 100 kHz; \
+         halve it with --set transient.step={:.1e}, or leave it to the program with \
+         --set transient.step=auto",
+        0.5 * result.schedule.step()
+    )
 }
 
 fn summary(result: &RunResult) -> String {
@@ -59,7 +70,7 @@ fn summary(result: &RunResult) -> String {
         crate::report::significant(result.simulated_s, 4),
         result.stepping_s,
         result.statistics.steps,
-        result.schedule.step(),
+        result.step_s(),
         result.method.name(),
         result.modes,
         result.stage.modes.count(),

@@ -87,6 +87,15 @@ impl RunResult {
         self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
     }
 
+    /// Length of a step, s; of a method with steps of its own their mean.
+    pub fn step_s(&self) -> f64 {
+        if self.method.chooses_its_steps() {
+            self.simulated_s / (self.statistics.steps.max(1) as f64)
+        } else {
+            self.schedule.step()
+        }
+    }
+
     /// Whether the outer race has no defect.
     pub fn outer_race_is_sound(&self) -> bool {
         let mut defects = self.setup.race_defects.iter();

@@ -231,10 +231,7 @@ fn frequencies(case: &Case, result: &RunResult) -> Section {
 fn computation(result: &RunResult) -> Vec<Fact> {
     vec![
         Fact::new("Method", result.method.name()),
-        Fact::new(
-            "Step",
-            format!("{} s", significant(result.schedule.step(), 4)),
-        ),
+        Fact::new("Step", format!("{} s", significant(result.step_s(), 4))),
         Fact::new("Steps", result.statistics.steps.to_string()),
         Fact::new(
             "Kept modes",

@@ -76,6 +76,11 @@ pub enum Stepping {
 }
 
 impl Method {
+    /// Whether steps follow from a tolerance instead of the schedule.
+    pub fn chooses_its_steps(self) -> bool {
+        matches!(self, Self::Dop853 { .. })
+    }
+
     /// Name in case files and results.
     pub fn name(self) -> &'static str {
         match self {
