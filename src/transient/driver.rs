@@ -75,6 +75,17 @@ pub enum Stepping {
     Stop,
 }
 
+impl Statistics {
+    /// Of so many steps with one evaluation each, and one before the first.
+    pub(super) fn of_single_evaluations(steps: u64) -> Self {
+        Self {
+            steps,
+            evaluations: steps + 1,
+            ..Self::default()
+        }
+    }
+}
+
 impl Method {
     /// Whether steps follow from a tolerance instead of the schedule.
     pub fn chooses_its_steps(self) -> bool {

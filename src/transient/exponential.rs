@@ -72,10 +72,6 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
     }
 
     fn statistics(&self) -> Statistics {
-        Statistics {
-            steps: self.steps,
-            evaluations: self.steps + 1,
-            ..Statistics::default()
-        }
+        Statistics::of_single_evaluations(self.steps)
     }
 }

@@ -103,6 +103,23 @@ fn orders_are_those_that_are_said() {
     }
 }
 
+/// Steps of length `h` (s) without a record.
+fn take_steps(
+    system: &mut impl SecondOrderSystem,
+    method: Method,
+    state: &mut State,
+    h: f64,
+    count: u32,
+) -> Result<Statistics, TransientError> {
+    let schedule = Schedule {
+        interval: h * f64::from(count),
+        steps_per_interval: count,
+        intervals: 1,
+    };
+    let on = |_, _| Stepping::Continue;
+    integrate(system, method, &schedule, state, &mut NoRecord, on)
+}
+
 /// Amplitude after 2000 steps from 1, the spring outside the linear part, without damping.
 fn amplitude_after(method: Method, phase: f64) -> f64 {
     let mut system = Oscillator::new(1.0);
@@ -113,22 +130,7 @@ fn amplitude_after(method: Method, phase: f64) -> f64 {
         y: vec![1.0],
         v: vec![0.0],
     };
-    let h = phase / W;
-    let schedule = Schedule {
-        interval: 2000.0 * h,
-        steps_per_interval: 2000,
-        intervals: 1,
-    };
-    let none = |_, _| Stepping::Continue;
-    let run = integrate(
-        &mut system,
-        method,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        none,
-    );
-    match run {
+    match take_steps(&mut system, method, &mut state, phase / W, 2000) {
         Ok(_) => state.y[0].hypot(state.v[0] / W),
         Err(_) => f64::INFINITY,
     }
@@ -188,22 +190,7 @@ fn rest_after(method: Method, phase: f64) -> f64 {
         y: vec![1.0],
         v: vec![0.0],
     };
-    let h = phase / W;
-    let schedule = Schedule {
-        interval: 5000.0 * h,
-        steps_per_interval: 5000,
-        intervals: 1,
-    };
-    let none = |_, _| Stepping::Continue;
-    integrate(
-        &mut system,
-        method,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        none,
-    )
-    .expect("stable");
+    take_steps(&mut system, method, &mut state, phase / W, 5000).expect("stable");
     state.y[0]
 }
 
