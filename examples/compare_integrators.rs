@@ -119,20 +119,24 @@ fn run(scene: &Scene, settings: &[&str]) -> Result<RunResult, Box<dyn Error>> {
 
 /// Acceleration of the first sensor in the band.
 fn limited(result: &RunResult) -> Result<TimeSeries, Box<dyn Error>> {
-    Ok(band_limit(&result.signal(0)?, BAND_HZ)?)
+    Ok(band_limit(&result.simulation.signal(0)?, BAND_HZ)?)
 }
 
 fn row(out: &mut impl Write, scene: &Scene, result: &RunResult) -> std::io::Result<()> {
-    let basis = if result.residual { " + residual" } else { "" };
+    let basis = if result.simulation.residual {
+        " + residual"
+    } else {
+        ""
+    };
     writeln!(
         out,
         "{:<14} {:<34} {:>9} {:>10.3e} {:>10} {:>14.3} {:>16.1}",
         scene.name,
-        format!("{}{basis}", result.method.name()),
-        result.modes,
-        result.schedule.step(),
-        result.statistics.steps,
-        result.stepping_s,
-        result.stepping_s / result.simulated_s,
+        format!("{}{basis}", result.simulation.method.name()),
+        result.simulation.modes,
+        result.simulation.schedule.step(),
+        result.simulation.statistics.steps,
+        result.simulation.stepping_s,
+        result.simulation.stepping_s / result.simulation.simulated_s,
     )
 }

@@ -16,7 +16,7 @@
 //! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
 //! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
 //! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
-//! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and two integrators.
+//! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and the integrators.
 //! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
@@ -27,7 +27,7 @@
 //! use plummer::stages::{Unwatched, compute_run};
 //! let case = Case::load("examples/tadina2011/outer-dent.toml", &[])?;
 //! let run = compute_run(&case, &Unwatched)?;
-//! assert_eq!(run.record.sensors[0].0, "P1");
+//! assert_eq!(run.simulation.record.sensors[0].0, "P1");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

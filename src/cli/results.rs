@@ -53,29 +53,29 @@ pub(super) fn run_json(
 ) -> Value {
     let mut map = common("run", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), json!(files.tables));
-    let equilibrium = &result.equilibrium;
+    let equilibrium = &result.scene.equilibrium;
     let balls = |value: fn(&crate::system::BallLoad) -> f64| -> Vec<f64> {
         equilibrium.balls.iter().map(value).collect()
     };
-    let orders = result.setup.geometry.orders();
+    let orders = result.scene.setup.geometry.orders();
     let fields = json!({
-        "method": result.method.name(),
-        "step_s": result.step_s(),
-        "steps": result.statistics.steps,
-        "rejected": result.statistics.rejected,
-        "simulated_s": result.simulated_s,
-        "realtime_factor": result.realtime_factor(),
-        "stepping_s": result.stepping_s,
-        "status": match &result.end {
+        "method": result.simulation.method.name(),
+        "step_s": result.simulation.step_s(),
+        "steps": result.simulation.statistics.steps,
+        "rejected": result.simulation.statistics.rejected,
+        "simulated_s": result.simulation.simulated_s,
+        "realtime_factor": result.simulation.realtime_factor(),
+        "stepping_s": result.simulation.stepping_s,
+        "status": match &result.simulation.end {
             RunEnd::Complete => "complete".to_owned(),
             RunEnd::BlewUp(error) => error.to_string(),
         },
         "model": {
-            "modes": result.modes,
-            "of_modes": result.stage.modes.count(),
-            "fixed_interface_modes": result.stage.fixed_interface_modes,
+            "modes": result.simulation.modes,
+            "of_modes": result.scene.stage.modes.count(),
+            "fixed_interface_modes": result.scene.stage.fixed_interface_modes,
             "balls": "dynamic",
-            "residual": result.residual,
+            "residual": result.simulation.residual,
             "why": "modes up to three times the band; the others by their static residual",
         },
         "equilibrium": {
@@ -114,7 +114,7 @@ pub(super) fn run_json(
             })),
             "envelope_peaks": window.peaks,
         })).collect::<Vec<_>>(),
-        "superelement": imported(&result.stage),
+        "superelement": imported(&result.scene.stage),
         "not_analysed": result.not_analysed,
     });
     extend(&mut map, fields);
@@ -364,7 +364,7 @@ pub(super) fn write_signals(
     result: &RunResult,
 ) -> Result<PathBuf, CliError> {
     let path = folder.path().join("signals.npz");
-    let record = &result.record;
+    let record = &result.simulation.record;
     let write = || -> Result<(), NpzError> {
         let mut npz = NpzWriter::create(&path)?;
         npz.array("time_s", &record.time_s)?;

@@ -37,21 +37,21 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
 }
 
 fn verdict(result: &RunResult) -> Verdict {
-    match &result.end {
+    match &result.simulation.end {
         RunEnd::Complete => Verdict::Good,
         RunEnd::BlewUp(error) => Verdict::Bad {
             what: error.to_string(),
             help: Some(format!(
                 "{}; {} instants computed until then are in signals.npz",
                 smaller_steps(result),
-                result.record.time_s.len()
+                result.simulation.record.time_s.len()
             )),
         },
     }
 }
 
 fn smaller_steps(result: &RunResult) -> String {
-    if result.method.chooses_its_steps() {
+    if result.simulation.method.chooses_its_steps() {
         return "a smaller --set transient.tolerance says whether the steps are the cause"
             .to_owned();
     }
@@ -59,7 +59,7 @@ fn smaller_steps(result: &RunResult) -> String {
         "the step is the likely cause: a ball between its contacts vibrates above 100 kHz; \
          halve it with --set transient.step={:.1e}, or leave it to the program with \
          --set transient.step=auto",
-        0.5 * result.schedule.step()
+        0.5 * result.simulation.schedule.step()
     )
 }
 
@@ -67,19 +67,19 @@ fn summary(result: &RunResult) -> String {
     let mut lines = vec![result.bearing_table().plain()];
     lines.push(format!(
         "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
-        crate::report::significant(result.simulated_s, 4),
-        result.stepping_s,
-        result.statistics.steps,
-        result.step_s(),
-        result.method.name(),
-        result.modes,
-        result.stage.modes.count(),
-        if result.residual {
+        crate::report::significant(result.simulation.simulated_s, 4),
+        result.simulation.stepping_s,
+        result.simulation.statistics.steps,
+        result.simulation.step_s(),
+        result.simulation.method.name(),
+        result.simulation.modes,
+        result.scene.stage.modes.count(),
+        if result.simulation.residual {
             " with static residual"
         } else {
             ""
         },
-        result.realtime_factor(),
+        result.simulation.realtime_factor(),
     ));
     for window in &result.windows {
         lines.push(format!(
@@ -98,7 +98,7 @@ fn summary(result: &RunResult) -> String {
             });
         }
     }
-    if let Some(imported) = &result.stage.imported {
+    if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());
     }
     for text in &result.not_analysed {

@@ -145,8 +145,8 @@ fn a_superelement_takes_the_place_of_the_housing_that_it_came_from() {
             "the ring alone"
         );
         let (of_old, of_new) = (
-            compute_run(&before, &Unwatched).unwrap(),
-            compute_run(&after, &Unwatched).unwrap(),
+            compute_run(&before, &Unwatched).unwrap().simulation,
+            compute_run(&after, &Unwatched).unwrap().simulation,
         );
         assert!(of_new.statistics.steps > 200);
         assert_eq!(of_new.record.time_s, of_old.record.time_s);

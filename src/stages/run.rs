@@ -1,230 +1,59 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::damping::{damping, refuse_structural_damping};
+use super::bearing_table;
 use super::statics::Statics;
-use super::structure::MODELLED;
-use super::{StageError, StructureStage, Watch, WindowAnalysis, analyse, bearing_setup};
-use super::{bearing_table, race_contacts};
-use crate::bearing::{Race, RaceContacts};
-use crate::case::{self, Case, ModesKept, StepLength};
+use super::{RunModel, Scene, Simulation, Span, StageError, Watch, WindowAnalysis, analyse};
+use crate::case::Case;
 use crate::report::Table;
-use crate::series::TimeSeries;
-use crate::system::{
-    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, Formulation, LoadedModes,
-    ModeSelection, Recorder, RunRecord, StaticCondition,
-};
-use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
-use std::time::Instant;
-
-/// `auto` step of the exponential method: phase of the stiffest ball vibration in one step, rad.
-const AUTO_PHASE: f64 = 0.1;
-
-/// Largest ball force that `auto` prepares for, in units of the largest static one: impacts in a
-/// dent of the source's size reach five to ten times.
-const AUTO_FORCE: f64 = 10.0;
-
-/// The source's step for explicit Newmark, s (section 4.1).
-const NEWMARK_STEP: f64 = 1.5e-8;
-
-/// Tolerance of `dop853` unless one is given: far below one percent after some milliseconds of impacts.
-const TOLERANCE: f64 = 1e-6;
-
-/// Default of generalized-alpha: takes what is not resolved out within some tens of steps, and of a motion of 0.1 rad a step
-/// 7e-8 of the amplitude.
-const SPECTRAL_RADIUS: f64 = 0.8;
-
-/// How a run ended.
-#[derive(Debug)]
-pub enum RunEnd {
-    /// At the end of its time.
-    Complete,
-    /// The solution blew up; what was recorded before is there.
-    BlewUp(TransientError),
-}
+use crate::system::{LoadedModes, SystemError};
 
 /// Result of a run.
 #[derive(Debug)]
 pub struct RunResult {
-    /// The linear model.
-    pub stage: StructureStage,
-    /// The bearing.
-    pub setup: BearingSetup,
-    /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
-    pub contacts: RaceContacts,
-    /// Where it started.
-    pub equilibrium: Equilibrium,
-    /// That equilibrium among the others, and over a ball pass.
+    /// What was simulated.
+    pub scene: Scene,
+    /// Its equilibrium among the others, and over a ball pass.
     pub statics: Statics,
     /// Modes linearised there.
     pub loaded: LoadedModes,
-    /// Method used.
-    pub method: Method,
-    /// How the time was cut.
-    pub schedule: Schedule,
-    /// Kept modes of the structure.
-    pub modes: usize,
-    /// Whether the static residual of the others was in use.
-    pub residual: bool,
-    /// Steps and evaluations.
-    pub statistics: Statistics,
-    /// Simulated time, s.
-    pub simulated_s: f64,
-    /// Wall time of the stepping alone, s.
-    pub stepping_s: f64,
-    /// Signals.
-    pub record: RunRecord,
+    /// The signals, and what they took.
+    pub simulation: Simulation,
     /// Analysed windows of all sensors.
     pub windows: Vec<WindowAnalysis>,
     /// Windows or sensors that could not be analysed, and why.
     pub not_analysed: Vec<String>,
-    /// How it ended.
-    pub end: RunEnd,
-}
-
-impl RunResult {
-    /// Simulated time over wall time of the stepping.
-    pub fn realtime_factor(&self) -> f64 {
-        self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
-    }
-
-    /// Length of a step, s; of a method with steps of its own their mean.
-    pub fn step_s(&self) -> f64 {
-        if self.method.chooses_its_steps() {
-            self.simulated_s / (self.statistics.steps.max(1) as f64)
-        } else {
-            self.schedule.step()
-        }
-    }
-
-    /// Whether the outer race has no defect.
-    pub fn outer_race_is_sound(&self) -> bool {
-        let mut defects = self.setup.race_defects.iter();
-        !defects.any(|defect| defect.race() == Race::Outer)
-    }
-
-    /// Everything about the bearing in one table.
-    pub fn bearing_table(&self) -> Table {
-        bearing_table(&self.setup, &self.contacts, Some(&self.equilibrium))
-    }
-
-    /// A sensor's acceleration as a series, m/s^2.
-    ///
-    /// # Errors
-    /// [`StageError::Series`] if nothing was recorded.
-    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
-        let start = self.record.time_s.first().copied().unwrap_or(0.0);
-        let values = self.record.sensors[sensor].1.clone();
-        Ok(TimeSeries::new(
-            start,
-            self.schedule.interval,
-            "m/s^2",
-            values,
-        )?)
-    }
 }
 
 /// Carries the command out.
 ///
 /// # Errors
-/// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
+/// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
 pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
-    refuse_structural_damping(case)?;
-    let stage = StructureStage::build(case, watch)?;
-    // a run without ring, bearing, shaft or transient was refused with the case
-    let bearing = (bearing_setup(case)?, race_contacts(case)?);
-    let (Some(stage), (Some(setup), Some(contacts)), Some(asked)) =
-        (stage, bearing, case.transient.as_ref())
-    else {
-        return Err(crate::system::SystemError::NotSupported.into());
-    };
-    if let Some(imported) = &stage.imported {
-        imported.refuse_structural_damping()?;
-    }
-    watch.stage("equilibrium");
-    let statics = Statics::compute(&stage, &setup, asked.start)?;
-    let condition = StaticCondition::at(&setup, asked.start);
-    let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+    let scene = Scene::build(case, watch)?;
+    // a run without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let statics = Statics::compute(&scene.stage, &scene.setup, asked.start)?;
     watch.stage("linearise");
-    let loaded = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
-    let method = method(asked);
-    let mut system = CoupledSystem::new(
-        &stage.structure,
-        &stage.modes,
-        setup.clone(),
-        selection(case, &setup, method),
-        damping(case)?,
-        asked.residual,
+    let loaded = LoadedModes::at(
+        &scene.stage.structure,
+        &scene.stage.modes,
+        &scene.setup,
+        &scene.equilibrium,
     )?;
-    let step = match asked.step {
-        StepLength::Seconds(step) => step,
-        StepLength::Auto => auto_step(method, &setup, &equilibrium, &system),
+    let model = RunModel::of_case(case, asked, &scene)?;
+    let span = Span {
+        duration: asked.end - asked.start,
+        output_hz: asked.output_hz,
     };
-    let interval = 1.0 / asked.output_hz;
-    let mut schedule = Schedule::covering(asked.end - asked.start, interval, step)?;
-    let wanted = usize::try_from(schedule.intervals)
-        .unwrap_or(usize::MAX)
-        .saturating_add(1);
-    let mut recorder = Recorder::new(
-        &system,
-        schedule.steps_per_interval,
-        schedule.step(),
-        wanted,
-    )?;
-    schedule.intervals += recorder.intervals_past_the_end();
-    let mut state = system.state_at(asked.start, &equilibrium, &stage.modes);
     watch.stage("step");
-    let clock = Instant::now();
-    let report_every = (schedule.intervals / 1000).max(1);
-    let stepped = integrate(
-        &mut system,
-        method,
-        &schedule,
-        &mut state,
-        &mut recorder,
-        |done, total| {
-            if done.is_multiple_of(report_every) {
-                watch.fraction(done as f64 / total as f64);
-            }
-            Stepping::Continue
-        },
-    );
-    let stepping_s = clock.elapsed().as_secs_f64();
-    let simulated_s = state.t - asked.start;
-    let modes = system.modes();
-    let residual = system.has_residual();
-    let (statistics, end, record) = match stepped {
-        Ok(statistics) => (statistics, RunEnd::Complete, recorder.finish()),
-        Err(error) => {
-            let TransientError::BlewUp {
-                good_intervals,
-                statistics,
-                ..
-            } = error
-            else {
-                return Err(error.into());
-            };
-            let record = recorder.finish_after(good_intervals);
-            (statistics, RunEnd::BlewUp(error), record)
-        }
-    };
+    let simulation = Simulation::from_rest(&scene, &model, span, |done| watch.fraction(done))?;
     let mut result = RunResult {
-        modes,
-        residual,
-        stage,
-        setup,
-        contacts,
-        equilibrium,
+        scene,
         statics,
         loaded,
-        method,
-        schedule,
-        statistics,
-        simulated_s,
-        stepping_s,
-        record,
+        simulation,
         windows: Vec::new(),
         not_analysed: Vec::new(),
-        end,
     };
     watch.stage("analyse");
     result.analyse(case);
@@ -232,12 +61,19 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
 }
 
 impl RunResult {
+    /// Everything about the bearing in one table.
+    pub fn bearing_table(&self) -> Table {
+        let scene = &self.scene;
+        bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
+    }
+
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
-        for (index, (name, _)) in self.record.sensors.clone().iter().enumerate() {
+        for (index, (name, _)) in self.simulation.record.sensors.iter().enumerate() {
             let analysed = self
+                .simulation
                 .signal(index)
-                .and_then(|signal| analyse(case, name, &signal, &self.setup));
+                .and_then(|signal| analyse(case, name, &signal, &self.scene.setup));
             match analysed {
                 Ok(windows) => self.windows.extend(windows),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),
@@ -246,79 +82,11 @@ impl RunResult {
     }
 }
 
-/// The method that a case asks for.
-fn method(asked: &case::Transient) -> Method {
-    match asked.method {
-        case::Method::Auto | case::Method::Exponential => Method::Exponential,
-        case::Method::NewmarkExplicit => Method::NewmarkExplicit,
-        case::Method::ExponentialAdams => Method::ExponentialAdams,
-        case::Method::Splitting => Method::Splitting,
-        case::Method::Newmark => Method::Newmark,
-        case::Method::GeneralizedAlpha => Method::GeneralizedAlpha {
-            spectral_radius: asked.spectral_radius.unwrap_or(SPECTRAL_RADIUS),
-        },
-        case::Method::Dop853 => Method::Dop853 {
-            tolerance: asked.tolerance.unwrap_or(TOLERANCE),
-            events: true,
-        },
-    }
-}
-
-fn selection(case: &Case, setup: &BearingSetup, method: Method) -> ModeSelection {
-    let top = case.band_hz().map_or(40e3, |band| band[1]);
-    let kept = case
-        .transient
-        .as_ref()
-        .map_or(ModesKept::Auto, |transient| transient.modes);
-    match kept {
-        ModesKept::All => ModeSelection::All,
-        ModesKept::Count(count) => ModeSelection::Count(count),
-        // the source's method steps all ring displacements, and its equations need them
-        ModesKept::Auto
-            if method == Method::NewmarkExplicit || setup.formulation == Formulation::Printed =>
-        {
-            ModeSelection::All
-        }
-        // the static residual stands for the rest
-        ModesKept::Auto => ModeSelection::UpTo(MODELLED * top),
-    }
-}
-
-/// Step that resolves the fastest motion on the contacts at [`AUTO_FORCE`] times the largest static force, with
-/// `k' = 3/2 k^(2/3) F^(1/3)`: that of a ball between both, `h = AUTO_PHASE / sqrt((k_i' + k_o') / m_b)`, or without the
-/// balls' inertia that of race and shaft on both in series.
-fn auto_step(
-    method: Method,
-    setup: &BearingSetup,
-    equilibrium: &Equilibrium,
-    system: &CoupledSystem,
-) -> f64 {
-    let largest = equilibrium
-        .balls
-        .iter()
-        .map(|ball| ball.inner.max(ball.outer))
-        .fold(setup.geometry.ball_mass() * 9.81, f64::max);
-    let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (AUTO_FORCE * largest).cbrt();
-    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(tangent);
-    let stiffness = match setup.balls_inertia {
-        BallsInertia::Dynamic => inner + outer,
-        BallsInertia::QuasiStatic => inner * outer / (inner + outer),
-    };
-    let resolved = AUTO_PHASE / (stiffness * system.contact_mobility()).sqrt();
-    if method == Method::NewmarkExplicit {
-        let highest = system.highest_squared_frequency().sqrt();
-        // half the stability limit, and never above the source's own step
-        NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE))
-    } else {
-        resolved
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::case::Source;
-    use crate::stages::Unwatched;
+    use crate::stages::{RunEnd, Unwatched};
 
     /// What a run of an example says with these keys set.
     fn message(set: &[&str]) -> String {
@@ -350,7 +118,7 @@ mod tests {
     #[test]
     fn implicit_methods_give_the_signal_of_the_exponential_one() {
         let step = "transient.step=2e-8";
-        let expected = smooth(&[step]).signal(0).unwrap();
+        let expected = smooth(&[step]).simulation.signal(0).unwrap();
         let rms = |values: &mut dyn Iterator<Item = f64>| {
             let squares: Vec<f64> = values.map(|value| value * value).collect();
             (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
@@ -362,12 +130,12 @@ mod tests {
             ["transient.method=newmark", "transient.step=1e-7"],
         ] {
             let result = smooth(&set);
-            let found = result.signal(0).unwrap();
+            let found = result.simulation.signal(0).unwrap();
             let pairs = found.values().iter().zip(expected.values());
             let difference = rms(&mut pairs.map(|(a, b)| a - b)) / size;
-            let counts = result.statistics;
+            let counts = result.simulation.statistics;
             let solves = counts.solves as f64 / counts.steps as f64;
-            let cost = result.stepping_s / counts.steps as f64;
+            let cost = result.simulation.stepping_s / counts.steps as f64;
             println!(
                 "{set:?}: {difference:.1e} of {size:.1e} m/s^2, {solves:.2} solves and {cost:.1e} s a step"
             );
@@ -393,13 +161,18 @@ mod tests {
         };
         let expected = dented("exponential");
         let peak = |result: &RunResult| {
-            let values = result.record.outer_force.iter();
+            let values = result.simulation.record.outer_force.iter();
             values.fold(0.0, |most: f64, force| most.max(*force))
         };
         for method in ["newmark", "generalized-alpha"] {
             let result = dented(method);
-            assert!(matches!(result.end, RunEnd::Complete), "{:?}", result.end);
-            let solves = result.statistics.solves as f64 / result.statistics.steps as f64;
+            assert!(
+                matches!(result.simulation.end, RunEnd::Complete),
+                "{:?}",
+                result.simulation.end
+            );
+            let solves = result.simulation.statistics.solves as f64
+                / result.simulation.statistics.steps as f64;
             let (found, expected) = (peak(&result), peak(&expected));
             println!("{method}: {solves:.2} solves a step, {found:.3} N, {expected:.3} N");
             assert!(solves < 3.0, "{method}: {solves}");

@@ -21,7 +21,7 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
     report = headlines(report, result);
-    if let RunEnd::BlewUp(error) = &result.end {
+    if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));
     }
     for text in &result.not_analysed {
@@ -34,17 +34,17 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
     report = report.section(frequencies(case, result));
     report = report.section(
         Section::new("Model")
-            .drawing(draw(case, &result.stage, Some(&result.setup)))
-            .facts(model_facts(case, &result.stage, true)),
+            .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
+            .facts(model_facts(case, &result.scene.stage, true)),
     );
     report = report.section(Section::new("Bearing").table(result.bearing_table()));
-    report = report.section(statics_section(&result.setup, &result.statics));
+    report = report.section(statics_section(&result.scene.setup, &result.statics));
     report = report.section(Section::new("Computation").facts(computation(result)));
-    let imported = result.stage.imported.iter();
+    let imported = result.scene.stage.imported.iter();
     for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
         report = report.warning(text);
     }
-    for text in assumptions(case, Some(&result.setup)) {
+    for text in assumptions(case, Some(&result.scene.setup)) {
         report = report.assumption(text);
     }
     report = report.assumption(
@@ -56,12 +56,12 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
 fn headlines(mut report: Report, result: &RunResult) -> Report {
     report = report.headline(
         "Simulated",
-        format!("{} s", significant(result.simulated_s, 4)),
-        Verdict::of(matches!(result.end, RunEnd::Complete)),
+        format!("{} s", significant(result.simulation.simulated_s, 4)),
+        Verdict::of(matches!(result.simulation.end, RunEnd::Complete)),
     );
     report = report.headline(
         "Real-time factor",
-        significant(result.realtime_factor(), 3),
+        significant(result.simulation.realtime_factor(), 3),
         Verdict::None,
     );
     if let Some(window) = result.windows.first() {
@@ -71,7 +71,7 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
             Verdict::None,
         );
         for (harmonic, (expected, found)) in (1..).zip(window.outer) {
-            if let (Some((hz, _)), false) = (found, result.outer_race_is_sound()) {
+            if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
                 report = report.headline(
                     format!(
                         "Envelope line at {harmonic} x outer race ({} Hz)",
@@ -88,11 +88,11 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
 
 fn signals(result: &RunResult) -> Result<Section, StageError> {
     let mut section = Section::new("Signals");
-    if result.record.time_s.is_empty() {
+    if result.simulation.record.time_s.is_empty() {
         return Ok(section.paragraph("The run ended before the first instant was complete."));
     }
-    for (index, (name, _)) in result.record.sensors.iter().enumerate() {
-        let signal = result.signal(index)?;
+    for (index, (name, _)) in result.simulation.record.sensors.iter().enumerate() {
+        let signal = result.simulation.signal(index)?;
         section = section.plot(
             Plot::new(
                 format!("Acceleration at {name}"),
@@ -197,7 +197,7 @@ fn envelope(window: &WindowAnalysis) -> Section {
 }
 
 fn frequencies(case: &Case, result: &RunResult) -> Section {
-    let modes = &result.stage.modes;
+    let modes = &result.scene.stage.modes;
     let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES))
         .map(|mode| modes.frequency_hz(mode))
         .collect();
@@ -230,30 +230,41 @@ fn frequencies(case: &Case, result: &RunResult) -> Section {
 
 fn computation(result: &RunResult) -> Vec<Fact> {
     vec![
-        Fact::new("Method", result.method.name()),
-        Fact::new("Step", format!("{} s", significant(result.step_s(), 4))),
-        Fact::new("Steps", result.statistics.steps.to_string()),
+        Fact::new("Method", result.simulation.method.name()),
+        Fact::new(
+            "Step",
+            format!("{} s", significant(result.simulation.step_s(), 4)),
+        ),
+        Fact::new("Steps", result.simulation.statistics.steps.to_string()),
         Fact::new(
             "Kept modes",
-            format!("{} of {}", result.modes, result.stage.modes.count()),
+            format!(
+                "{} of {}",
+                result.simulation.modes,
+                result.scene.stage.modes.count()
+            ),
         )
-        .note(if result.residual {
+        .note(if result.simulation.residual {
             "the others by their static residual"
         } else {
             "without static residual"
         }),
         Fact::new(
             "Wall time of the stepping",
-            format!("{} s", significant(result.stepping_s, 3)),
+            format!("{} s", significant(result.simulation.stepping_s, 3)),
         ),
-        Fact::new("Real-time factor", significant(result.realtime_factor(), 3))
-            .note("simulated time over wall time"),
+        Fact::new(
+            "Real-time factor",
+            significant(result.simulation.realtime_factor(), 3),
+        )
+        .note("simulated time over wall time"),
         Fact::new(
             "Time per step",
             format!(
                 "{} \u{b5}s",
                 significant(
-                    1e6 * result.stepping_s / result.statistics.steps.max(1) as f64,
+                    1e6 * result.simulation.stepping_s
+                        / result.simulation.statistics.steps.max(1) as f64,
                     3
                 )
             ),

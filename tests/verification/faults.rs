@@ -24,7 +24,7 @@ fn run(example: &str, set: &[&str]) -> RunResult {
             .collect(),
     });
     let result = compute_run(&case.unwrap(), &Unwatched).unwrap();
-    assert!(matches!(result.end, RunEnd::Complete));
+    assert!(matches!(result.simulation.end, RunEnd::Complete));
     result
 }
 
@@ -42,7 +42,7 @@ fn every_fault_has_its_own_order() {
     let twice = |example: &str| starts.map(|start| run(example, &[start]));
     let mean = |[a, b]: &[RunResult; 2], of: &dyn Fn(&RunResult) -> f64| 0.5 * (of(a) + of(b));
     let healthy = twice("healthy");
-    let orders = healthy[0].setup.geometry.orders();
+    let orders = healthy[0].scene.setup.geometry.orders();
     let lines = [orders.outer, orders.inner, orders.ball_defect].map(|order| 21.0 * order);
     for (example, own) in [("outer-dent", 0), ("inner-dent", 1), ("ball-flat", 2)] {
         let faulty = twice(example);
@@ -92,12 +92,12 @@ fn a_turning_dent_is_heard_under_the_load() {
         "shaft.loads=[{force=[0,-20]}]",
     ];
     let result = run("inner-dent", &shallow);
-    let signal = result.signal(0).unwrap();
-    let times = &result.record.time_s;
+    let signal = result.simulation.signal(0).unwrap();
+    let times = &result.simulation.record.time_s;
     let mut power = [(0.0, 0); 2];
     for (&time, acceleration) in times.iter().zip(signal.values()) {
         // the dent's height, its angle being the shaft's
-        let height = result.setup.cage.shaft().angle(time).sin();
+        let height = result.scene.setup.cage.shaft().angle(time).sin();
         if time > 0.05 && height.abs() > 0.5 {
             let (sum, count) = &mut power[usize::from(height > 0.0)];
             *sum += acceleration * acceleration;

@@ -1,0 +1,85 @@
+//! What is simulated: structure and bearing of a case, at rest where they start.
+
+use super::damping::{damping, refuse_structural_damping};
+use super::{RunModel, StageError, StructureStage, Watch, bearing_setup, race_contacts};
+use crate::bearing::{Race, RaceContacts};
+use crate::case::Case;
+use crate::dynamics::State;
+use crate::system::{
+    BearingSetup, CoupledSystem, Equilibrium, ModeDamping, StaticCondition, SystemError,
+};
+
+/// Structure and bearing of a case and the equilibrium that a simulation starts from.
+#[derive(Debug)]
+pub struct Scene {
+    /// The linear model with all its modes.
+    pub stage: StructureStage,
+    /// The bearing.
+    pub setup: BearingSetup,
+    /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
+    pub contacts: RaceContacts,
+    /// Damping of the structure's modes.
+    pub damping: ModeDamping,
+    /// When it starts, s.
+    pub start: f64,
+    /// Equilibrium with cage and loads as they are then.
+    pub equilibrium: Equilibrium,
+}
+
+impl Scene {
+    /// Builds the scene of a case.
+    ///
+    /// # Errors
+    /// [`StageError`] of the stages that it goes through.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+        refuse_structural_damping(case)?;
+        let stage = StructureStage::build(case, watch)?;
+        // a run without ring, bearing, shaft or transient was refused with the case
+        let bearing = (bearing_setup(case)?, race_contacts(case)?);
+        let (Some(stage), (Some(setup), Some(contacts)), Some(asked)) =
+            (stage, bearing, case.transient.as_ref())
+        else {
+            return Err(SystemError::NotSupported.into());
+        };
+        if let Some(imported) = &stage.imported {
+            imported.refuse_structural_damping()?;
+        }
+        watch.stage("equilibrium");
+        let condition = StaticCondition::at(&setup, asked.start);
+        let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+        Ok(Self {
+            stage,
+            setup,
+            contacts,
+            damping: damping(case)?,
+            start: asked.start,
+            equilibrium,
+        })
+    }
+
+    /// The scene in a model's coordinates.
+    ///
+    /// # Errors
+    /// [`StageError::System`] for a model that does not fit it.
+    pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, StageError> {
+        Ok(CoupledSystem::new(
+            &self.stage.structure,
+            &self.stage.modes,
+            self.setup.clone(),
+            model.modes,
+            self.damping,
+            model.residual,
+        )?)
+    }
+
+    /// At rest in the equilibrium.
+    pub fn at_rest(&self, system: &CoupledSystem) -> State {
+        system.state_at(self.start, &self.equilibrium, &self.stage.modes)
+    }
+
+    /// Whether the outer race has no defect.
+    pub fn outer_race_is_sound(&self) -> bool {
+        let mut defects = self.setup.race_defects.iter();
+        !defects.any(|defect| defect.race() == Race::Outer)
+    }
+}
