@@ -38,7 +38,8 @@ pub struct Transient {
     /// Length of a step; time between samples of a method that chooses its steps.
     #[serde(default)]
     pub step: StepLength,
-    /// For `dop853`: relative error of a step, > 0 and < 1; `None`: 1e-6.
+    /// For `dop853`: relative error of a step, > 0 and < 1; `None`: 1e-6. For `exponential-adams`: part of the force that a
+    /// step may leave out of its prediction; `None`: equal steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Sampling rate of the signals in Hz, at least twice the highest frequency of interest.

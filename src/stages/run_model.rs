@@ -66,7 +66,9 @@ fn method(asked: &case::Transient) -> Method {
     match asked.method {
         case::Method::Auto | case::Method::Exponential => Method::Exponential,
         case::Method::NewmarkExplicit => Method::NewmarkExplicit,
-        case::Method::ExponentialAdams => Method::ExponentialAdams,
+        case::Method::ExponentialAdams => Method::ExponentialAdams {
+            tolerance: asked.tolerance,
+        },
         case::Method::Splitting => Method::Splitting,
         case::Method::Newmark => Method::Newmark,
         case::Method::GeneralizedAlpha => Method::GeneralizedAlpha {

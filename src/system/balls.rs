@@ -38,6 +38,12 @@ pub(super) struct BallGroup {
     pub gap: Lanes,
     /// Radial rows of the balls that are near, the others' stale \[groups of modes\]; never anything but finite numbers.
     pub rows: Vec<[Lanes; LANES]>,
+    /// With a static residual: displacement of the race by the forces (m), displacement for a ball's own force (m/N), what
+    /// contact damping multiplies with, force (N) and its derivative by the displacement (N/m) on the displaced race.
+    pub displaced: Lanes,
+    pub own: Lanes,
+    pub damping: Lanes,
+    pub law: [Lanes; 2],
     /// Velocity towards the outer race and along it, m/s.
     pub rate: Lanes,
     pub along: Lanes,

@@ -9,7 +9,7 @@ use super::inner::InnerRace;
 use super::lanes::{self, Lanes};
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
-use super::residual::ResidualFlexibility;
+use super::residual::{Coupling, ResidualFlexibility};
 use super::structure::{Structure, StructureModes};
 use crate::bearing::{Race, RotationCursor};
 use crate::dynamics::{LinearCoordinate, State};
@@ -92,7 +92,7 @@ pub struct CoupledSystem {
     pub(super) radial: RacewayTable,
     /// Tangential displacement at the raceway by kept modes.
     pub(super) tangential: RacewayTable,
-    pub(super) residual: Option<ResidualFlexibility>,
+    pub(super) residual: Option<Coupling>,
     /// Mean displacement of the ring's nodes in x and y by kept modes (`printed` only).
     pub(super) centre: [Vec<f64>; 2],
     /// Sensor rows over kept modes.
@@ -126,7 +126,8 @@ pub(super) struct Work {
     /// What each ball may feel at the outer race, and which of them feel anything.
     pub damage: Vec<Damage>,
     pub damaged: Vec<usize>,
-    /// Displacement of the last evaluation and its force.
+    /// With a static residual: balls on waves or damage, and the displacement of each one's last evaluation and its force.
+    pub uneven: Vec<usize>,
     pub known: Vec<(f64, RaceForce)>,
     /// Of all balls, N.
     pub on_shaft: [f64; 2],
@@ -169,7 +170,8 @@ impl CoupledSystem {
         let kept: Vec<usize> = (0..count).collect();
         let balls = setup.balls();
         let residual = if residual && !complete {
-            Some(ResidualFlexibility::new(structure, modes, &kept, balls)?)
+            let residual = ResidualFlexibility::new(structure, modes, &kept)?;
+            Some(Coupling::new(residual, balls))
         } else {
             None
         };
@@ -215,9 +217,7 @@ impl CoupledSystem {
             ball_mobility: 1.0 / setup.geometry.ball_mass(),
             balls: Balls {
                 mode_bounds: radial.bounds(),
-                weight_bound: residual
-                    .as_ref()
-                    .map_or(0.0, ResidualFlexibility::weight_bound),
+                weight_bound: residual.as_ref().map_or(0.0, Coupling::weight_bound),
                 ..Balls::new(&setup, radial.groups())
             },
             radial,
@@ -304,6 +304,7 @@ impl Work {
             spin: vec![[0.0; 2]; balls],
             damage: vec![Damage::None; balls],
             damaged: Vec::with_capacity(balls),
+            uneven: Vec::with_capacity(balls),
             known: vec![(0.0, RaceForce::default()); balls],
             on_shaft: [0.0; 2],
             force: Vec::new(),

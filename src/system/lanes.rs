@@ -25,6 +25,18 @@ pub(super) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
     groups
 }
 
+/// The first `N` of these, all for `N` = 0: a loop over a number that the compiler knows is unrolled.
+#[inline(always)]
+pub(super) fn first<const N: usize, T>(items: &[T]) -> &[T] {
+    if N == 0 { items } else { &items[..N] }
+}
+
+/// The same to be changed.
+#[inline(always)]
+pub(super) fn first_mut<const N: usize, T>(items: &mut [T]) -> &mut [T] {
+    if N == 0 { items } else { &mut items[..N] }
+}
+
 /// Copies `values` to the front; what fills up the last group becomes zero.
 #[inline(always)]
 pub(super) fn set(groups: &mut [Lanes], values: &[f64]) {

@@ -133,7 +133,7 @@ impl Observer<CoupledSystem> for Recorder {
             let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
                 let forces = system.balls.all(|ball| &ball.outer_radial);
-                let row = residual.sensor_row(sensor).iter();
+                let row = residual.sensor_row(sensor).as_flattened().iter();
                 row.zip(forces).map(|(row, force)| row * force).sum()
             });
             if let Some(acceleration) = track.filter.push(modal + residual) {

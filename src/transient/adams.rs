@@ -2,51 +2,90 @@
 //! evaluation a step.
 //!
 //! ```text
-//! y1 = flow(y0, v0) under g0 + x (g0 - g_)                                  x = (t - t0) / h, g_ the force a step before
-//! v1 = flow(y0, v0) under g0 + x (g1 - g_) / 2 + x^2 (g1 - 2 g0 + g_) / 2,  g1 = g(t1, y1, v*)
+//! y1 = flow(y0, v0) under g0 + a x                  x = (t - t0) / h,  a = r (g0 - g_),  r = h / h_
+//! v1 = flow(y0, v0) under g0 + (a + b / r) x + b x^2,                  b = (g1 - g0 - a) r / (1 + r)
 //! ```
 //!
-//! v* is the velocity under the line of the first row; it enters through contact damping alone. Without spring and damper
-//! this is `y1 = y0 + h v0 + h^2 (4 g0 - g_) / 6`, `v1 = v0 + h (5 g1 + 8 g0 - g_) / 12`: Beeman's positions with the velocities
-//! of the Adams-Moulton method (Hairer, Norsett, Wanner, Solving ODEs I, 2nd ed., III.1 and III.10). For a force `-k y` it is stable up to
+//! with g_ the force a step h_ before and g1 = g(t1, y1, v*); v* is the velocity under the line of the first row and enters
+//! through contact damping alone. Without spring and damper equal steps are `y1 = y0 + h v0 + h^2 (4 g0 - g_) / 6`,
+//! `v1 = v0 + h (5 g1 + 8 g0 - g_) / 12`: Beeman's positions with the velocities of the Adams-Moulton method (Hairer, Norsett,
+//! Wanner, Solving ODEs I, 2nd ed., III.1, III.5 and III.10). For a force `-k y` it is stable up to
 //! `h sqrt(k)` = [`STABILITY_LIMIT`], with a phase error of `(h^2 k)^2 / 43` in a relative one, a four-hundredth of velocity
 //! Verlet's at `h sqrt(k) = 0.07`, and it damps what it does not resolve: 1 % a step at 0.7.
 //!
+//! With a tolerance the time between samples is halved as often as the bend b asks for: it is what the positions leave out of
+//! the force, and is held below the tolerance in units of the largest force that the coordinate has seen. A step that is
+//! halved keeps to the grid, so that every sample is the end of a step and nothing is interpolated.
+//!
 //! The polynomials are not symmetric in time, so energy creeps through modes whose `h w` is large: such modes are left out.
 
+mod flow;
+
 use super::driver::{Statistics, Stepper};
-use super::propagator::Propagator;
 use crate::dynamics::{Divergence, SecondOrderSystem};
+use flow::{Flow, Track};
 
 /// Largest `h sqrt(k)` at which no solution under a force `-k y` grows: where the characteristic polynomial of the two
 /// recursions has the root -1.
 pub const STABILITY_LIMIT: f64 = 1.732_050_807_568_877_2;
 
+/// How often the time between samples is halved at most.
+const MOST_HALVINGS: u32 = 10;
+
+/// A step is taken back if its bend exceeds the tolerance so many times, and the next one is halved above one.
+const TOO_LARGE: f64 = 2.0;
+
+/// The bend falls with the square of the step: a step of twice the length is tried below this.
+const DOUBLED: f64 = 0.15;
+
 #[derive(Debug)]
 pub(super) struct Adams {
-    flow: Vec<Propagator>,
-    per_step: f64,
-    predicted: Vec<f64>,
-    before: Vec<f64>,
-    next: Vec<f64>,
-    steps: u64,
+    /// Steps of the time between samples over powers of two.
+    flows: Vec<Flow>,
+    tolerance: Option<f64>,
+    track: Track,
+    halvings: u32,
+    statistics: Statistics,
 }
 
 impl Adams {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
-        let coordinates = system.linear().iter();
-        let flow: Vec<_> = coordinates
-            .map(|&coordinate| Propagator::new(coordinate, h))
-            .collect();
-        let blank = vec![0.0; flow.len()];
+    /// Equal steps h (s), or with a `tolerance` such steps halved where it asks for it.
+    pub fn new(system: &impl SecondOrderSystem, h: f64, tolerance: Option<f64>) -> Self {
+        let halvings = tolerance.map_or(0, |_| MOST_HALVINGS);
+        let coordinates = system.linear();
+        let flow = |halved: u32| Flow::new(coordinates, h / f64::from(1_u32 << halved));
         Self {
-            per_step: 1.0 / h,
-            predicted: blank.clone(),
-            before: blank.clone(),
-            next: blank,
-            steps: 0,
-            flow,
+            flows: (0..=halvings).map(flow).collect(),
+            tolerance,
+            track: Track::new(coordinates.len()),
+            // nothing is known yet
+            halvings,
+            statistics: Statistics {
+                evaluations: 1,
+                ..Statistics::default()
+            },
         }
+    }
+
+    /// Takes the step that was tried, or not; sets how long the next one is. `part` is the end of the step in units of the
+    /// shortest.
+    fn judge(&mut self, tolerance: f64, part: u32) -> bool {
+        let bend = self.track.bend() / tolerance;
+        let most = self.flows.len() as u32 - 1;
+        // what is not a number is no reason to go on halving
+        if bend > TOO_LARGE && self.halvings < most {
+            self.halvings += 1;
+            return false;
+        }
+        if bend > 1.0 && self.halvings < most {
+            self.halvings += 1;
+        } else if bend < DOUBLED && self.halvings > 0 {
+            let longer = 2_u32 << (most - self.halvings);
+            if part.is_multiple_of(longer) {
+                self.halvings -= 1;
+            }
+        }
+        true
     }
 }
 
@@ -59,40 +98,31 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
         v: &mut [f64],
         g: &mut [f64],
     ) -> Result<(), Divergence> {
-        let first = self.steps == 0;
-        if first {
-            // no slope is known yet: the first step is of the second order
-            self.before.copy_from_slice(g);
-        }
-        for (i, p) in self.flow.iter().enumerate() {
-            let (y0, v0, g0) = (y[i], v[i], g[i]);
-            let rise = g0 - self.before[i];
-            y[i] = p.position_position * y0
-                + p.position_velocity * v0
-                + (p.response * g0 + p.ramp * rise);
-            self.predicted[i] = p.velocity_position * y0
-                + p.velocity_velocity * v0
-                + (p.position_velocity * g0 + p.response * self.per_step * rise);
-        }
-        system.force_into(t1, y, &self.predicted, &mut self.next);
-        for (i, p) in self.flow.iter().enumerate() {
-            let (g0, g1) = (g[i], self.next[i]);
-            if first {
-                self.before[i] = 2.0 * g0 - g1;
-                v[i] = self.predicted[i] + p.response * self.per_step * (g1 - g0);
-            } else {
-                // from the line to the parabola
-                let bend = 0.5 * (g1 - 2.0 * g0 + self.before[i]);
-                v[i] = self.predicted[i] + self.per_step * (p.response + 2.0 * p.ramp) * bend;
+        let whole = 1_u32 << (self.flows.len() - 1);
+        let shortest = self.flows[0].step / f64::from(whole);
+        let mut part = 0;
+        while part < whole {
+            let flow = &self.flows[self.halvings as usize];
+            let end = part + (whole >> self.halvings);
+            self.track.predict(flow, y, v, g);
+            let t = t1 - f64::from(whole - end) * shortest;
+            self.track.evaluate(system, t, g);
+            self.statistics.evaluations += 1;
+            let flow = self.halvings as usize;
+            if let Some(tolerance) = self.tolerance
+                && !self.judge(tolerance, end)
+            {
+                self.statistics.rejected += 1;
+                continue;
             }
-            self.before[i] = g0;
-            g[i] = g1;
+            self.track.accept(&self.flows[flow], y, v, g);
+            self.statistics.steps += 1;
+            part = end;
         }
-        self.steps += 1;
         Ok(())
     }
 
     fn statistics(&self) -> Statistics {
-        Statistics::of_single_evaluations(self.steps)
+        self.statistics
     }
 }

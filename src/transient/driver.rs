@@ -16,7 +16,11 @@ pub enum Method {
     /// Exponential velocity Verlet.
     Exponential,
     /// Exponential Adams method of third order.
-    ExponentialAdams,
+    ExponentialAdams {
+        /// Largest part of the force, in units of the largest that a coordinate has seen, that a step may leave out of its
+        /// prediction: steps are halved until it is less. Equal steps without it.
+        tolerance: Option<f64>,
+    },
     /// Central differences with implicit damping, the source paper's.
     NewmarkExplicit,
     /// Impulses of the force between exact flows: keeps no equilibrium between a force and a spring.
@@ -89,14 +93,17 @@ impl Statistics {
 impl Method {
     /// Whether steps follow from a tolerance instead of the schedule.
     pub fn chooses_its_steps(self) -> bool {
-        matches!(self, Self::Dop853 { .. })
+        matches!(
+            self,
+            Self::Dop853 { .. } | Self::ExponentialAdams { tolerance: Some(_) }
+        )
     }
 
     /// Name in case files and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Exponential => "exponential",
-            Self::ExponentialAdams => "exponential-adams",
+            Self::ExponentialAdams { .. } => "exponential-adams",
             Self::NewmarkExplicit => "newmark-explicit",
             Self::Splitting => "splitting",
             Self::Newmark => "newmark",
@@ -220,7 +227,10 @@ fn stepper<S: SecondOrderSystem>(
     let h = schedule.step();
     Ok(match method {
         Method::Exponential => Box::new(Exponential::new(system, h)),
-        Method::ExponentialAdams => Box::new(Adams::new(system, h)),
+        Method::ExponentialAdams { tolerance } => {
+            tolerance.map_or(Ok(()), check_tolerance)?;
+            Box::new(Adams::new(system, h, tolerance))
+        }
         Method::Splitting => Box::new(Splitting::new(system, h)),
         Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
         Method::GeneralizedAlpha { spectral_radius } => {

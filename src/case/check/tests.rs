@@ -134,16 +134,18 @@ fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
 }
 
 #[test]
-fn a_tolerance_is_of_one_method_and_between_zero_and_one() {
+fn a_tolerance_is_of_methods_that_choose_steps_and_between_zero_and_one() {
     let (key, method) = ("transient.tolerance", "transient.method=dop853");
     for value in ["0", "1"] {
         let rule = format!("found {value}, expected a number above 0 and below 1");
         breaks(FULL, &[method, &format!("{key}={value}")], key, &rule);
     }
-    holds(FULL, &[method, "transient.tolerance=1e-8"]);
+    for method in [method, "transient.method=exponential-adams"] {
+        holds(FULL, &[method, "transient.tolerance=1e-8"]);
+    }
     full(
         "transient.tolerance=1e-8",
-        "needs `transient.method = \"dop853\"`, which the case lacks",
+        "needs `transient.method = \"dop853\"` or `\"exponential-adams\"`, which the case lacks",
     );
 }
 

@@ -274,9 +274,9 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
     }
     if let Some(tolerance) = transient.tolerance {
         fraction("transient.tolerance", tolerance)?;
-        if transient.method != Method::Dop853 {
+        if !matches!(transient.method, Method::Dop853 | Method::ExponentialAdams) {
             return Err(Rule::Needs {
-                other: "`transient.method = \"dop853\"`",
+                other: "`transient.method = \"dop853\"` or `\"exponential-adams\"`",
             }
             .at("transient.tolerance"));
         }

@@ -30,11 +30,11 @@ impl CoupledSystem {
         let shaft = self.setup.cage.shaft();
         let shaft = shaft.motion_from(&mut self.cursors[0], t);
         let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
-        self.take(y, v);
-        self.place_balls(&shaft, &cage);
-        self.approach_outer_race(&shaft, &cage);
+        self.take::<0, 0>(y, v);
+        self.place_balls::<0>(&shaft, &cage);
+        self.approach_outer_race::<0, 0>(&shaft, &cage);
         if self.residual.is_some() {
-            self.outer_forces_with_residual(&cage);
+            self.outer_forces_with_residual::<0>(&cage);
         }
         let modes = self.modes;
         let centre = match self.setup.formulation {

@@ -10,7 +10,7 @@ use crate::bearing::RotationState;
 impl CoupledSystem {
     /// Inner forces: what they do to the shaft, and along the radius vectors to the balls.
     #[inline(always)]
-    pub(super) fn inner_forces(
+    pub(super) fn inner_forces<const B: usize>(
         &mut self,
         centre: &CentreMotion,
         shaft: &RotationState,
@@ -22,7 +22,7 @@ impl CoupledSystem {
         let relative = [0, 1].map(|k| y[modes + k] - centre.position[k]);
         let velocity = [0, 1].map(|k| v[modes + k] - centre.velocity[k]);
         let (law, rise) = (self.inner.plain(), self.inner.rise());
-        for group in &mut self.balls.groups {
+        for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let (s, [cos, sin]) = (&group.displacement, &group.direction);
             let oversize = &group.oversize;
             let bounds = self.inner_race.penetration_bounds([cos, sin], s, relative);
@@ -65,7 +65,7 @@ impl CoupledSystem {
             self.irregular_inner_forces(velocity, shaft, cage);
         }
         let mut sums = [[0.0; LANES]; 2];
-        for group in &self.balls.groups {
+        for group in lanes::first::<B, _>(&self.balls.groups) {
             let [x, y] = &group.on_inner;
             sums = [
                 lanes::each(|l| sums[0][l] + x[l]),

@@ -88,27 +88,47 @@ impl SecondOrderSystem for CoupledSystem {
 /// changes no result.
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn evaluate(system: &mut CoupledSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+    // five to twelve balls and up to twelve modes without loops over their groups
+    match (system.balls.groups.len(), system.work.amplitudes.len()) {
+        (2, 1) => evaluate_sized::<2, 1>(system, t, y, v, g),
+        (2, 2) => evaluate_sized::<2, 2>(system, t, y, v, g),
+        (2, 3) => evaluate_sized::<2, 3>(system, t, y, v, g),
+        (3, 2) => evaluate_sized::<3, 2>(system, t, y, v, g),
+        (3, 3) => evaluate_sized::<3, 3>(system, t, y, v, g),
+        _ => evaluate_sized::<0, 0>(system, t, y, v, g),
+    }
+}
+
+/// The same for so many groups of balls and of modes, for any number where that is zero.
+#[inline(always)]
+fn evaluate_sized<const B: usize, const M: usize>(
+    system: &mut CoupledSystem,
+    t: f64,
+    y: &[f64],
+    v: &[f64],
+    g: &mut [f64],
+) {
     let shaft = system.setup.cage.shaft();
     let shaft = shaft.motion_from(&mut system.cursors[0], t);
     let cage = system.setup.cage.motion_from(&mut system.cursors[1], t);
-    system.take(y, v);
-    system.place_balls(&shaft, &cage);
-    system.approach_outer_race(&shaft, &cage);
+    system.take::<B, M>(y, v);
+    system.place_balls::<B>(&shaft, &cage);
+    system.approach_outer_race::<B, M>(&shaft, &cage);
     let inertia = system.setup.balls_inertia;
     match (inertia, &system.residual) {
         (BallsInertia::QuasiStatic, _) => {
             let centre = [y[system.modes], y[system.modes + 1]];
             system.settle_balls(centre, &shaft, &cage);
         }
-        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual(&cage),
-        (BallsInertia::Dynamic, None) => system.outer_forces(),
+        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual::<B>(&cage),
+        (BallsInertia::Dynamic, None) => system.outer_forces::<B>(),
     }
-    system.structure_force(g);
+    system.structure_force::<B, M>(g);
     let centre = system.centre_motion(y, v, g);
-    system.inner_forces(&centre, &shaft, &cage, y, v);
+    system.inner_forces::<B>(&centre, &shaft, &cage, y, v);
     system.shaft_force(t, &shaft, g);
     if inertia == BallsInertia::Dynamic {
-        system.ball_forces(&centre, &cage, g);
+        system.ball_forces::<B>(&centre, &cage, g);
     }
 }
 
@@ -123,29 +143,25 @@ struct CentreMotion {
 impl CoupledSystem {
     /// Copies coordinates and velocities to where they stand side by side.
     #[inline(always)]
-    fn take(&mut self, y: &[f64], v: &[f64]) {
+    fn take<const B: usize, const M: usize>(&mut self, y: &[f64], v: &[f64]) {
         let (modes, work) = (self.modes, &mut self.work);
-        lanes::set(&mut work.amplitudes, &y[..modes]);
+        lanes::set(lanes::first_mut::<M, _>(&mut work.amplitudes), &y[..modes]);
         if self.setup.contact_damping > 0.0 {
-            lanes::set(&mut work.velocities, &v[..modes]);
+            lanes::set(lanes::first_mut::<M, _>(&mut work.velocities), &v[..modes]);
         }
+        let groups = lanes::first_mut::<B, _>(&mut self.balls.groups);
         if self.setup.balls_inertia == BallsInertia::QuasiStatic {
-            for group in &mut self.balls.groups {
+            for group in groups {
                 group.displacement = [0.0; LANES];
             }
             return;
         }
         let displacements = y[modes + 2..].chunks(LANES);
-        for (group, displacements) in self.balls.groups.iter_mut().zip(displacements) {
+        for (group, displacements) in groups.iter_mut().zip(displacements) {
             group.displacement = lanes::from(displacements);
         }
         if self.setup.contact_damping > 0.0 {
-            for (group, rates) in self
-                .balls
-                .groups
-                .iter_mut()
-                .zip(v[modes + 2..].chunks(LANES))
-            {
+            for (group, rates) in groups.iter_mut().zip(v[modes + 2..].chunks(LANES)) {
                 group.displacement_rate = lanes::from(rates);
             }
         }
@@ -153,17 +169,18 @@ impl CoupledSystem {
 
     /// Weight and contact forces on the kept modes.
     #[inline(always)]
-    fn structure_force(&mut self, g: &mut [f64]) {
-        let work = &mut self.work;
-        for (force, gravity) in work.modal_force.iter_mut().zip(&self.gravity) {
+    fn structure_force<const B: usize, const M: usize>(&mut self, g: &mut [f64]) {
+        let forces = lanes::first_mut::<M, _>(&mut self.work.modal_force);
+        for (force, gravity) in forces.iter_mut().zip(lanes::first::<M, _>(&self.gravity)) {
             *force = *gravity;
         }
-        for group in &self.balls.groups {
+        for group in lanes::first::<B, _>(&self.balls.groups) {
             let radial = &group.outer_radial;
             if radial.iter().all(|&radial| radial == 0.0) {
                 continue;
             }
-            for (force, [a, b, c, d]) in work.modal_force.iter_mut().zip(&group.rows) {
+            let rows = lanes::first::<M, _>(&group.rows);
+            for (force, [a, b, c, d]) in forces.iter_mut().zip(rows) {
                 *force = lanes::each(|l| {
                     (force[l] + (radial[0] * a[l] + radial[1] * b[l]))
                         + (radial[2] * c[l] + radial[3] * d[l])
@@ -173,7 +190,8 @@ impl CoupledSystem {
         if self.outer.is_irregular() {
             self.tangential_structure_force();
         }
-        lanes::get(&self.work.modal_force, &mut g[..self.modes]);
+        let forces = lanes::first::<M, _>(&self.work.modal_force);
+        lanes::get(forces, &mut g[..self.modes]);
     }
 
     #[inline(always)]
@@ -247,13 +265,19 @@ impl CoupledSystem {
 
     /// Contacts, weight and centrifugal load on the balls.
     #[inline(always)]
-    fn ball_forces(&mut self, centre: &CentreMotion, cage: &RotationState, g: &mut [f64]) {
+    fn ball_forces<const B: usize>(
+        &mut self,
+        centre: &CentreMotion,
+        cage: &RotationState,
+        g: &mut [f64],
+    ) {
         let gravity = self.setup.gravity;
         let frame = [0, 1].map(|k| gravity[k] - centre.acceleration[k]);
         let softness = self.ball_mobility;
         let (touching, square) = (self.inner_race.touching_radius, cage.speed * cage.speed);
         let forces = g[self.modes + 2..].chunks_mut(LANES);
-        for (group, out) in self.balls.groups.iter().zip(forces) {
+        let groups = lanes::first::<B, _>(&self.balls.groups);
+        for (group, out) in groups.iter().zip(forces) {
             let [cos, sin] = &group.direction;
             let ([x, y], s) = (&group.on_inner, &group.displacement);
             let outer = &group.outer_radial;

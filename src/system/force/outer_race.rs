@@ -12,10 +12,14 @@ impl CoupledSystem {
     /// Finds the balls that touch the outer race or may be reached by it, what they may feel there, their displacements
     /// relative to the race and the rates of these.
     #[inline(always)]
-    pub(super) fn approach_outer_race(&mut self, shaft: &RotationState, cage: &RotationState) {
-        self.find_gaps();
+    pub(super) fn approach_outer_race<const B: usize, const M: usize>(
+        &mut self,
+        shaft: &RotationState,
+        cage: &RotationState,
+    ) {
+        self.find_gaps::<B, M>();
         if self.setup.contact_damping > 0.0 {
-            self.rates_towards_outer_race(cage);
+            self.rates_towards_outer_race::<B, M>(cage);
         }
         if self.outer.is_irregular() || self.inner.is_irregular() {
             self.turn_flats(shaft, cage);
@@ -28,15 +32,15 @@ impl CoupledSystem {
     /// Displacements relative to the race, of a ball that cannot be reached by it minus infinity, and the forces that plain
     /// contact without residual and damping would give.
     #[inline(always)]
-    fn find_gaps(&mut self) {
+    fn find_gaps<const B: usize, const M: usize>(&mut self) {
         let limit = match self.setup.balls_inertia {
-            BallsInertia::Dynamic => self.reach + self.race_bound(),
+            BallsInertia::Dynamic => self.reach + self.race_bound::<M>(),
             // where they are is not known yet
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
-        let (radial, amplitudes) = (&self.radial, self.work.amplitudes.as_slice());
-        let stiffness = self.outer.plain().stiffness;
-        for group in &mut self.balls.groups {
+        let amplitudes = lanes::first::<M, _>(&self.work.amplitudes);
+        let (radial, stiffness) = (&self.radial, self.outer.plain().stiffness);
+        for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
             let s = lanes::each(|l| s[l] + oversize[l]);
@@ -44,7 +48,7 @@ impl CoupledSystem {
                 limit,
                 radial,
                 amplitudes,
-                rows: &mut group.rows,
+                rows: lanes::first_mut::<M, _>(&mut group.rows),
             };
             let gap = [
                 gap.of::<0>(s[0], places.get(0)),
@@ -59,21 +63,31 @@ impl CoupledSystem {
                 stiffness * (overlap * overlap.sqrt())
             });
         }
-        if self.residual.is_some() {
-            self.place_residual();
-        }
+        self.place_residual::<B>();
     }
 
-    /// Places the residual's displacements under the balls, and takes what the weight moves there out of their gaps.
-    fn place_residual(&mut self) {
-        let Some(residual) = &mut self.residual else {
+    /// Turns the residual's displacements to the balls, and takes what the weight moves there out of their gaps.
+    #[inline(always)]
+    fn place_residual<const B: usize>(&mut self) {
+        let Some(coupling) = &mut self.residual else {
             return;
         };
-        for j in 0..self.balls.count {
-            let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
-            if group.gap[lane] > f64::NEG_INFINITY {
-                residual.place(j, group.turn[lane]);
-                group.gap[lane] -= residual.weight(j);
+        coupling.turn_to(self.balls.groups[0].turn[0]);
+        let everywhere = self.setup.balls_inertia == BallsInertia::QuasiStatic;
+        let with_slopes = self.setup.contact_damping > 0.0;
+        let groups = lanes::first_mut::<B, _>(&mut self.balls.groups);
+        for (group, weight) in groups.iter_mut().zip(coupling.weight::<B>()) {
+            let gap = &group.gap;
+            group.gap = lanes::each(|l| gap[l] - weight[l]);
+        }
+        for (number, group) in groups.iter_mut().enumerate() {
+            group.own = [0.0; LANES];
+            for lane in 0..LANES {
+                let ball = number * LANES + lane;
+                if (group.gap[lane] > -self.reach || everywhere) && ball < self.balls.count {
+                    coupling.turn_column::<B>(ball, with_slopes);
+                    group.own[lane] = coupling.between(ball, ball);
+                }
             }
         }
     }
@@ -87,9 +101,11 @@ impl CoupledSystem {
 
     /// How far the kept modes and the weight can have moved the race anywhere, m.
     #[inline(always)]
-    fn race_bound(&self) -> f64 {
+    fn race_bound<const M: usize>(&self) -> f64 {
         let mut sums = [0.0; LANES];
-        for (bound, amplitude) in self.balls.mode_bounds.iter().zip(&self.work.amplitudes) {
+        let amplitudes = lanes::first::<M, _>(&self.work.amplitudes);
+        let bounds = lanes::first::<M, _>(&self.balls.mode_bounds);
+        for (bound, amplitude) in bounds.iter().zip(amplitudes) {
             sums = lanes::each(|l| sums[l] + bound[l] * amplitude[l].abs());
         }
         self.balls.weight_bound + lanes::total(&sums)
@@ -99,14 +115,17 @@ impl CoupledSystem {
     /// with the part that comes from the ball moving along the deformed race. The static residual's part is added where it
     /// is known.
     #[inline(always)]
-    fn rates_towards_outer_race(&mut self, cage: &RotationState) {
+    fn rates_towards_outer_race<const B: usize, const M: usize>(&mut self, cage: &RotationState) {
         let Work {
             amplitudes,
             velocities,
             scratch_row,
             ..
         } = &mut self.work;
-        for group in &mut self.balls.groups {
+        let amplitudes = lanes::first::<M, _>(amplitudes);
+        let velocities = lanes::first::<M, _>(velocities);
+        let scratch_row = lanes::first_mut::<M, _>(scratch_row);
+        for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let places = self.radial.locate(&group.turn);
             for l in 0..LANES {
                 group.rate[l] = 0.0;
@@ -116,7 +135,8 @@ impl CoupledSystem {
                 }
                 self.radial
                     .slopes_into(places.get(l), cage.speed / TAU, scratch_row);
-                let rows = group.rows.iter().map(|rows| &rows[l]);
+                let rows = lanes::first::<M, _>(&group.rows).iter();
+                let rows = rows.map(|rows| &rows[l]);
                 let race =
                     lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
                 group.rate[l] = group.displacement_rate[l] - race;
@@ -134,9 +154,9 @@ impl CoupledSystem {
 
     /// Forces on a race that only the kept modes move, from those of plain contact without damping.
     #[inline(always)]
-    pub(super) fn outer_forces(&mut self) {
+    pub(super) fn outer_forces<const B: usize>(&mut self) {
         let damping = self.outer.plain().damping;
-        for group in &mut self.balls.groups {
+        for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             if damping > 0.0 {
                 let (force, rate) = (&group.outer_radial, &group.rate);
                 group.outer_radial = lanes::each(|l| force[l] * positive(1.0 + damping * rate[l]));

@@ -72,9 +72,6 @@ impl CoupledSystem {
     ) {
         let (mass, gravity) = (self.setup.geometry.ball_mass(), self.setup.gravity);
         self.clear_outer_radial();
-        if let Some(residual) = &mut self.residual {
-            residual.couple(|_| true);
-        }
         // displacements of the race, before they are overwritten by overlaps
         let sweeps = if self.residual.is_some() {
             MAX_SWEEPS

@@ -1,77 +1,158 @@
 //! Outer contacts on a race that also gives way by the static residual of the modes left out.
 
 use super::super::coupled::CoupledSystem;
-use super::super::lanes::LANES;
-use super::super::race::RaceForce;
+use super::super::lanes::{LANES, Lanes, each, first_mut, positive};
 use crate::bearing::RotationState;
 
 /// Sweeps over the balls that share the residual flexibility, far more than it takes.
 pub(super) const MAX_SWEEPS: usize = 40;
 
-/// Relative change of a contact force at which the sweeps end; far below any integration error.
-pub(super) const SWEEP_TOLERANCE: f64 = 1e-11;
+/// Relative change of a contact force at which the sweeps end: the forces are then right to some percent of it, far below
+/// any integration error.
+pub(super) const SWEEP_TOLERANCE: f64 = 1e-8;
 
-/// Relative change of a ball's displacement over which its force is continued by its tangent; the
-/// error is its square.
-const SAME_PLACE: f64 = 1e-7;
+/// Relative change of a displacement over which the force on waves or damage is continued by its tangent; the error is its
+/// square.
+const SAME_PLACE: f64 = 1e-5;
 
 impl CoupledSystem {
-    /// Outer forces that deform the race through the residual flexibility `G`,
-    /// `F_j = f(gap_j - sum G_jk F_k)`: Newton in a ball's own force, Gauss-Seidel over the balls.
-    /// `G` is soft beside the contacts (a few percent), so each sweep gains nearly two digits; the
-    /// start does not depend on the history. A force already known at nearly this displacement is
-    /// continued along its tangent instead of being evaluated again.
-    pub(super) fn outer_forces_with_residual(&mut self, cage: &RotationState) {
-        let balls = self.balls.count;
-        self.clear_outer_radial();
-        if let Some(residual) = &mut self.residual {
-            let (balls, reach) = (&self.balls, self.reach);
-            residual.couple(|j| balls.get(j, |ball| &ball.gap) > -reach);
-        }
-        for j in 0..balls {
-            let gap = self.balls.get(j, |ball| &ball.gap);
-            let force = if self.is_near(j) {
-                self.outer_force(j, gap)
-            } else {
-                RaceForce::default()
-            };
-            self.work.known[j] = (gap, force);
-        }
-        if self.setup.contact_damping > 0.0 {
-            self.residual_rates(cage);
-        }
+    /// Outer forces that deform the race through the residual flexibility `G`, `F_j = f(gap_j - sum G_jk F_k)`: all balls at
+    /// once, Newton's method in each one's own force.
+    ///
+    /// `G` is soft beside the contacts (a few percent, and less from ball to ball), so each sweep gains nearly two digits; the
+    /// start does not depend on the history.
+    #[inline(always)]
+    pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
+        self.start_sweeps::<B>(cage);
         for _ in 0..MAX_SWEEPS {
-            let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
-            for j in 0..balls {
-                if !self.is_near(j) {
-                    continue;
-                }
-                let (own, others) = self.residual_shares(j);
-                let before = self.balls.get(j, |ball| &ball.outer_radial);
-                let s = self.balls.get(j, |ball| &ball.gap) - others - own * before;
-                let (at, mut force) = self.work.known[j];
-                if (s - at).abs() > SAME_PLACE * s.abs() {
-                    force = self.outer_force(j, s);
-                    self.work.known[j] = (s, force);
-                }
-                let continued = force.radial + force.tangent[0] * (s - self.work.known[j].0);
-                let step = (continued.max(0.0) - before) / (1.0 + own * force.tangent[0]);
-                self.balls
-                    .set(j, |ball| &mut ball.outer_radial, before + step);
-                change = change.max(step.abs());
-                largest = largest.max(force.radial);
+            self.displace_race::<B>();
+            self.laws::<B>();
+            for place in 0..self.work.uneven.len() {
+                self.uneven_law(self.work.uneven[place]);
             }
-            if change <= SWEEP_TOLERANCE * largest {
+            let (mut change, mut largest) = ([0.0; LANES], [0.0; LANES]);
+            for group in first_mut::<B, _>(&mut self.balls.groups) {
+                let (own, [law, tangent]) = (&group.own, &group.law);
+                let before = group.outer_radial;
+                let after = each(|l| {
+                    positive(before[l] + (law[l] - before[l]) / (1.0 + own[l] * tangent[l]))
+                });
+                change = each(|l| f64::max(change[l], (after[l] - before[l]).abs()));
+                largest = each(|l| f64::max(largest[l], after[l]));
+                group.outer_radial = after;
+            }
+            if most(&change) <= SWEEP_TOLERANCE * most(&largest) {
                 break;
             }
         }
-        for j in 0..balls {
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            group.outer_magnitude = group.outer_radial;
+            group.outer_tangential = [0.0; LANES];
+        }
+        for place in 0..self.work.uneven.len() {
+            let j = self.work.uneven[place];
             let force = self.work.known[j].1;
             self.balls
-                .set(j, |ball| &mut ball.outer_tangential, force.tangential);
-            self.balls
                 .set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
+            self.balls
+                .set(j, |ball| &mut ball.outer_tangential, force.tangential);
         }
+    }
+
+    /// Forces on a race that gives way by each ball's own share alone, of balls on waves and damage none; and the rates.
+    #[inline(always)]
+    fn start_sweeps<const B: usize>(&mut self, cage: &RotationState) {
+        self.work.uneven.clear();
+        if self.outer.is_wavy() {
+            for j in 0..self.balls.count {
+                if self.is_near(j) {
+                    self.work.uneven.push(j);
+                }
+            }
+        } else {
+            self.work.uneven.extend_from_slice(&self.work.damaged);
+        }
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            group.displaced = [0.0; LANES];
+        }
+        self.damping_factors::<B>();
+        self.laws::<B>();
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            let (own, [law, tangent]) = (&group.own, &group.law);
+            group.outer_radial = each(|l| law[l] / (1.0 + own[l] * tangent[l]));
+        }
+        for place in 0..self.work.uneven.len() {
+            let j = self.work.uneven[place];
+            self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
+            self.work.known[j].0 = f64::NAN;
+        }
+        if self.setup.contact_damping > 0.0 {
+            self.residual_rates::<B>(cage);
+            self.damping_factors::<B>();
+        }
+    }
+
+    /// What contact damping multiplies the forces with at the balls' rates.
+    #[inline(always)]
+    fn damping_factors<const B: usize>(&mut self) {
+        let damping = self.outer.plain().damping;
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            let rate = &group.rate;
+            group.damping = each(|l| positive(1.0 + damping * rate[l]));
+        }
+    }
+
+    /// Displacement of the race under the balls by their forces.
+    #[inline(always)]
+    fn displace_race<const B: usize>(&mut self) {
+        let Some(coupling) = &self.residual else {
+            return;
+        };
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            group.displaced = [0.0; LANES];
+        }
+        let groups = first_mut::<B, _>(&mut self.balls.groups);
+        for number in 0..groups.len() {
+            let forces = groups[number].outer_radial;
+            for (lane, force) in forces.into_iter().enumerate() {
+                if force == 0.0 {
+                    continue;
+                }
+                let column = coupling.column::<B>(number * LANES + lane);
+                for (group, column) in groups.iter_mut().zip(column) {
+                    let before = &group.displaced;
+                    group.displaced = each(|l| before[l] + column[l] * force);
+                }
+            }
+        }
+    }
+
+    /// Forces at the displacements relative to the displaced race, and their derivatives by them.
+    #[inline(always)]
+    fn laws<const B: usize>(&mut self) {
+        let stiffness = self.outer.plain().stiffness;
+        for group in first_mut::<B, _>(&mut self.balls.groups) {
+            let (gap, displaced, damping) = (&group.gap, &group.displaced, &group.damping);
+            let overlap = each(|l| positive(gap[l] - displaced[l]));
+            let root = each(|l| stiffness * damping[l] * overlap[l].sqrt());
+            group.law = [each(|l| root[l] * overlap[l]), each(|l| 1.5 * root[l])];
+        }
+    }
+
+    /// The same for ball `j` on waves or damage.
+    #[inline(never)]
+    fn uneven_law(&mut self, j: usize) {
+        let (group, lane) = (j / LANES, j % LANES);
+        let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
+        let known = self.work.known[j].0;
+        // also where none is known
+        if !((s - known).abs() <= SAME_PLACE * s.abs()) {
+            self.work.known[j] = (s, self.outer_force(j, s));
+        }
+        let (at, force) = &self.work.known[j];
+        let [law, tangent] = &mut self.balls.groups[group].law;
+        law[lane] = force.radial + force.tangent[0] * (s - at);
+        tangent[lane] = force.tangent[0];
     }
 
     pub(super) fn clear_outer_radial(&mut self) {
@@ -80,46 +161,48 @@ impl CoupledSystem {
         }
     }
 
-    /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the
-    /// cage speed, with the forces on a race that gives way by each ball's own share alone. What
-    /// changes with the forces in time, `G dF/dt`, is left out.
-    fn residual_rates(&mut self, cage: &RotationState) {
-        let Some(residual) = &self.residual else {
+    /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
+    /// forces at the start of the sweeps. What changes with the forces in time, `G dF/dt`, is left out.
+    #[inline(always)]
+    fn residual_rates<const B: usize>(&mut self, cage: &RotationState) {
+        let Some(coupling) = &self.residual else {
             return;
         };
-        let work = &self.work;
-        for j in 0..self.balls.count {
-            if self.balls.get(j, |ball| &ball.gap) <= -self.reach {
-                continue;
-            }
-            let slopes = residual.contact_slope_row(j);
-            let mut moved = 0.0;
-            for (k, slope) in slopes.iter().enumerate() {
-                let force = &work.known[k].1;
-                if force.radial > 0.0 {
-                    let own = residual.contact_row(k)[k];
-                    moved += slope * force.radial / (1.0 + own * force.tangent[0]);
+        let groups = first_mut::<B, _>(&mut self.balls.groups);
+        for number in 0..groups.len() {
+            let forces = groups[number].outer_radial;
+            for (lane, force) in forces.into_iter().enumerate() {
+                if force == 0.0 {
+                    continue;
+                }
+                let moving = cage.speed * force;
+                let slopes = coupling.slope_column::<B>(number * LANES + lane);
+                for (group, slopes) in groups.iter_mut().zip(slopes) {
+                    let rate = &group.rate;
+                    group.rate = each(|l| rate[l] - slopes[l] * moving);
                 }
             }
-            let rate = self.balls.get(j, |ball| &ball.rate) - cage.speed * moved;
-            self.balls.set(j, |ball| &mut ball.rate, rate);
         }
     }
 
     /// Residual displacement at ball `j`: per unit of its own force, and from the others' forces.
     #[inline]
     pub(super) fn residual_shares(&self, j: usize) -> (f64, f64) {
-        let Some(residual) = &self.residual else {
+        let Some(coupling) = &self.residual else {
             return (0.0, 0.0);
         };
-        let row = residual.contact_row(j);
-        let forces = self.balls.all(|ball| &ball.outer_radial);
-        let mut others = 0.0;
-        for (k, (g, force)) in row.iter().zip(forces).enumerate() {
-            if k != j {
-                others += g * force;
-            }
-        }
-        (row[j], others)
+        let forces = self.balls.all(|ball| &ball.outer_radial).enumerate();
+        let others = forces.filter(|&(k, _)| k != j);
+        (
+            coupling.between(j, j),
+            others
+                .map(|(k, force)| coupling.between(j, k) * force)
+                .sum(),
+        )
     }
+}
+
+#[inline(always)]
+fn most(x: &Lanes) -> f64 {
+    f64::max(f64::max(x[0], x[1]), f64::max(x[2], x[3]))
 }

@@ -4,23 +4,25 @@
 //! `G = N (K^-1 - sum phi phi^T / omega^2) N^T` over the kept modes (Craig 1981, Structural
 //! Dynamics, section 11.3: mode-acceleration correction). The flexibility is stored over the polar
 //! components of the ring's nodes, in which all elements share one interpolation: a pair of balls
-//! costs one product of two six-vectors with a block of it.
+//! costs one product of two six-vectors with a block of it. Balls stand at equal spacing, so that the cage angle decides all
+//! of it, and the hot loop takes it from quintics in that angle ([`Coupling`]).
+
+mod coupling;
 
 use super::SystemError;
 use super::lanes::{LANES, Lanes};
-use super::raceway::{Place, Places, RacewayTable};
+use super::raceway::RacewayTable;
 use super::structure::{Structure, StructureModes};
 use crate::linalg::DenseMatrix;
 use crate::model::Ring;
 use std::f64::consts::TAU;
 
+pub(super) use coupling::Coupling;
+
 /// Components of an element's two nodes.
 const ELEMENT_DOF: usize = 6;
 
-/// The radial interpolation at a place over these components, filled up.
-type Row = [Lanes; ELEMENT_DOF.div_ceil(LANES)];
-
-/// Residual flexibility on the ring's displacements and how the balls meet it.
+/// Residual flexibility on the ring's displacements.
 #[derive(Debug, Clone)]
 pub(super) struct ResidualFlexibility {
     elements: usize,
@@ -33,20 +35,18 @@ pub(super) struct ResidualFlexibility {
     weight: Vec<f64>,
     /// Sensors over ring loads [sensors x width].
     sensors: Vec<f64>,
-    /// Element of every ball and its radial interpolation there.
-    places: Vec<(usize, Row)>,
-    /// Place of every ball in its element.
-    local: Vec<Place>,
-    /// Derivative of that interpolation by the angle, 1/rad.
-    slopes: Vec<Row>,
-    /// Radial displacement at ball j for a radial force at ball k [balls x balls], m/N.
-    contact: Vec<f64>,
-    /// Its derivative by the cage angle, m/(N rad).
-    contact_slope: Vec<f64>,
-    /// Radial displacement at ball j under the weight \[balls\], m.
-    weight_now: Vec<f64>,
-    /// Sensor displacement for a radial force at ball k [sensors x balls], m/N.
-    sensor_now: Vec<f64>,
+}
+
+/// The radial interpolation at a place over an element's components, filled up.
+type Row = [Lanes; ELEMENT_DOF.div_ceil(LANES)];
+
+/// Where a ball meets the ring.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    element: usize,
+    row: Row,
+    /// Its derivative by the angle, 1/rad.
+    slope: Row,
 }
 
 impl ResidualFlexibility {
@@ -56,7 +56,6 @@ impl ResidualFlexibility {
         structure: &Structure,
         modes: &StructureModes,
         kept: &[usize],
-        balls: usize,
     ) -> Result<Self, SystemError> {
         let (dof, ring) = (structure.dof(), structure.ring());
         let ring_dof = ring.dof();
@@ -103,88 +102,55 @@ impl ResidualFlexibility {
             width,
             flexibility: by_rows(&flexibility),
             weight: by_rows(&weight),
-            places: vec![(0, Row::default()); balls],
-            local: vec![Place::default(); balls],
-            slopes: vec![Row::default(); balls],
-            contact: vec![0.0; balls * balls],
-            contact_slope: vec![0.0; balls * balls],
-            weight_now: vec![0.0; balls],
-            sensor_now: vec![0.0; sensor_rows.nrows() * balls],
             sensors: by_rows(&sensor_rows),
         })
     }
 
-    /// Moves ball `j` to a place in turns, 0 <= turn < 1.
-    #[inline]
-    pub fn place(&mut self, j: usize, turn: f64) {
-        let element = Places::among(self.elements as f64, &[turn; LANES]).get(0);
-        let inside = 0.5 * (element.xi + 1.0);
-        let (place, row) = &mut self.places[j];
-        *place = element.piece;
-        let element = element.piece;
-        self.local[j] = self.interpolation.locate(&[inside; LANES]).get(0);
-        self.interpolation
-            .values_into(self.local[j], &[[0.0; LANES]; 2], row.iter_mut());
-        let first = ELEMENT_DOF / 2 * element;
-        self.weight_now[j] = product(row, &self.weight[first..first + ELEMENT_DOF]);
-        let balls = self.places.len();
-        let sensors = self.sensors.chunks_exact(self.width);
-        for (sensor, loads) in sensors.enumerate() {
-            self.sensor_now[sensor * balls + j] =
-                product(&self.places[j].1, &loads[first..first + ELEMENT_DOF]);
-        }
+    /// Number of sensors.
+    fn sensors(&self) -> usize {
+        self.sensors.len() / self.width
     }
 
-    /// Computes the coupling between the balls for which `near(j)` holds; the others' is stale.
-    #[inline]
-    pub fn couple(&mut self, near: impl Fn(usize) -> bool) {
-        let balls = self.places.len();
+    /// A place in an element, `inside` from 0 to 1.
+    fn touch(&self, element: usize, inside: f64) -> Touch {
         // elements, each a turn of the interpolation, in a radian
         let by_angle = self.elements as f64 / TAU;
-        for j in (0..balls).filter(|&j| near(j)) {
-            self.interpolation
-                .slopes_into(self.local[j], by_angle, &mut self.slopes[j]);
-            let (element, row) = &self.places[j];
-            let top = ELEMENT_DOF / 2 * element;
-            for k in (0..=j).filter(|&k| near(k)) {
-                let (other, column) = &self.places[k];
-                let first = ELEMENT_DOF / 2 * other;
-                let (row_slope, column_slope) = (&self.slopes[j], &self.slopes[k]);
-                let (row, row_slope) = (row.as_flattened(), row_slope.as_flattened());
-                let (mut sum, mut slope) = (0.0, 0.0);
-                for a in 0..ELEMENT_DOF {
-                    let start = (top + a) * self.width + first;
-                    let block = &self.flexibility[start..start + ELEMENT_DOF];
-                    let at = product(column, block);
-                    sum += row[a] * at;
-                    slope += row_slope[a] * at + row[a] * product(column_slope, block);
-                }
-                for place in [j * balls + k, k * balls + j] {
-                    self.contact[place] = sum;
-                    self.contact_slope[place] = slope;
-                }
-            }
+        let at = self.interpolation.locate(&[inside; LANES]).get(0);
+        let mut touch = Touch {
+            element,
+            row: Row::default(),
+            slope: Row::default(),
+        };
+        self.interpolation
+            .values_into(at, &Row::default(), touch.row.iter_mut());
+        self.interpolation
+            .slopes_into(at, by_angle, &mut touch.slope);
+        touch
+    }
+
+    /// Radial displacement at one place for a radial force at another, m/N, and its derivative while both turn, m/(N rad).
+    fn between(&self, at: &Touch, force: &Touch) -> [f64; 2] {
+        let (top, first) = (
+            ELEMENT_DOF / 2 * at.element,
+            ELEMENT_DOF / 2 * force.element,
+        );
+        let mut sums = [0.0; 2];
+        let (rows, slopes) = (at.row.as_flattened(), at.slope.as_flattened());
+        for (a, (row, slope)) in rows.iter().zip(slopes).take(ELEMENT_DOF).enumerate() {
+            let start = (top + a) * self.width + first;
+            let block = &self.flexibility[start..start + ELEMENT_DOF];
+            let under = product(&force.row, block);
+            sums[0] += row * under;
+            sums[1] += slope * under + row * product(&force.slope, block);
         }
+        sums
     }
 
-    /// Row of ball `j`: radial displacement there for radial forces at all balls, m/N.
-    #[inline]
-    pub fn contact_row(&self, j: usize) -> &[f64] {
-        let balls = self.places.len();
-        &self.contact[j * balls..(j + 1) * balls]
-    }
-
-    /// The same differentiated by the cage angle, m/(N rad).
-    #[inline]
-    pub fn contact_slope_row(&self, j: usize) -> &[f64] {
-        let balls = self.places.len();
-        &self.contact_slope[j * balls..(j + 1) * balls]
-    }
-
-    /// Radial displacement at ball `j` under the weight, m.
-    #[inline]
-    pub fn weight(&self, j: usize) -> f64 {
-        self.weight_now[j]
+    /// A row over ring loads at a place, and its derivative by the angle.
+    fn along(&self, over_ring: &[f64], at: &Touch) -> [f64; 2] {
+        let first = ELEMENT_DOF / 2 * at.element;
+        let block = &over_ring[first..first + ELEMENT_DOF];
+        [product(&at.row, block), product(&at.slope, block)]
     }
 
     /// A bound of the displacement under the weight along the raceway, m.
@@ -199,13 +165,6 @@ impl ResidualFlexibility {
         interpolated
             .map(|(k, bound)| bound * most(k % components))
             .sum()
-    }
-
-    /// Row of a sensor over radial forces at all balls, m/N.
-    #[inline]
-    pub fn sensor_row(&self, sensor: usize) -> &[f64] {
-        let balls = self.places.len();
-        &self.sensor_now[sensor * balls..(sensor + 1) * balls]
     }
 }
 
@@ -226,7 +185,6 @@ fn polar_components(ring: &Ring, width: usize) -> DenseMatrix {
     polar
 }
 
-#[inline]
 fn product(row: &Row, b: &[f64]) -> f64 {
     row.as_flattened().iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -1,0 +1,261 @@
+//! How balls at equal spacing meet each other, the weight and the sensors through the residual flexibility, as the cage turns.
+//!
+//! Between two cage angles at which a ball passes from one element to the next all of it is smooth. These stretches are cut
+//! until quintics with the values and slopes of their ends and their middle reproduce them to [`ACCURACY`]; a stretch lasts
+//! many steps, and its quintics are made when it is entered.
+
+use super::super::lanes::{LANES, Lanes, each, first, first_mut, together};
+use super::{ResidualFlexibility, Touch};
+use std::f64::consts::TAU;
+
+/// Largest deviation of the quintics, relative to the largest flexibility between balls. The residual is some percent of what a
+/// contact gives way.
+const ACCURACY: f64 = 1e-8;
+
+/// Pieces at most into which a stretch between two element boundaries is cut.
+const MOST_CUTS: usize = 16;
+
+/// Coefficients of a quintic for balls side by side, highest power first, by the place in a stretch from -1 to 1.
+type Quintic = [Lanes; 6];
+
+/// Couplings of all balls at the last cage angle.
+///
+/// Columns stand one behind the other, each of one group of lanes after the other: radial displacement of the balls for a
+/// radial force at each ball (m/N), their displacement under the weight (m), and each sensor's displacement for a radial
+/// force at the balls (m/N).
+#[derive(Debug, Clone)]
+pub(in super::super) struct Coupling {
+    residual: ResidualFlexibility,
+    balls: usize,
+    groups: usize,
+    /// Stretches in a turn.
+    stretches: usize,
+    /// Two stretches: methods go back and forth over the end of one.
+    made: [Stretch; 2],
+    /// Which of the two, and the place in it.
+    at: (usize, f64),
+    /// Those of balls that are far from the race are stale.
+    values: Vec<Lanes>,
+    /// Derivatives of the balls' columns by the cage angle, m/(N rad).
+    slopes: Vec<Lanes>,
+}
+
+#[derive(Debug, Clone)]
+struct Stretch {
+    number: usize,
+    quintics: Vec<Quintic>,
+}
+
+impl Coupling {
+    pub fn new(residual: ResidualFlexibility, balls: usize) -> Self {
+        let groups = balls.div_ceil(LANES);
+        let columns = balls + 1 + residual.sensors();
+        let blank = Stretch {
+            number: usize::MAX,
+            quintics: vec![[[0.0; LANES]; 6]; columns * groups],
+        };
+        let mut coupling = Self {
+            stretches: least_common_multiple(residual.elements, balls),
+            residual,
+            balls,
+            groups,
+            made: [blank.clone(), blank],
+            at: (0, 0.0),
+            values: vec![[0.0; LANES]; columns * groups],
+            slopes: vec![[0.0; LANES]; balls * groups],
+        };
+        let between_elements = coupling.stretches;
+        let mut cuts = 1;
+        while cuts < MOST_CUTS && coupling.deviation() > ACCURACY {
+            cuts *= 2;
+            coupling.stretches = cuts * between_elements;
+        }
+        coupling.forget();
+        coupling
+    }
+
+    /// Turns to the angle of the first ball in turns, 0 <= turn < 1, with all but the balls' columns.
+    #[inline(always)]
+    pub fn turn_to(&mut self, turn: f64) {
+        let place = turn * self.stretches as f64;
+        let number = (place as usize).min(self.stretches - 1);
+        let slot = number & 1;
+        if self.made[slot].number != number {
+            self.make(slot, number);
+        }
+        let x = 2.0 * (place - number as f64) - 1.0;
+        self.at = (slot, x);
+        let others = self.balls * self.groups;
+        let quintics = &self.made[slot].quintics[others..];
+        for (value, quintic) in self.values[others..].iter_mut().zip(quintics) {
+            *value = together(value_of(quintic, x));
+        }
+    }
+
+    /// Turns the column of ball `k` to the same angle, with its slopes if asked for.
+    #[inline(always)]
+    pub fn turn_column<const B: usize>(&mut self, k: usize, with_slopes: bool) {
+        let (slot, x) = self.at;
+        let range = k * self.groups..(k + 1) * self.groups;
+        let quintics = first::<B, _>(&self.made[slot].quintics[range.clone()]);
+        let values = first_mut::<B, _>(&mut self.values[range.clone()]);
+        for (value, quintic) in values.iter_mut().zip(quintics) {
+            *value = together(value_of(quintic, x));
+        }
+        if with_slopes {
+            let scale = 2.0 * self.stretches as f64 / TAU;
+            let slopes = first_mut::<B, _>(&mut self.slopes[range]);
+            for (slope, [a, b, c, d, e, _]) in slopes.iter_mut().zip(quintics) {
+                let slopes = each(|l| {
+                    (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l]
+                });
+                *slope = together(each(|l| scale * slopes[l]));
+            }
+        }
+    }
+
+    /// Radial displacement of the balls for a radial force at ball `k` \[groups\], m/N; `B` of the groups, or all for 0.
+    #[inline(always)]
+    pub fn column<const B: usize>(&self, k: usize) -> &[Lanes] {
+        first::<B, _>(&self.values[k * self.groups..(k + 1) * self.groups])
+    }
+
+    /// Its derivative by the cage angle \[groups\], m/(N rad).
+    #[inline(always)]
+    pub fn slope_column<const B: usize>(&self, k: usize) -> &[Lanes] {
+        first::<B, _>(&self.slopes[k * self.groups..(k + 1) * self.groups])
+    }
+
+    /// Radial displacement of ball `j` for a radial force at ball `k`, m/N.
+    #[inline]
+    pub fn between(&self, j: usize, k: usize) -> f64 {
+        self.values[k * self.groups + j / LANES][j % LANES]
+    }
+
+    /// Radial displacement of the balls under the weight \[groups\], m.
+    #[inline(always)]
+    pub fn weight<const B: usize>(&self) -> &[Lanes] {
+        self.column::<B>(self.balls)
+    }
+
+    /// Displacement of a sensor for radial forces at the balls \[groups\], m/N.
+    #[inline(always)]
+    pub fn sensor_row(&self, sensor: usize) -> &[Lanes] {
+        self.column::<0>(self.balls + 1 + sensor)
+    }
+
+    /// A bound of the displacement under the weight along the raceway, m.
+    pub fn weight_bound(&self) -> f64 {
+        self.residual.weight_bound()
+    }
+
+    /// Makes the quintics of a stretch: even and odd powers apart.
+    #[inline(never)]
+    fn make(&mut self, slot: usize, number: usize) {
+        let half = 0.5 * TAU / self.stretches as f64;
+        let places = [-1.0, 0.0, 1.0].map(|x| self.touches(number, x));
+        let mut stretch = std::mem::replace(
+            &mut self.made[slot],
+            Stretch {
+                number,
+                quintics: Vec::new(),
+            },
+        );
+        self.each_entry(&places, |place, lane, [first, middle, last]| {
+            let mean = |k: usize| 0.5 * (last[k] + first[k]);
+            let rise = |k: usize| 0.5 * (last[k] - first[k]);
+            let slope = half * middle[1];
+            let (even, odd) = (mean(0) - middle[0], rise(0) - slope);
+            let fourth = 0.5 * half * rise(1) - even;
+            let fifth = 0.5 * (half * mean(1) - slope - 3.0 * odd);
+            let powers = [fifth, fourth, odd - fifth, even - fourth, slope, middle[0]];
+            for (lanes, power) in stretch.quintics[place].iter_mut().zip(powers) {
+                lanes[lane] = power;
+            }
+        });
+        self.made[slot].quintics = stretch.quintics;
+    }
+
+    /// Hands out value and slope (by the cage angle) of every entry at each of these places: its place among the columns'
+    /// groups, its lane.
+    fn each_entry<const N: usize>(
+        &self,
+        places: &[Vec<Touch>; N],
+        mut take: impl FnMut(usize, usize, [[f64; 2]; N]),
+    ) {
+        let residual = &self.residual;
+        let width = residual.width;
+        for j in 0..self.balls {
+            let (group, lane) = (j / LANES, j % LANES);
+            for k in 0..=j {
+                let entry = std::array::from_fn(|at| {
+                    let touches = &places[at];
+                    residual.between(&touches[j], &touches[k])
+                });
+                take(k * self.groups + group, lane, entry);
+                take(j * self.groups + k / LANES, k % LANES, entry);
+            }
+            let others = residual
+                .weight
+                .chunks(width)
+                .chain(residual.sensors.chunks(width));
+            for (column, over_ring) in (self.balls..).zip(others) {
+                let entry = std::array::from_fn(|at| residual.along(over_ring, &places[at][j]));
+                take(column * self.groups + group, lane, entry);
+            }
+        }
+    }
+
+    /// Where the balls are at a place, -1 to 1, in a stretch: in the elements in which they are inside it.
+    fn touches(&self, number: usize, x: f64) -> Vec<Touch> {
+        let elements = self.residual.elements;
+        let by_stretch = elements as f64 / self.stretches as f64;
+        let spacing = elements as f64 / self.balls as f64;
+        let touch = |j: usize| {
+            let element =
+                |x: f64| (number as f64 + 0.5 * (x + 1.0)) * by_stretch + j as f64 * spacing;
+            let whole = element(0.0).floor();
+            let inside = (element(x) - whole).clamp(0.0, 1.0);
+            self.residual.touch(whole as usize % elements, inside)
+        };
+        (0..self.balls).map(touch).collect()
+    }
+
+    /// Largest deviation at a quarter of stretches over a ball spacing, relative to the largest flexibility between balls.
+    fn deviation(&mut self) -> f64 {
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        let spacing = self.stretches.div_ceil(self.balls);
+        for number in 0..spacing {
+            self.make(0, number);
+            let balls = self.balls * self.groups;
+            let quintics = &self.made[0].quintics;
+            self.each_entry(&[self.touches(number, 0.5)], |place, lane, [[exact, _]]| {
+                if place < balls {
+                    let found = value_of(&quintics[place], 0.5)[lane];
+                    worst = worst.max((found - exact).abs());
+                    largest = largest.max(exact.abs());
+                }
+            });
+        }
+        worst / largest.max(f64::MIN_POSITIVE)
+    }
+
+    fn forget(&mut self) {
+        for stretch in &mut self.made {
+            stretch.number = usize::MAX;
+        }
+    }
+}
+
+#[inline(always)]
+fn value_of([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
+    each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
+}
+
+fn least_common_multiple(a: usize, b: usize) -> usize {
+    let (mut x, mut y) = (a, b);
+    while y > 0 {
+        (x, y) = (y, x % y);
+    }
+    a / x.max(1) * b
+}
