@@ -38,6 +38,14 @@ pub trait SecondOrderSystem {
     /// What is left out costs such a method iterations, not accuracy; by default all is.
     fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _tangent: &mut Tangent) {}
 
+    /// Sets what each coordinate meets of the force as a spring of its own, `-dg_i/dy_i` >= 0 (1/s^2), where the force was
+    /// evaluated last, for methods that step such springs exactly; zero where it is not known.
+    ///
+    /// Any value leaves such a method right; how near it is decides how long its steps can be.
+    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
+        stiffness.fill(0.0);
+    }
+
     /// [`Self::force_into`] and [`Self::tangent_into`] at once, for a system that need not evaluate twice.
     fn force_and_tangent_into(
         &mut self,

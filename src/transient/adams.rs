@@ -57,7 +57,7 @@ impl Adams {
         Self {
             flows: (0..=halvings).map(flow).collect(),
             tolerance,
-            track: Track::new(coordinates.len()),
+            track: Track::new(coordinates),
             // nothing is known yet
             halvings,
             statistics: Statistics {
@@ -98,6 +98,10 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
         v: &mut [f64],
         g: &mut [f64],
     ) -> Result<(), Divergence> {
+        if self.statistics.steps == 0 && self.statistics.rejected == 0 {
+            // the force was evaluated there before
+            self.track.find_springs(system);
+        }
         let whole = 1_u32 << (self.flows.len() - 1);
         let shortest = self.flows[0].step / f64::from(whole);
         let mut part = 0;
@@ -106,7 +110,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
             let end = part + (whole >> self.halvings);
             self.track.predict(flow, y, v, g);
             let t = t1 - f64::from(whole - end) * shortest;
-            self.track.evaluate(system, t, g);
+            self.track.evaluate(system, t, y, g);
             self.statistics.evaluations += 1;
             let flow = self.halvings as usize;
             if let Some(tolerance) = self.tolerance
@@ -115,7 +119,8 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
                 self.statistics.rejected += 1;
                 continue;
             }
-            self.track.accept(&self.flows[flow], y, v, g);
+            self.track
+                .accept(system, &self.flows[flow], [&mut *y, &mut *v, &mut *g]);
             self.statistics.steps += 1;
             part = end;
         }

@@ -3,6 +3,7 @@
 //! Balls stand side by side in lanes, and so do modes. A ball that cannot reach the outer race, however the kept modes move
 //! it, costs no mode row.
 
+mod ball_stiffness;
 mod events;
 mod inner_race;
 mod outer_race;
@@ -50,6 +51,10 @@ impl SecondOrderSystem for CoupledSystem {
     ) {
         evaluate(self, t, y, v, g);
         self.add_tangent(t, [y, v, g], tangent);
+    }
+
+    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
+        self.ball_stiffness_into(stiffness);
     }
 
     fn events(&self) -> usize {
