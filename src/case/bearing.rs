@@ -32,9 +32,9 @@ pub struct Bearing {
     /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^1.5 (1 + c delta').
     #[serde(default)]
     pub contact_damping: f64,
-    /// How balls follow their radial motion.
-    #[serde(default)]
-    pub balls_inertia: BallsInertia,
+    /// How balls follow their radial motion; `None`: the program's choice by the accuracy asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub balls_inertia: Option<BallsInertia>,
     /// Radius of the inner race at the groove's bottom, > 0.
     pub inner_race_radius: f64,
     /// Radius of the outer race at the groove's bottom, above that of the inner one.
@@ -125,11 +125,10 @@ impl Bearing {
 }
 
 /// How balls follow their radial motion.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BallsInertia {
     /// With their mass.
-    #[default]
     Dynamic,
     /// Each where its forces balance: for motions far slower than a ball between its contacts.
     QuasiStatic,

@@ -213,7 +213,7 @@ fn balls_without_inertia_have_no_contact_damping_and_no_printed_equations() {
         read(FULL, &[quasi_static, undamped, other]).map(|case| case.bearing.unwrap().balls_inertia)
     };
     let taken = set("bearing.formulation=consistent").unwrap();
-    assert_eq!(taken, super::BallsInertia::QuasiStatic);
+    assert_eq!(taken, Some(super::BallsInertia::QuasiStatic));
     for (other, message) in [
         (
             "bearing.contact_damping=1",

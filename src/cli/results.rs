@@ -10,6 +10,7 @@ use crate::stages::{
     CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModesResult, Reading,
     ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
 };
+use crate::system::BallsInertia;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -74,10 +75,19 @@ pub(super) fn run_json(
             "modes": result.simulation.modes,
             "of_modes": result.scene.stage.modes.count(),
             "fixed_interface_modes": result.scene.stage.fixed_interface_modes,
-            "balls": "dynamic",
+            "balls": match result.choice.model.balls_inertia {
+                BallsInertia::Dynamic => "dynamic",
+                BallsInertia::QuasiStatic => "quasi-static",
+            },
             "residual": result.simulation.residual,
-            "why": "modes up to three times the band; the others by their static residual",
+            "why": result.choice.parts.iter().map(|part| json!({
+                "what": part.what,
+                "chosen": part.chosen,
+                "why": part.why,
+                "estimated_error": part.estimated_error,
+            })).collect::<Vec<_>>(),
         },
+        "estimated_error": result.choice.estimated_error,
         "equilibrium": {
             "shaft_m": equilibrium.shaft,
             "ball_angle_rad": balls(|ball| ball.angle),

@@ -41,8 +41,9 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
             case::Formulation::Printed => Formulation::Printed,
         },
         balls_inertia: match asked.balls_inertia {
-            case::BallsInertia::Dynamic => BallsInertia::Dynamic,
-            case::BallsInertia::QuasiStatic => BallsInertia::QuasiStatic,
+            Some(case::BallsInertia::QuasiStatic) => BallsInertia::QuasiStatic,
+            // what is left to the program is chosen for a run, with the rest of its model
+            Some(case::BallsInertia::Dynamic) | None => BallsInertia::Dynamic,
         },
         waves: waves(&asked.waviness, &geometry)?,
         oversizes: asked.ball_radius_differences.clone(),

@@ -2,7 +2,7 @@
 
 use super::bearing_table;
 use super::statics::Statics;
-use super::{RunModel, Scene, Simulation, Span, StageError, Watch, WindowAnalysis, analyse};
+use super::{ModelChoice, Scene, Simulation, Span, StageError, Watch, WindowAnalysis, analyse};
 use crate::case::Case;
 use crate::report::Table;
 use crate::system::{LoadedModes, SystemError};
@@ -14,6 +14,8 @@ pub struct RunResult {
     pub scene: Scene,
     /// Its equilibrium among the others, and over a ball pass.
     pub statics: Statics,
+    /// The model, and why it is this one.
+    pub choice: ModelChoice,
     /// Modes linearised there.
     pub loaded: LoadedModes,
     /// The signals, and what they took.
@@ -29,7 +31,7 @@ pub struct RunResult {
 /// # Errors
 /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
 pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
-    let scene = Scene::build(case, watch)?;
+    let mut scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
     let statics = Statics::compute(&scene.stage, &scene.setup, asked.start)?;
@@ -40,16 +42,19 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         &scene.setup,
         &scene.equilibrium,
     )?;
-    let model = RunModel::of_case(case, asked, &scene)?;
+    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    scene.setup.balls_inertia = choice.model.balls_inertia;
     let span = Span {
         duration: asked.end - asked.start,
         output_hz: asked.output_hz,
     };
     watch.stage("step");
-    let simulation = Simulation::from_rest(&scene, &model, span, |done| watch.fraction(done))?;
+    let simulation =
+        Simulation::from_rest(&scene, &choice.model, span, |done| watch.fraction(done))?;
     let mut result = RunResult {
         scene,
         statics,
+        choice,
         loaded,
         simulation,
         windows: Vec::new(),

@@ -62,10 +62,14 @@ impl Scene {
     /// # Errors
     /// [`StageError::System`] for a model that does not fit it.
     pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, StageError> {
+        let setup = BearingSetup {
+            balls_inertia: model.balls_inertia,
+            ..self.setup.clone()
+        };
         Ok(CoupledSystem::new(
             &self.stage.structure,
             &self.stage.modes,
-            self.setup.clone(),
+            setup,
             model.modes,
             self.damping,
             model.residual,

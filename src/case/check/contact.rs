@@ -24,7 +24,7 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     races(case, bearing)?;
     room(bearing)?;
     zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
-    if bearing.balls_inertia == BallsInertia::QuasiStatic {
+    if bearing.balls_inertia == Some(BallsInertia::QuasiStatic) {
         let other = "bearing.balls_inertia = \"quasi-static\"";
         if bearing.contact_damping > 0.0 {
             return Err(Rule::Beside { other }.at("bearing.contact_damping"));

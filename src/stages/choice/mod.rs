@@ -1,0 +1,173 @@
+//! The model that a scene needs: what `[accuracy]` leaves to the program, chosen with an estimate of what it costs in accuracy.
+//!
+//! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
+
+mod balls;
+mod mode_errors;
+mod stepping;
+
+use super::{RunModel, Scene, StageError};
+use crate::case::{self, Case, ModesKept};
+use crate::report::significant;
+use crate::system::{BallsInertia, Formulation, ModeSelection};
+use crate::transient::Method;
+use mode_errors::ModeErrors;
+use std::f64::consts::TAU;
+
+/// Part of the target that the modes left out may take: their estimate was found within a factor of three of the error on the
+/// dented bearing of `examples/tadina2011`.
+const MODES_SHARE: f64 = 0.2;
+
+/// Modes closer than this belong together: one of two alone would give the ring a direction.
+const PAIR: f64 = 1e-3;
+
+/// Band without `[accuracy]`, Hz.
+const USUAL_BAND: f64 = 40e3;
+
+/// A model, and why it is this one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelChoice {
+    /// The model.
+    pub model: RunModel,
+    /// What was chosen or given, in the order modes, balls, method.
+    pub parts: Vec<ChosenPart>,
+    /// Root of the sum of the parts' squared errors, relative, in the band; `None` if a part has no estimate.
+    pub estimated_error: Option<f64>,
+}
+
+/// One part of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenPart {
+    /// Which part.
+    pub what: &'static str,
+    /// What it is.
+    pub chosen: String,
+    /// Why, with what was left out.
+    pub why: String,
+    /// Relative error in the band that it is expected to make; `None` where there is no estimate.
+    pub estimated_error: Option<f64>,
+}
+
+impl ModelChoice {
+    /// The model of a case: what it asks for, and the program's choice where it leaves one.
+    ///
+    /// # Errors
+    /// [`StageError`] for modes or a residual that do not fit the scene.
+    pub fn of_case(
+        case: &Case,
+        asked: &case::Transient,
+        scene: &Scene,
+    ) -> Result<Self, StageError> {
+        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let target = case.target();
+        let source = asked.method == case::Method::NewmarkExplicit;
+        // the source's method steps all ring displacements, and its equations need them
+        let whole = source || scene.setup.formulation == Formulation::Printed;
+        let (modes, modes_part) = modes(asked, scene, band_hz, target, whole);
+        let (balls_inertia, balls_part) = balls::chosen(case, scene, band_hz, target);
+        let mut model = RunModel {
+            modes,
+            residual: asked.residual,
+            balls_inertia,
+            method: Method::Exponential,
+            step: 0.0,
+        };
+        let (method, method_part) = stepping::method(asked, &model, target);
+        model.method = method;
+        let (step, step_part) = stepping::step(asked, &model, scene)?;
+        model.step = step;
+        let parts = vec![modes_part, balls_part, method_part, step_part];
+        let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
+        let sum: Option<f64> = squares.sum();
+        Ok(Self {
+            model,
+            estimated_error: sum.map(f64::sqrt),
+            parts,
+        })
+    }
+}
+
+/// Modes of ring and housing, and what leaving the others out costs.
+fn modes(
+    asked: &case::Transient,
+    scene: &Scene,
+    band_hz: f64,
+    target: f64,
+    whole: bool,
+) -> (ModeSelection, ChosenPart) {
+    let all = scene.stage.modes.count();
+    let errors = ModeErrors::of(scene, band_hz);
+    let (selection, why) = match asked.modes {
+        ModesKept::All => (ModeSelection::All, "given".to_owned()),
+        ModesKept::Count(count) => (ModeSelection::Count(count.min(all)), "given".to_owned()),
+        ModesKept::Auto if whole => (
+            ModeSelection::All,
+            "the equations or the method need all displacements of the ring".to_owned(),
+        ),
+        ModesKept::Auto => {
+            let share = MODES_SHARE * target;
+            let fewest = with_pairs(scene, errors.fewest(share, asked.residual));
+            let why = format!(
+                "the fewest with an estimate of at most {} of the target in the band up to {} kHz",
+                significant(MODES_SHARE, 2),
+                significant(band_hz / 1e3, 4)
+            );
+            (ModeSelection::Count(fewest), why)
+        }
+    };
+    let kept = match selection {
+        ModeSelection::Count(count) => count,
+        _ => all,
+    };
+    let highest = scene.stage.modes.frequency_hz(kept.saturating_sub(1));
+    let left = match (kept < all, asked.residual) {
+        (false, _) => "nothing left out".to_owned(),
+        (true, true) => "of the others only their inertia is left out".to_owned(),
+        (true, false) => "the others are left out".to_owned(),
+    };
+    let part = ChosenPart {
+        what: "modes",
+        chosen: format!(
+            "{kept} of {all}, up to {} kHz{}",
+            significant(highest / 1e3, 4),
+            if kept < all && asked.residual {
+                ", static residual of the others"
+            } else {
+                ""
+            }
+        ),
+        why: format!("{why}; {left}"),
+        estimated_error: Some(errors.with(kept, asked.residual)),
+    };
+    (selection, part)
+}
+
+/// So many modes, and those that belong to the last one.
+fn with_pairs(scene: &Scene, count: usize) -> usize {
+    let modes = &scene.stage.modes;
+    let mut kept = count.clamp(1, modes.count());
+    while kept < modes.count()
+        && modes.frequency_hz(kept) <= (1.0 + PAIR) * modes.frequency_hz(kept - 1)
+    {
+        kept += 1;
+    }
+    kept
+}
+
+/// Angular frequency of a ball with these forces between its contacts, rad/s.
+fn ball_frequency(scene: &Scene, inner: f64, outer: f64) -> f64 {
+    let stiffness = &scene.setup.stiffness;
+    let tangent = |stiffness: f64, force: f64| 1.5 * stiffness.cbrt().powi(2) * force.cbrt();
+    let sum = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
+    (sum / scene.setup.geometry.ball_mass()).sqrt()
+}
+
+/// Hz.
+fn hertz(angular: f64) -> f64 {
+    angular / TAU
+}
+
+/// Whether a bearing's balls are stepped with their mass.
+fn dynamic(model: &RunModel) -> bool {
+    model.balls_inertia == BallsInertia::Dynamic
+}

@@ -1,0 +1,159 @@
+//! Method and step.
+
+use super::super::{RunModel, Scene, StageError};
+use super::{ChosenPart, dynamic};
+use crate::case::{self, StepLength};
+use crate::report::significant;
+use crate::system::{CoupledSystem, ModeSelection};
+use crate::transient::Method;
+
+/// Tolerance of exponential-adams for a target of one percent, and the error that it makes: on the dented bearing of
+/// `examples/tadina2011`, over ten starts of up to 8 ms. The bend that it bounds falls with the step's square, the error with
+/// its cube.
+const ADAMS_TOLERANCE: f64 = 1e-2;
+const ADAMS_TARGET: f64 = 1e-2;
+
+/// Part of the target that the steps may take.
+const SHARE: f64 = 0.8;
+
+/// Largest phase of the highest kept mode in a step: exponential-adams lets energy creep through modes that it does not
+/// resolve.
+const MODE_PHASE: f64 = 1.2;
+
+/// Least number of steps in an output interval: the displacement of a sensor is differentiated from them.
+const LEAST_SAMPLES: f64 = 6.0;
+
+/// Step of the other methods: phase of the stiffest ball vibration, rad.
+const PHASE: f64 = 0.1;
+
+/// Largest ball force that they prepare for, in units of the largest static one: impacts in a dent of the source's size reach
+/// five to ten times.
+const IMPACT: f64 = 10.0;
+
+/// The source's step for explicit Newmark, s (section 4.1).
+const NEWMARK_STEP: f64 = 1.5e-8;
+
+/// Tolerance of `dop853` unless one is given: far below one percent after some milliseconds of impacts.
+const DOP853_TOLERANCE: f64 = 1e-6;
+
+/// Default of generalized-alpha: takes what is not resolved out within some tens of steps, and of a motion of 0.1 rad a step
+/// 7e-8 of the amplitude.
+const SPECTRAL_RADIUS: f64 = 0.8;
+
+/// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
+/// no limit there.
+pub(super) fn method(
+    asked: &case::Transient,
+    model: &RunModel,
+    target: f64,
+) -> (Method, ChosenPart) {
+    let by_target = ADAMS_TOLERANCE * (SHARE * target / ADAMS_TARGET).powf(2.0 / 3.0);
+    let by_steps = asked.step == StepLength::Auto;
+    let adams = |given: Option<f64>| Method::ExponentialAdams {
+        tolerance: given.or_else(|| by_steps.then_some(by_target)),
+    };
+    let method = match asked.method {
+        case::Method::Auto if model.modes == ModeSelection::All => Method::Exponential,
+        case::Method::Auto | case::Method::ExponentialAdams => adams(asked.tolerance),
+        case::Method::Exponential => Method::Exponential,
+        case::Method::NewmarkExplicit => Method::NewmarkExplicit,
+        case::Method::Splitting => Method::Splitting,
+        case::Method::Newmark => Method::Newmark,
+        case::Method::GeneralizedAlpha => Method::GeneralizedAlpha {
+            spectral_radius: asked.spectral_radius.unwrap_or(SPECTRAL_RADIUS),
+        },
+        case::Method::Dop853 => Method::Dop853 {
+            tolerance: asked.tolerance.unwrap_or(DOP853_TOLERANCE),
+            events: true,
+        },
+    };
+    let chosen = asked.method == case::Method::Auto;
+    let why = match (chosen, method) {
+        (false, _) => "given".to_owned(),
+        (true, Method::Exponential) => {
+            "all modes: the linear part exactly, no limit from the highest".to_owned()
+        }
+        (true, _) => "one evaluation a step, the linear part and the balls' contacts as springs exactly, steps by the error of each".to_owned(),
+    };
+    let (text, estimated_error) = match method {
+        Method::ExponentialAdams {
+            tolerance: Some(tolerance),
+        } => (
+            format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
+            Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(1.5)),
+        ),
+        Method::Dop853 { tolerance, .. } => (
+            format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
+            None,
+        ),
+        _ => (method.name().to_owned(), None),
+    };
+    let part = ChosenPart {
+        what: "method",
+        chosen: text,
+        why,
+        estimated_error,
+    };
+    (method, part)
+}
+
+/// The largest step, or the time between samples.
+///
+/// # Errors
+/// [`StageError::System`] for a model that does not fit the scene.
+pub(super) fn step(
+    asked: &case::Transient,
+    model: &RunModel,
+    scene: &Scene,
+) -> Result<(f64, ChosenPart), StageError> {
+    let system = scene.system(model)?;
+    let interval = 1.0 / asked.output_hz;
+    let highest = system.highest_squared_frequency().sqrt();
+    let (step, why) = match (asked.step, model.method) {
+        (StepLength::Seconds(step), _) => (step, "given"),
+        (StepLength::Auto, Method::NewmarkExplicit) => (
+            // half the stability limit, and never above the source's own step
+            NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE)),
+            "half the stability limit in all modes, at most the source's 1.5e-8 s",
+        ),
+        (StepLength::Auto, Method::ExponentialAdams { .. }) => (
+            (interval / LEAST_SAMPLES).min(MODE_PHASE / highest.max(f64::MIN_POSITIVE)),
+            "six samples an output interval, and 1.2 rad of the highest mode; halved where the tolerance asks for it",
+        ),
+        (StepLength::Auto, Method::Dop853 { .. }) => (
+            // what a sensor shows above half its rate would fold into the band
+            interval / 16.0,
+            "sixteen samples an output interval",
+        ),
+        (StepLength::Auto, _) => (
+            resolved(model, scene, &system),
+            "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
+        ),
+    };
+    let part = ChosenPart {
+        what: "largest step",
+        chosen: format!("{} s", significant(step, 3)),
+        why: why.to_owned(),
+        estimated_error: Some(0.0),
+    };
+    Ok((step, part))
+}
+
+/// Step that resolves the fastest motion on the contacts, with `k' = 3/2 k^(2/3) F^(1/3)`: that of a ball between both,
+/// `h = PHASE / sqrt((k_i' + k_o') / m_b)`, or without the balls' inertia that of race and shaft on both in series.
+fn resolved(model: &RunModel, scene: &Scene, system: &CoupledSystem) -> f64 {
+    let setup = &scene.setup;
+    let largest = scene
+        .equilibrium
+        .balls
+        .iter()
+        .map(|ball| ball.inner.max(ball.outer))
+        .fold(setup.geometry.ball_mass() * 9.81, f64::max);
+    let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (IMPACT * largest).cbrt();
+    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(tangent);
+    let stiffness = match dynamic(model) {
+        true => inner + outer,
+        false => inner * outer / (inner + outer),
+    };
+    PHASE / (stiffness * system.contact_mobility()).sqrt()
+}
