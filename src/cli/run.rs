@@ -5,6 +5,7 @@ use super::results::{run_json, write_signals};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::stages::{RunEnd, RunResult, compute_run, run_report};
+use crate::transient::BlowUp;
 
 /// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`.
 ///
@@ -39,28 +40,38 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
 fn verdict(result: &RunResult) -> Verdict {
     match &result.simulation.end {
         RunEnd::Complete => Verdict::Good,
-        RunEnd::BlewUp(error) => Verdict::Bad {
-            what: error.to_string(),
+        RunEnd::BlewUp(blow_up) => Verdict::Bad {
+            what: blow_up.to_string(),
             help: Some(format!(
                 "{}; {} instants computed until then are in signals.npz",
-                smaller_steps(result),
+                smaller_steps(blow_up),
                 result.simulation.record.time_s.len()
             )),
         },
     }
 }
 
-fn smaller_steps(result: &RunResult) -> String {
-    if result.simulation.method.chooses_its_steps() {
+/// What to try after a blow-up.
+fn smaller_steps(blow_up: &BlowUp) -> String {
+    if blow_up.method.chooses_its_steps() {
         return "a smaller --set transient.tolerance says whether the steps are the cause"
             .to_owned();
     }
-    format!(
-        "the step is the likely cause: a ball between its contacts vibrates above 100 kHz; \
-         halve it with --set transient.step={:.1e}, or leave it to the program with \
-         --set transient.step=auto",
-        0.5 * result.simulation.schedule.step()
-    )
+    let by_itself = "or leave it to the program with --set transient.step=auto";
+    match (blow_up.limit, blow_up.beyond_the_limit()) {
+        (Some(limit), Some(true)) => format!(
+            "the step is beyond the method's limit: stay well below it with --set transient.step={:.1e}, {by_itself}",
+            0.5 * limit.step_s
+        ),
+        (Some(_), _) => format!(
+            "the step was below the method's limit just before: see whether the steps are the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+            0.5 * blow_up.step_s
+        ),
+        (None, _) => format!(
+            "see whether the step is the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+            0.5 * blow_up.step_s
+        ),
+    }
 }
 
 fn summary(result: &RunResult) -> String {

@@ -384,7 +384,7 @@ impl StageError {
                     | SystemError::BallsNeedInertia
                     | SystemError::NoModesKept { .. }
             ),
-            Self::Transient(error) => !matches!(error, TransientError::BlewUp { .. }),
+            Self::Transient(error) => !matches!(error, TransientError::BlewUp(_)),
             Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),

@@ -187,6 +187,40 @@ mod tests {
         }
     }
 
+    /// The balls are held by both races all the time, so that the limit at one instant is nearly that of the run.
+    #[test]
+    fn a_blow_up_names_a_step_that_holds_and_leaves_the_instants_before() {
+        for method in ["exponential", "exponential-adams"] {
+            let with_step = |step: f64| {
+                let [method, step] = [format!("method={method}"), format!("step={step:e}")]
+                    .map(|key| format!("transient.{key}"));
+                smooth(&[
+                    &method,
+                    &step,
+                    "transient.output_hz=1e5",
+                    "transient.end=2e-3",
+                ])
+                .simulation
+            };
+            let far_too_long = with_step(1e-5);
+            let RunEnd::BlewUp(blow_up) = &far_too_long.end else {
+                panic!("{method} takes 1e-5 s");
+            };
+            println!("{blow_up}");
+            assert!(blow_up.time - blow_up.good_until < 4.5e-5);
+            let limit = blow_up.limit.expect("contacts vibrate").step_s;
+            assert!((2e-7..1e-5).contains(&limit), "{limit}");
+            // what was good until then is there: the rows whose low-pass does not reach beyond it
+            let good = usize::try_from(blow_up.good_intervals).unwrap();
+            let instants = far_too_long.record.time_s.len();
+            assert!(
+                instants <= good && instants + 15 >= good,
+                "{instants} {good}"
+            );
+            assert!(matches!(with_step(0.5 * limit).end, RunEnd::Complete));
+        }
+    }
+
     #[test]
     fn structural_damping_is_refused_before_anything_is_computed() {
         let (lossy, nowhere) = (

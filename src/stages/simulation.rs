@@ -4,7 +4,7 @@ use super::{RunModel, Scene, StageError};
 use crate::dynamics::State;
 use crate::series::TimeSeries;
 use crate::system::{CoupledSystem, Recorder, RunRecord};
-use crate::transient::{Method, Schedule, Statistics, Stepping, TransientError, integrate};
+use crate::transient::{BlowUp, Method, Schedule, Statistics, Stepping, TransientError, integrate};
 use std::time::Instant;
 
 /// What is simulated of a scene, from its start on.
@@ -22,7 +22,7 @@ pub enum RunEnd {
     /// At the end of its time.
     Complete,
     /// The solution blew up; what was recorded before is there.
-    BlewUp(TransientError),
+    BlewUp(Box<BlowUp>),
 }
 
 /// Signals of a scene by one model, and what they took.
@@ -106,16 +106,11 @@ impl Simulation {
         let (statistics, end, record) = match stepped {
             Ok(statistics) => (statistics, RunEnd::Complete, recorder.finish()),
             Err(error) => {
-                let TransientError::BlewUp {
-                    good_intervals,
-                    statistics,
-                    ..
-                } = error
-                else {
+                let TransientError::BlewUp(blow_up) = error else {
                     return Err(error.into());
                 };
-                let record = recorder.finish_after(good_intervals);
-                (statistics, RunEnd::BlewUp(error), record)
+                let record = recorder.finish_after(blow_up.good_intervals);
+                (blow_up.statistics, RunEnd::BlewUp(blow_up), record)
             }
         };
         Ok(Self {

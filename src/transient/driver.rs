@@ -5,9 +5,10 @@ use super::dop853::Dop853;
 use super::error::TransientError;
 use super::exponential::Exponential;
 use super::implicit::Implicit;
+use super::integration::Integration;
 use super::newmark::NewmarkExplicit;
 use super::splitting::Splitting;
-use crate::dynamics::{Divergence, Instant, Observer, SecondOrderSystem, State};
+use crate::dynamics::{Divergence, Observer, SecondOrderSystem, State};
 use std::f64::consts::TAU;
 
 /// Integration method.
@@ -161,7 +162,7 @@ impl Schedule {
 
     /// Sample `place` (from 1) of an interval in a run from `start` (s), s. Counted, not summed: every method has the same
     /// instants to the last bit.
-    fn instant(&self, start: f64, interval: u64, place: u32) -> f64 {
+    pub(super) fn instant(&self, start: f64, interval: u64, place: u32) -> f64 {
         if place == self.steps_per_interval {
             start + (interval + 1) as f64 * self.interval
         } else {
@@ -196,33 +197,35 @@ pub(super) trait Stepper<S> {
 /// `after_interval(done, total)` is called between intervals and may stop the run.
 ///
 /// # Errors
-/// [`TransientError::Unstable`] and [`TransientError::Schedule`] before the first step, [`TransientError::BlewUp`] with the state
-/// and the records of the steps before it left in place.
+/// [`TransientError::Unstable`] and [`TransientError::Schedule`] before the first step, [`TransientError::BlewUp`] with the last
+/// good state and the records of the steps before it left in place.
 pub fn integrate<S: SecondOrderSystem>(
     system: &mut S,
     method: Method,
     schedule: &Schedule,
     state: &mut State,
     observer: &mut impl Observer<S>,
-    after_interval: impl FnMut(u64, u64) -> Stepping,
+    mut after_interval: impl FnMut(u64, u64) -> Stepping,
 ) -> Result<Statistics, TransientError> {
-    let mut stepper = stepper(system, method, schedule, state)?;
-    run(
-        stepper.as_mut(),
-        system,
-        schedule,
-        state,
-        observer,
-        after_interval,
-    )
+    let mut integration = Integration::begin(system, method, *schedule, state.clone(), observer)?;
+    let mut ended = Ok(());
+    while ended.is_ok() && !integration.is_complete() {
+        ended = integration.advance(system, observer);
+        let done = integration.intervals();
+        if ended.is_ok() && after_interval(done, schedule.intervals) == Stepping::Stop {
+            break;
+        }
+    }
+    state.clone_from(integration.state());
+    ended.map(|()| integration.statistics())
 }
 
-/// The method ready to go from `state` with the schedule's steps.
-fn stepper<S: SecondOrderSystem>(
+/// The method ready to go from `start` (s) with the schedule's steps.
+pub(super) fn stepper<S: SecondOrderSystem>(
     system: &S,
     method: Method,
     schedule: &Schedule,
-    state: &State,
+    start: f64,
 ) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
     Ok(match method {
@@ -239,7 +242,7 @@ fn stepper<S: SecondOrderSystem>(
         }
         Method::Dop853 { tolerance, events } => {
             check_tolerance(tolerance)?;
-            Box::new(Dop853::new(system, state.t, tolerance, events))
+            Box::new(Dop853::new(system, start, tolerance, events))
         }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
@@ -288,62 +291,4 @@ fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), Transi
             highest_hz: highest / TAU,
         })
     }
-}
-
-fn run<S: SecondOrderSystem>(
-    stepper: &mut dyn Stepper<S>,
-    system: &mut S,
-    schedule: &Schedule,
-    state: &mut State,
-    observer: &mut impl Observer<S>,
-    mut after_interval: impl FnMut(u64, u64) -> Stepping,
-) -> Result<Statistics, TransientError> {
-    let mut g = vec![0.0; state.y.len()];
-    let start = state.t;
-    system.force_into(start, &state.y, &state.v, &mut g);
-    observe(system, observer, 0, state);
-    let mut last_good = state.clone();
-    let mut sample = 0;
-    for interval in 0..schedule.intervals {
-        let mut stepped = Ok(());
-        for place in 1..=schedule.steps_per_interval {
-            state.t = schedule.instant(start, interval, place);
-            stepped = stepper.step(system, state.t, &mut state.y, &mut state.v, &mut g);
-            if stepped.is_err() {
-                break;
-            }
-            sample += 1;
-            observe(system, observer, sample, state);
-        }
-        if let Err(cause) = stepped.and_then(|()| system.check(&state.y, &state.v)) {
-            let time = state.t;
-            *state = last_good;
-            return Err(TransientError::BlewUp {
-                time,
-                good_intervals: interval,
-                step_s: schedule.step(),
-                statistics: stepper.statistics(),
-                cause,
-            });
-        }
-        last_good.t = state.t;
-        last_good.y.copy_from_slice(&state.y);
-        last_good.v.copy_from_slice(&state.v);
-        if after_interval(interval + 1, schedule.intervals) == Stepping::Stop {
-            break;
-        }
-    }
-    Ok(stepper.statistics())
-}
-
-fn observe<S>(system: &S, observer: &mut impl Observer<S>, step: u64, state: &State) {
-    observer.observe(
-        system,
-        Instant {
-            step,
-            t: state.t,
-            y: &state.y,
-            v: &state.v,
-        },
-    );
 }

@@ -340,9 +340,10 @@ fn what_cannot_be_solved_is_an_error() {
         &mut state,
         &mut NoRecord,
     );
-    let Err(TransientError::BlewUp { cause, .. }) = error else {
+    let Err(TransientError::BlewUp(blow_up)) = error else {
         panic!("{error:?}");
     };
+    let cause = &blow_up.cause;
     assert!(
         matches!(cause, Divergence::NotSolved { iterations: 30, .. }),
         "{cause}"

@@ -13,6 +13,9 @@
 //!   order, keep every equilibrium, no linear stability limit.
 //! - [`Method::Dop853`]: explicit Runge-Kutta of order 8 by a tolerance, interpolated at the samples; its steps may end where
 //!   contacts begin and end.
+//!
+//! [`integrate`] goes through a [`Schedule`]; an [`Integration`] does so interval by interval. A state that means nothing any
+//! more is noticed within a few steps ([`BlowUp`]), with the method's limit there ([`StepLimit`]).
 
 mod adams;
 mod dop853;
@@ -20,6 +23,8 @@ mod driver;
 mod error;
 mod exponential;
 mod implicit;
+mod integration;
+mod limit;
 mod newmark;
 mod newton;
 mod propagator;
@@ -27,7 +32,9 @@ mod splitting;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub use driver::{LEAST_TOLERANCE, Method, Schedule, Statistics, Stepping, integrate};
-pub use error::TransientError;
+pub use error::{BlowUp, TransientError};
+pub use integration::Integration;
+pub use limit::StepLimit;
 
 #[cfg(test)]
 mod implicit_tests;

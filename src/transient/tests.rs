@@ -1,7 +1,7 @@
 //! Order, equilibrium and stability on oscillators with known answers.
 
 use super::*;
-use crate::dynamics::{LinearCoordinate, NoRecord, SecondOrderSystem, State, Tangent};
+use crate::dynamics::{Divergence, LinearCoordinate, NoRecord, SecondOrderSystem, State, Tangent};
 
 /// A damped oscillator with part `split` of its spring outside the linear part, under a cosine
 /// force: `y'' + c y' + w^2 y = cos(p t)`.
@@ -280,10 +280,161 @@ fn a_solution_that_blows_up_names_the_time_and_leaves_the_last_good_state() {
         |_, _| Stepping::Continue,
     )
     .expect_err("unstable");
-    let TransientError::BlewUp { time, .. } = error else {
+    let TransientError::BlewUp(blow_up) = error else {
         panic!("{error}");
     };
-    assert!(state.t < time && state.y[0].is_finite());
+    assert!(state.t < blow_up.time && state.y[0].is_finite());
+    assert!(state.t.to_bits() == blow_up.good_until.to_bits());
+}
+
+/// An oscillator on a spring that only the force holds, with a range that its position may not leave; sees its own samples.
+struct Watched {
+    oscillator: Oscillator,
+    limit: f64,
+    first_beyond: Option<u64>,
+    seen: u64,
+}
+
+impl SecondOrderSystem for Watched {
+    fn linear(&self) -> &[LinearCoordinate] {
+        &self.oscillator.linear
+    }
+
+    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+        self.oscillator.force_into(t, y, v, g);
+        // each sample has one evaluation
+        if y[0].abs() > self.limit && self.first_beyond.is_none() {
+            self.first_beyond = Some(self.seen);
+        }
+        self.seen += 1;
+    }
+
+    fn tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], tangent: &mut Tangent) {
+        self.oscillator.tangent_into(t, y, v, tangent);
+    }
+
+    fn check(&self, y: &[f64], _v: &[f64]) -> Result<(), Divergence> {
+        if y[0].abs() <= self.limit {
+            return Ok(());
+        }
+        Err(Divergence::OutOfRange {
+            what: "position".to_owned(),
+            value: y[0],
+            limit: self.limit,
+            unit: "m",
+        })
+    }
+}
+
+#[test]
+fn a_blow_up_is_noticed_within_a_few_steps_in_an_interval_of_thousands() {
+    for method in [
+        Method::Exponential,
+        Method::ExponentialAdams,
+        Method::Splitting,
+        Method::NewmarkExplicit,
+    ] {
+        for limit in [10.0, 31.0, 100.0, 310.0] {
+            let mut oscillator = Oscillator::new(1.0);
+            oscillator.linear[0].damping = 0.0;
+            let mut system = Watched {
+                oscillator,
+                limit,
+                first_beyond: None,
+                seen: 0,
+            };
+            let mut state = State {
+                t: 0.0,
+                y: vec![1.0],
+                v: vec![0.0],
+            };
+            // a tenth beyond the limit of Verlet
+            let h = 2.2 / W;
+            let error = take_steps(&mut system, method, &mut state, h, 10_000).expect_err("grows");
+            let TransientError::BlewUp(blow_up) = error else {
+                panic!("{error}");
+            };
+            let first = system.first_beyond.expect("it left its range");
+            let late = blow_up.statistics.steps - first;
+            println!("{method:?}: {blow_up}");
+            assert!(late < 4, "{method:?}: {late} steps late");
+            let bad = (blow_up.time - blow_up.good_until) / h;
+            assert!(bad < 4.5 && blow_up.good_until < blow_up.time, "{bad}");
+            assert!(state.y[0].abs() <= limit);
+            assert_eq!(blow_up.beyond_the_limit(), Some(true));
+        }
+    }
+}
+
+/// Largest stable phase in a step by bisection, to 1e-3 of it.
+fn measured_limit(method: Method) -> f64 {
+    let (mut stable, mut grows) = (0.5, 4.0);
+    while grows - stable > 1e-3 {
+        let middle = 0.5 * (stable + grows);
+        if amplitude_after(method, middle) < 1e3 {
+            stable = middle;
+        } else {
+            grows = middle;
+        }
+    }
+    stable / W
+}
+
+#[test]
+fn the_limit_that_is_named_is_the_one_that_is_found() {
+    for method in [
+        Method::Exponential,
+        Method::ExponentialAdams,
+        Method::Splitting,
+        Method::NewmarkExplicit,
+    ] {
+        let state = State {
+            t: 0.0,
+            y: vec![1.0],
+            v: vec![0.0],
+        };
+        let named = method.step_limit(&mut Oscillator::new(1.0), &state);
+        let (named, found) = (named.expect("a limit").step_s, measured_limit(method));
+        println!("{method:?}: {named} s named, {found} s found");
+        // 2000 steps tell growth from none to some 1e-5; the bisection ends at 1e-3
+        assert!((named / found - 1.0).abs() < 2e-3, "{method:?}");
+    }
+}
+
+#[test]
+fn a_blow_up_tells_step_limit_and_frequency() {
+    let blow_up = BlowUp {
+        method: Method::ExponentialAdams,
+        time: 2.300_052,
+        good_until: 2.300_048,
+        good_intervals: 23,
+        step_s: 4e-6,
+        statistics: Statistics {
+            steps: 575_013,
+            ..Statistics::default()
+        },
+        limit: Some(StepLimit {
+            step_s: 1.928e-6,
+            highest_hz: 142_980.0,
+        }),
+        cause: Divergence::NotFinite,
+    };
+    assert_eq!(
+        blow_up.to_string(),
+        "the solution blew up at t = 2.300052000 s (step 575013 of 4.000e-6 s; good until 2.300048000 s): a value is infinite or not a number; contacts there vibrate at up to 143.0 kHz, exponential-adams is stable up to 1.93e-6 s"
+    );
+    let of_dop853 = BlowUp {
+        method: Method::Dop853 {
+            tolerance: 1e-6,
+            events: true,
+        },
+        limit: None,
+        ..blow_up
+    };
+    assert_eq!(
+        of_dop853.to_string(),
+        "the solution blew up at t = 2.300052000 s (after 575013 steps by tolerance; good until 2.300048000 s): a value is infinite or not a number"
+    );
 }
 
 #[test]

@@ -1,0 +1,149 @@
+//! A system on its way through a schedule, one interval at a time.
+
+use super::driver::{Method, Schedule, Statistics, Stepper, stepper};
+use super::error::{BlowUp, TransientError};
+use crate::dynamics::{Divergence, Instant, Observer, SecondOrderSystem, State};
+
+/// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
+/// step that is too long is then seen at most so many steps after its first value out of range.
+const STEPS_UNCHECKED: u64 = 4;
+
+/// Good states that are kept. The method's limit is told for the worst of them: in a single one the ball that vibrates may be
+/// just off its races.
+const KEPT: usize = 4;
+
+/// An integration under way: the method with what it remembers, the state, and what of the schedule is done.
+pub struct Integration<S> {
+    method: Method,
+    schedule: Schedule,
+    stepper: Box<dyn Stepper<S>>,
+    state: State,
+    force: Vec<f64>,
+    /// The last ones that were looked at and meant something; `newest` is the place of the last.
+    good: [State; KEPT],
+    newest: usize,
+    start: f64,
+    intervals: u64,
+    samples: u64,
+}
+
+impl<S: SecondOrderSystem> Integration<S> {
+    /// Ready to go from a state, which `observer` sees as the first sample.
+    ///
+    /// # Errors
+    /// [`TransientError::Unstable`] and [`TransientError::Schedule`].
+    pub fn begin(
+        system: &mut S,
+        method: Method,
+        schedule: Schedule,
+        state: State,
+        observer: &mut impl Observer<S>,
+    ) -> Result<Self, TransientError> {
+        let stepper = stepper(system, method, &schedule, state.t)?;
+        let mut force = vec![0.0; state.y.len()];
+        system.force_into(state.t, &state.y, &state.v, &mut force);
+        observe(system, observer, 0, &state);
+        Ok(Self {
+            method,
+            schedule,
+            stepper,
+            good: std::array::from_fn(|_| state.clone()),
+            newest: 0,
+            start: state.t,
+            state,
+            force,
+            intervals: 0,
+            samples: 0,
+        })
+    }
+
+    /// Whether all intervals are done.
+    pub fn is_complete(&self) -> bool {
+        self.intervals >= self.schedule.intervals
+    }
+
+    /// Intervals done.
+    pub fn intervals(&self) -> u64 {
+        self.intervals
+    }
+
+    /// Where it is, after a blow-up the last good state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What it took so far.
+    pub fn statistics(&self) -> Statistics {
+        self.stepper.statistics()
+    }
+
+    /// Goes through the next interval; `observer` sees every sample.
+    ///
+    /// # Errors
+    /// [`TransientError::BlewUp`]; the state is then the last good one, which lies in this interval or at its start.
+    pub fn advance(
+        &mut self,
+        system: &mut S,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), TransientError> {
+        for place in 1..=self.schedule.steps_per_interval {
+            let t = self.schedule.instant(self.start, self.intervals, place);
+            if let Err(cause) = self.step(system, t, place) {
+                return Err(self.blown_up(system, cause));
+            }
+            self.samples += 1;
+            observe(system, observer, self.samples, &self.state);
+        }
+        self.intervals += 1;
+        Ok(())
+    }
+
+    /// Goes to the next sample.
+    fn step(&mut self, system: &mut S, t: f64, place: u32) -> Result<(), Divergence> {
+        let State { t: now, y, v } = &mut self.state;
+        *now = t;
+        self.stepper.step(system, t, y, v, &mut self.force)?;
+        let due = (self.samples + 1).is_multiple_of(STEPS_UNCHECKED);
+        if due || place == self.schedule.steps_per_interval {
+            system.check(y, v)?;
+            self.newest = (self.newest + 1) % KEPT;
+            let good = &mut self.good[self.newest];
+            good.t = t;
+            good.y.copy_from_slice(y);
+            good.v.copy_from_slice(v);
+        }
+        Ok(())
+    }
+
+    /// Goes back to the last good state and tells what happened.
+    fn blown_up(&mut self, system: &mut S, cause: Divergence) -> TransientError {
+        let time = self.state.t;
+        self.state.clone_from(&self.good[self.newest]);
+        let limits = self.good.iter();
+        let limits = limits.filter_map(|state| self.method.step_limit(system, state));
+        let limit = limits.min_by(|a, b| a.step_s.total_cmp(&b.step_s));
+        let blow_up = BlowUp {
+            method: self.method,
+            time,
+            good_until: self.state.t,
+            good_intervals: self.intervals,
+            step_s: self.schedule.step(),
+            statistics: self.stepper.statistics(),
+            limit,
+            cause,
+        };
+        blow_up.into()
+    }
+}
+
+fn observe<S>(system: &S, observer: &mut impl Observer<S>, step: u64, state: &State) {
+    observer.observe(
+        system,
+        Instant {
+            step,
+            t: state.t,
+            y: &state.y,
+            v: &state.v,
+        },
+    );
+}
