@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
 use crate::case::Case;
+use crate::stages::CHECKPOINT_S;
 use crate::units::LengthUnit;
 
 const EXAMPLES: &str = "\
@@ -23,8 +24,13 @@ Exit codes:
   2  the input is wrong: the message names file, line or key, what was found and what was expected";
 
 const RUN_EXAMPLE: &str = "\
-Example: the dented bearing with a deeper dent, in a folder of its own
-  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper";
+Examples: the dented bearing with a deeper dent, in a folder of its own; the same again after Ctrl-C or a power failure
+  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper
+  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper --resume
+
+Long runs: memory does not grow with the simulated time; signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
+keeps a checkpoint and ends with exit code 1, a second Ctrl-C ends at once. --resume goes on to the same signals, to the last
+bit, as without a stop, if program, case, --set and meshes are the same.";
 
 const INSPECT_EXAMPLE: &str = "\
 Example: a solid housing drawn in millimetres
@@ -99,6 +105,12 @@ pub enum Command {
     Run {
         /// Case file (TOML)
         case: PathBuf,
+        /// Go on with the unfinished run in the folder for the results
+        #[arg(long)]
+        resume: bool,
+        /// Seconds of wall time between checkpoints; longer where they would take more than 4 % of it
+        #[arg(long, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
+        checkpoint_every: f64,
     },
     /// What a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
     #[command(after_help = INSPECT_EXAMPLE)]
@@ -224,6 +236,16 @@ pub struct Options {
     pub set: Vec<String>,
 }
 
+/// A pause between checkpoints: not negative, at most a year.
+fn pause(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(pause) if (0.0..=3.2e7).contains(&pause) => Ok(pause),
+        _ => Err(format!(
+            "expected seconds from 0 to 3.2e7, found \"{text}\""
+        )),
+    }
+}
+
 /// A density: positive and finite.
 fn density(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -276,7 +298,9 @@ mod tests {
             "plummer --out o --threads 3 --force --set a=1 --set b=2 run a.toml",
         ] {
             let Arguments { command, options } = parse(words).unwrap();
-            assert!(matches!(command, Command::Run { case } if case.as_os_str() == "a.toml"));
+            assert!(
+                matches!(command, Command::Run { case, resume: false, .. } if case.as_os_str() == "a.toml")
+            );
             assert_eq!(options.out.unwrap().as_os_str(), "o");
             assert_eq!(options.threads.unwrap().get(), 3);
             assert!(options.force && !options.quiet && !options.json);
@@ -296,6 +320,8 @@ mod tests {
             "plummer inspect a.msh --density -1",
             "plummer export a.toml",
             "plummer export a.toml --to stl",
+            "plummer run a.toml --checkpoint-every -1",
+            "plummer run a.toml --checkpoint-every NaN",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }

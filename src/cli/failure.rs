@@ -23,6 +23,30 @@ pub enum CliError {
         /// The result file.
         path: PathBuf,
     },
+    /// The run that is to go on has ended.
+    #[error("{} is the result of a finished run: there is nothing to go on with", path.display())]
+    Finished {
+        /// The result file.
+        path: PathBuf,
+    },
+    /// A run cannot go on and begin anew.
+    #[error(
+        "--resume goes on with a run, --force begins it anew: expected one of them, found both"
+    )]
+    ResumeAnew,
+    /// The run was asked to stop and has kept a checkpoint.
+    #[error("{what}; the signals so far and a checkpoint are in {}", folder.display())]
+    Interrupted {
+        /// How far it came.
+        what: String,
+        /// The folder of the unfinished run.
+        folder: PathBuf,
+        /// The command line that goes on.
+        command: String,
+    },
+    /// Signals of the system cannot be caught.
+    #[error("cannot catch interrupts: {0}")]
+    Signals(#[source] io::Error),
     /// The folder for the results cannot be made.
     #[error("cannot make the folder {}: {source}", path.display())]
     Folder {
@@ -84,12 +108,18 @@ impl CliError {
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::ResultExists { .. } | Self::Folder { .. } => 2,
+            Self::Case(_)
+            | Self::ResultExists { .. }
+            | Self::Folder { .. }
+            | Self::Finished { .. }
+            | Self::ResumeAnew => 2,
             Self::Stage(error) if error.is_input() => 2,
             Self::Export(error) if error.is_input() => 2,
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
+            | Self::Interrupted { .. }
+            | Self::Signals(_)
             | Self::Stage(_)
             | Self::Export(_)
             | Self::Verification(_) => 1,
@@ -106,9 +136,17 @@ impl CliError {
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
+            Self::Finished { .. } => {
+                Some("leave --resume out, and begin anew with --force".to_owned())
+            }
+            Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
             Self::BadAnswer { help, .. } => help.clone(),
-            Self::Write { .. } | Self::StandardOutput(_) | Self::Verification(_) => None,
+            Self::Write { .. }
+            | Self::StandardOutput(_)
+            | Self::ResumeAnew
+            | Self::Signals(_)
+            | Self::Verification(_) => None,
         }
     }
 
@@ -130,7 +168,7 @@ mod tests {
     use super::{CliError, ExportError, VerificationError};
     use crate::case::Case;
     use crate::exchange::DofTableError;
-    use crate::stages::StageError;
+    use crate::stages::{StageError, UnfinishedError};
 
     fn every() -> Vec<(CliError, u8, &'static str)> {
         let path = || PathBuf::from("out/a");
@@ -175,6 +213,56 @@ mod tests {
                 },
                 1,
                 "error: blew up at 0.3 s\nhelp: halve the step\n",
+            ),
+            (
+                CliError::Finished { path: path() },
+                2,
+                "error: out/a is the result of a finished run: there is nothing to go on with\n\
+                 help: leave --resume out, and begin anew with --force\n",
+            ),
+            (
+                CliError::ResumeAnew,
+                2,
+                "error: --resume goes on with a run, --force begins it anew: expected one of them, found both\n",
+            ),
+            (
+                CliError::Interrupted {
+                    what: "interrupted at t = 1.25 s of 4 s".to_owned(),
+                    folder: path(),
+                    command: "plummer run a.toml --resume".to_owned(),
+                },
+                1,
+                "error: interrupted at t = 1.25 s of 4 s; the signals so far and a checkpoint are in out/a\n\
+                 help: go on with: plummer run a.toml --resume\n",
+            ),
+            (
+                CliError::Signals(source()),
+                1,
+                "error: cannot catch interrupts: full\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::InTheWay { path: path() })),
+                2,
+                "error: out/a holds an unfinished run\n\
+                 help: go on with --resume, or give it up and begin anew with --force\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::Nothing { path: path() })),
+                2,
+                "error: out/a has no checkpoint: there is no unfinished run to go on with\n\
+                 help: leave --resume out to begin a run\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::Changed {
+                    path: path(),
+                    changes: vec![
+                        "no --set, now --set a=1".to_owned(),
+                        "another content of b".to_owned(),
+                    ],
+                })),
+                2,
+                "error: the run in out/a was begun with something else: no --set, now --set a=1; another content of b\n\
+                 help: go on with what it was begun with, or begin anew with --force\n",
             ),
             (
                 CliError::from(StageError::TieFrame),

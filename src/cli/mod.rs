@@ -9,6 +9,7 @@ mod export;
 mod failure;
 mod frf;
 mod inspect;
+mod interrupt;
 mod mode_checks;
 mod modes;
 mod outcome;
@@ -67,7 +68,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
             .build_global();
     }
     let outcome = match &arguments.command {
-        Command::Run { case } => compute(case, Purpose::Run, arguments),
+        Command::Run { case, .. } => compute(case, Purpose::Run, arguments),
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
         Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
         Command::Frf { case } => compute(case, Purpose::Frf, arguments),
@@ -91,10 +92,14 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
     let options = &arguments.options;
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
-    OutputFolder::of(&case, options).claim(arguments.command.name(), options.force)?;
+    let folder = OutputFolder::of(&case, options);
+    match arguments.command {
+        Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
+        _ => folder.claim(arguments.command.name(), options.force)?,
+    }
     let progress = Progress::new(options.visibility());
     let outcome = match purpose {
-        Purpose::Run => run::run(&case, options, &progress),
+        Purpose::Run => run::run(&case, arguments, &progress),
         Purpose::Modes => modes::modes(&case, options, &progress),
         Purpose::Condense => condense::condense(&case, arguments, &progress),
         Purpose::Frf => frf::frf(&case, options, &progress),

@@ -62,14 +62,21 @@ impl Progress {
         self.bar.set_message(name.to_owned());
     }
 
-    /// Shows how much of the stage is done: 0 to 1; values beyond are taken as the nearest of these, NaN as 0.
+    /// Shows how much of the stage is done: 0 to 1; values beyond are taken as the nearest of these, NaN as 0. The first value is
+    /// where the stage begins: the time left is estimated from there on.
     pub fn set(&self, fraction: f64) {
+        // From 0 to STEPS; NaN gives 0.
+        let position = (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if self.bar.length().is_none() {
             self.bar.set_length(STEPS);
             self.bar.set_style(style(WITH_END));
+            self.bar.set_position(position);
+            // what was done before the stage began, by a run that goes on, says nothing of the time left: the estimate sees
+            // it and forgets it
+            self.bar.tick();
+            self.bar.reset_eta();
+            return;
         }
-        // From 0 to STEPS; NaN gives 0.
-        let position = (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64;
         self.bar.set_position(position);
     }
 
@@ -189,6 +196,20 @@ mod tests {
             "{shown}"
         );
         progress.finish();
+    }
+
+    #[test]
+    fn what_was_done_before_is_not_taken_for_speed() {
+        let progress = Progress::new(Visibility::Hidden);
+        progress.stage("step");
+        progress.set(0.9);
+        sleep(Duration::from_millis(100));
+        progress.set(0.91);
+        progress.bar.tick();
+        // a hundredth took a tenth of a second: nine more take 0.9 s, or longer on a busy machine; 0.9 in no time at all would
+        // leave a hundredth of a second
+        let left = progress.bar.eta();
+        assert!(left > Duration::from_millis(300), "{left:?}");
     }
 
     #[test]

@@ -3,14 +3,14 @@
 use super::report_files::ReportFiles;
 use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
-use crate::exchange::{NpzError, NpzWriter, write_modes_npz};
+use crate::exchange::{NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
 use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
-    CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModesResult, Reading,
+    CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModesResult, Reading, Recording,
     ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
 };
-use crate::system::BallsInertia;
+use crate::system::{BallsInertia, Column};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -45,9 +45,9 @@ pub(super) fn common(
 }
 
 /// `run.json`.
-pub(super) fn run_json(
+pub(super) fn run_json<R: Recording>(
     case: &Case,
-    result: &RunResult,
+    result: &RunResult<R>,
     progress: &Progress,
     wall_s: f64,
     files: &ReportFiles,
@@ -369,27 +369,35 @@ fn extend(map: &mut Map<String, Value>, fields: Value) {
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_signals(
+pub(super) fn write_signals<R: Recording>(
     folder: &OutputFolder,
-    result: &RunResult,
+    result: &RunResult<R>,
 ) -> Result<PathBuf, CliError> {
     let path = folder.path().join("signals.npz");
     let record = &result.simulation.record;
-    let write = || -> Result<(), NpzError> {
+    let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
+    let write = || -> Result<(), StageError> {
         let mut npz = NpzWriter::create(&path)?;
-        npz.array("time_s", &record.time_s)?;
-        npz.array("shaft_x", &record.shaft_x)?;
-        npz.array("shaft_y", &record.shaft_y)?;
-        for (name, values) in &record.sensors {
-            npz.array(name, values)?;
+        for column in Column::all(sensors.len()) {
+            let name = match column {
+                Column::Time => "time_s",
+                Column::ShaftX => "shaft_x",
+                Column::ShaftY => "shaft_y",
+                Column::Sensor(sensor) => &sensors[sensor],
+                Column::BallRadius => "ball_radius",
+                Column::OuterForce => "outer_force",
+                Column::InnerForce => "inner_force",
+            };
+            let shape: &[usize] = match column {
+                Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
+                _ => &[rows],
+            };
+            let mut array = npz.begin(name, shape)?;
+            record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
+            array.end()?;
         }
-        let rows = record.time_s.len();
-        npz.matrix("ball_radius", rows, record.balls, &record.ball_radius)?;
-        npz.matrix("outer_force", rows, record.balls, &record.outer_force)?;
-        npz.matrix("inner_force", rows, record.balls, &record.inner_force)?;
-        npz.finish()?;
-        Ok(())
+        Ok(npz.finish()?)
     };
-    write().map_err(StageError::from)?;
+    write()?;
     Ok(path)
 }

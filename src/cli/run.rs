@@ -2,20 +2,52 @@
 
 use super::report_files::ReportFiles;
 use super::results::{run_json, write_signals};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
-use crate::stages::{RunEnd, RunResult, compute_run, run_report};
+use crate::stages::{
+    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
+    UnfinishedRun, compute_kept_run, run_report,
+};
 use crate::transient::BlowUp;
+use std::time::Duration;
 
-/// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`.
+/// Folder of an unfinished run, in that of the results.
+const PARTIAL: &str = ".run.partial";
+
+/// Checks that there is an unfinished run to go on with.
 ///
 /// # Errors
-/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
-    let result = compute_run(case, progress)?;
-    progress.stage("write");
+/// [`CliError::ResumeAnew`], [`CliError::Finished`], [`CliError::Stage`] if there never was one.
+pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
+    let (partial, finished) = (folder.path().join(PARTIAL), folder.path().join("run.json"));
+    if force {
+        Err(CliError::ResumeAnew)
+    } else if !UnfinishedRun::is_in(&partial) && finished.exists() {
+        Err(CliError::Finished { path: finished })
+    } else {
+        Ok(())
+    }
+}
+
+/// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`. Until then its rows
+/// and checkpoints are in a folder that is removed at the end.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or is interrupted, or a file cannot be written.
+pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
+    let (started, options) = (std::time::Instant::now(), &arguments.options);
     let folder = OutputFolder::of(case, options);
+    let mut unfinished = unfinished(case, arguments, &folder)?;
+    let result = compute_kept_run(case, progress, &mut unfinished);
+    let result = result.map_err(|error| match error {
+        StageError::Interrupted { .. } => CliError::Interrupted {
+            what: error.to_string(),
+            folder: unfinished.folder().to_owned(),
+            command: again(case, arguments),
+        },
+        error => error.into(),
+    })?;
+    progress.stage("write");
     let signals = write_signals(&folder, &result)?;
     let command = options.command_line("run", case);
     let report = run_report(case, &result, &command)?;
@@ -29,6 +61,7 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     );
     let text = format!("{json:#}\n");
     let json_path = folder.write("run.json", text.as_bytes())?;
+    unfinished.remove().map_err(StageError::from)?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -37,7 +70,46 @@ pub fn run(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     })
 }
 
-fn verdict(result: &RunResult) -> Verdict {
+/// The run to begin or to go on with.
+fn unfinished(
+    case: &Case,
+    arguments: &Arguments,
+    folder: &OutputFolder,
+) -> Result<UnfinishedRun, CliError> {
+    let partial = folder.path().join(PARTIAL);
+    let (resume, pause) = match arguments.command {
+        Command::Run {
+            resume,
+            checkpoint_every,
+            ..
+        } => (resume, checkpoint_every),
+        _ => (false, CHECKPOINT_S),
+    };
+    let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
+    if in_the_way {
+        return Err(StageError::from(UnfinishedError::InTheWay { path: partial }).into());
+    }
+    let identity = RunIdentity::of(case)?;
+    let run = if resume {
+        UnfinishedRun::resume(&partial, identity).map_err(StageError::from)?
+    } else {
+        UnfinishedRun::begin(&partial, identity)
+    };
+    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    Ok(run.every(Duration::from_secs_f64(pause)).stopped_by(stop))
+}
+
+/// The command line that goes on with a run.
+fn again(case: &Case, arguments: &Arguments) -> String {
+    let options = &arguments.options;
+    let mut line = options.command_line("run", case);
+    if let Some(out) = &options.out {
+        line.push_str(&format!(" --out '{}'", out.display()));
+    }
+    line + " --resume"
+}
+
+fn verdict<R: Recording>(result: &RunResult<R>) -> Verdict {
     match &result.simulation.end {
         RunEnd::Complete => Verdict::Good,
         RunEnd::BlewUp(blow_up) => Verdict::Bad {
@@ -45,7 +117,7 @@ fn verdict(result: &RunResult) -> Verdict {
             help: Some(format!(
                 "{}; {} instants computed until then are in signals.npz",
                 smaller_steps(blow_up),
-                result.simulation.record.time_s.len()
+                result.simulation.record.rows()
             )),
         },
     }
@@ -74,7 +146,7 @@ fn smaller_steps(blow_up: &BlowUp) -> String {
     }
 }
 
-fn summary(result: &RunResult) -> String {
+fn summary<R: Recording>(result: &RunResult<R>) -> String {
     let mut lines = vec![result.bearing_table().plain()];
     lines.push(format!(
         "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",

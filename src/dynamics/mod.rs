@@ -8,8 +8,10 @@
 //!
 //! and `g` (contact, gravity, unbalance) is what has to be evaluated step by step.
 
+mod snapshot;
 mod tangent;
 
+pub use snapshot::{Snapshot, SnapshotError, SnapshotReader};
 pub use tangent::{Tangent, TangentTerm};
 
 use thiserror::Error;
@@ -30,7 +32,8 @@ pub trait SecondOrderSystem {
 
     /// Sets `g = g(t, y, v)`; all slices have one entry a coordinate, `t` in s.
     ///
-    /// Called once or a few times a step: no allocation.
+    /// Called once or a few times a step: no allocation. A function of these alone, to the last bit: what an evaluation
+    /// leaves in `self` may make the next one faster and nothing else, for a run that goes on from a checkpoint has none of it.
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]);
 
     /// Adds how `g` changes with `y` and `v` at a state to an empty `tangent`, for methods that solve for the force.

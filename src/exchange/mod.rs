@@ -9,12 +9,14 @@
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
 //! | superelement ([`superelement`]) | `.npz`, `.op4`, `.fem` | everything of a condensed housing | `.npz` |
+//! | columns of a run under way ([`ColumnFiles`]) | `.f64` | time, sensors, forces | the same |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
 //! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.
 //! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
 
 mod atomic;
+mod columns;
 pub mod csv;
 pub mod dof_table;
 mod fortran;
@@ -28,6 +30,7 @@ pub mod uff;
 pub mod vtu;
 
 pub use atomic::{AtomicFile, write_atomic};
+pub use columns::{ColumnError, ColumnFiles};
 pub use csv::{CsvError, read_modes_csv, write_modes_csv};
 pub use dof_table::{
     DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,

@@ -9,28 +9,82 @@ pub(super) struct Thinned {
     pub(super) stride: f64,
 }
 
-/// Thins evenly spaced `values` to at most `most` (at least 2) by keeping the lowest and highest of each bucket, in
-/// their order. Left alone if there are no more than that. A bucket without a finite value gives two gaps (NaN).
-/// Abscissas are then good to a bucket: value k stands for samples near k stride.
+/// Thins evenly spaced `values` to at most `most` (at least 2) as a [`Thinner`] does.
 pub(super) fn even(values: &[f64], most: usize) -> Thinned {
-    let most = most.max(2);
-    if values.len() <= most {
-        return Thinned {
-            values: values.to_vec(),
-            stride: 1.0,
+    let mut thinner = Thinner::new(values.len(), most);
+    thinner.push(values);
+    thinner.finish()
+}
+
+/// Thins evenly spaced values that come in pieces by keeping the lowest and highest of each bucket, in their order: a signal
+/// of any length takes the memory of what is kept. Left alone if there are no more values than may stay. A bucket without a
+/// finite value gives two gaps (NaN). Abscissas are then good to a bucket: value k stands for samples near k stride.
+#[derive(Debug, Clone)]
+pub struct Thinner {
+    /// Values in a bucket; 0: all stay.
+    bucket: usize,
+    /// Of the bucket under way.
+    under_way: Vec<f64>,
+    kept: Vec<f64>,
+}
+
+impl Thinner {
+    /// For so many values, of which at most `most` (at least 2) stay.
+    #[must_use]
+    pub fn new(length: usize, most: usize) -> Self {
+        let most = most.max(2);
+        let bucket = if length <= most {
+            0
+        } else {
+            length.div_ceil(most / 2)
         };
+        Self {
+            bucket,
+            under_way: Vec::with_capacity(bucket),
+            kept: Vec::with_capacity(length.min(most)),
+        }
     }
-    let bucket = values.len().div_ceil(most / 2);
-    let thinned = values
-        .chunks(bucket)
-        .flat_map(|chunk| match extremes(chunk) {
-            Some((first, second)) => [chunk[first], chunk[second]],
+
+    /// Takes the next values.
+    pub fn push(&mut self, values: &[f64]) {
+        if self.bucket == 0 {
+            self.kept.extend_from_slice(values);
+            return;
+        }
+        let mut rest = values;
+        while !rest.is_empty() {
+            let room = self.bucket - self.under_way.len();
+            let (next, later) = rest.split_at(room.min(rest.len()));
+            self.under_way.extend_from_slice(next);
+            rest = later;
+            if self.under_way.len() == self.bucket {
+                self.close();
+            }
+        }
+    }
+
+    fn close(&mut self) {
+        let bucket = &self.under_way;
+        self.kept.extend(match extremes(bucket) {
+            Some((first, second)) => [bucket[first], bucket[second]],
             None => [f64::NAN, f64::NAN],
-        })
-        .collect();
-    Thinned {
-        values: thinned,
-        stride: 0.5 * bucket as f64,
+        });
+        self.under_way.clear();
+    }
+
+    /// What stays.
+    pub(super) fn finish(mut self) -> Thinned {
+        if !self.under_way.is_empty() {
+            self.close();
+        }
+        Thinned {
+            values: self.kept,
+            stride: if self.bucket == 0 {
+                1.0
+            } else {
+                0.5 * self.bucket as f64
+            },
+        }
     }
 }
 
@@ -93,6 +147,19 @@ mod tests {
         assert!(kept.len() <= 40);
         assert!([333, 334, 999].iter().all(|k| kept.contains(k)));
         assert!(kept.is_sorted());
+    }
+
+    #[test]
+    fn pieces_make_no_difference() {
+        let values: Vec<f64> = (0..1003).map(|k| f64::from(k * k % 97)).collect();
+        for most in [2, 40, 333, 2000] {
+            let whole = even(&values, most);
+            for piece in [1, 7, 50, 1003] {
+                let mut thinner = Thinner::new(values.len(), most);
+                values.chunks(piece).for_each(|piece| thinner.push(piece));
+                assert_eq!(thinner.finish(), whole, "{most} {piece}");
+            }
+        }
     }
 
     #[test]

@@ -13,6 +13,9 @@ use super::svg_plot::COLOURS;
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 pub(super) const BUDGET: usize = 2_800_000;
 
+/// Points that the signals of a report may have together such that it embeds them whole beside its other curves.
+pub const SIGNAL_POINTS: usize = 500_000;
+
 #[derive(Debug, Serialize)]
 struct PlotData<'a> {
     width: f64,

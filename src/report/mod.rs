@@ -34,8 +34,10 @@ mod ticks;
 
 pub use bars::{BarSeries, Bars};
 pub use content::{Block, Fact, Headline, Report, Section, TableFiles, Verdict};
+pub use decimate::Thinner;
 pub use document::{Document, MeshFile};
 pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
+pub use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
 pub use number::{fixed, pretty_unit, significant};

@@ -1,5 +1,6 @@
 //! Plots as plain data: curves on two axes, with vertical lines.
 
+use super::decimate::Thinner;
 use crate::series::TimeSeries;
 use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
 
@@ -135,6 +136,16 @@ impl Curve {
             step: series.step_s(),
         };
         Self::new(name, x, series.values().to_vec())
+    }
+
+    /// A sampled signal from `start` on every `step`, thinned while it was read.
+    pub fn of_thinned(name: impl Into<String>, [start, step]: [f64; 2], signal: Thinner) -> Self {
+        let thinned = signal.finish();
+        let x = Abscissa::Even {
+            start,
+            step: step * thinned.stride,
+        };
+        Self::new(name, x, thinned.values)
     }
 
     /// An amplitude spectrum over frequency.

@@ -34,6 +34,38 @@ pub struct TimeWindow {
     pub to: f64,
 }
 
+impl TimeWindow {
+    /// Checks that the window lies in a series of so many samples, the first at `start_s`, one every `step_s`, without the
+    /// series: for one that is read in part.
+    ///
+    /// # Errors
+    /// [`SeriesError::WindowOrder`], [`SeriesError::WindowOutside`].
+    pub fn check_inside(
+        self,
+        start_s: f64,
+        step_s: f64,
+        samples: usize,
+    ) -> Result<(), SeriesError> {
+        let (from_s, to_s) = (self.from, self.to);
+        if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
+            return Err(SeriesError::WindowOrder { from_s, to_s });
+        }
+        let position = |t: f64| (t - start_s) / step_s;
+        let samples = samples as f64;
+        if position(from_s) < -INSTANT_TOLERANCE_STEPS
+            || position(to_s) > samples + INSTANT_TOLERANCE_STEPS
+        {
+            return Err(SeriesError::WindowOutside {
+                from_s,
+                to_s,
+                start_s,
+                end_s: start_s + samples * step_s,
+            });
+        }
+        Ok(())
+    }
+}
+
 impl TimeSeries {
     /// Series of `values` (length n >= 1, in `unit`), the first at `start_s`, one every `step_s` > 0 seconds.
     ///
@@ -130,21 +162,14 @@ impl TimeSeries {
     /// [`SeriesError::WindowOrder`] if `to_s` <= `from_s` or a bound is not finite, [`SeriesError::WindowOutside`] if
     /// the window reaches beyond the series, [`SeriesError::WindowEmpty`] if it falls between two samples.
     pub fn window(&self, from_s: f64, to_s: f64) -> Result<Self, SeriesError> {
-        if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
-            return Err(SeriesError::WindowOrder { from_s, to_s });
-        }
+        let samples = self.values.len();
+        let window = TimeWindow {
+            from: from_s,
+            to: to_s,
+        };
+        window.check_inside(self.start_s, self.step_s, samples)?;
         let position = |t: f64| (t - self.start_s) / self.step_s;
-        let samples = self.values.len() as f64;
-        if position(from_s) < -INSTANT_TOLERANCE_STEPS
-            || position(to_s) > samples + INSTANT_TOLERANCE_STEPS
-        {
-            return Err(SeriesError::WindowOutside {
-                from_s,
-                to_s,
-                start_s: self.start_s,
-                end_s: self.end_s(),
-            });
-        }
+        let samples = samples as f64;
         let index = |t: f64| {
             (position(t) - INSTANT_TOLERANCE_STEPS)
                 .ceil()

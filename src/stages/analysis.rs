@@ -3,7 +3,7 @@
 use super::StageError;
 use crate::case::Case;
 use crate::closed_form::race::DefectOrders;
-use crate::series::TimeSeries;
+use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
     EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, envelope_peaks,
 };
@@ -48,31 +48,36 @@ pub struct WindowAnalysis {
     pub outer: [(f64, Option<(f64, f64)>); 2],
 }
 
-/// Analyses one sensor's acceleration in every window of the case.
+/// What is read of a signal before and after a window, in periods of the high-pass's cut-off: filter and envelope err there, by
+/// the ends of what is read, by 1 / (pi 2 pi n) of the signal n periods from an end.
+const MARGIN_PERIODS: f64 = 200.0;
+
+/// Analyses one sensor's acceleration in every window of the case. `read` gives the stretch of it that holds a window (s), with
+/// so many seconds before and after as there are: at least the window's own length, that its envelope has no edges.
 ///
 /// # Errors
+/// Of `read`, and
 /// [`StageError::Signal`] or [`StageError::Series`] for a window outside the signal or a filter
 /// that does not fit the sampling.
 pub fn analyse(
     case: &Case,
     sensor: &str,
-    signal: &TimeSeries,
+    read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
     setup: &BearingSetup,
 ) -> Result<Vec<WindowAnalysis>, StageError> {
-    if case.analysis.envelope.is_empty() {
-        return Ok(Vec::new());
-    }
     let settings = EnvelopeAnalysis {
         high_pass_hz: case.analysis.high_pass_hz,
         ..EnvelopeAnalysis::default()
     };
-    let envelope = settings.envelope(signal)?;
+    let filtered_s = settings.high_pass_hz.map_or(0.0, |hz| MARGIN_PERIODS / hz);
     case.analysis
         .envelope
         .iter()
         .map(|window| {
             let (from, to) = (window.from, window.to);
-            let part = signal.window(from, to)?;
+            let stretch = read(TimeWindow { from, to }, filtered_s.max(to - from))?;
+            let envelope = settings.envelope(&stretch)?;
+            let part = stretch.window(from, to)?;
             let turned = setup.cage.shaft().angle(to) - setup.cage.shaft().angle(from);
             let speed_hz = (turned / (to - from) / TAU).abs();
             let spectrum = settings.window_of(&envelope, from, to)?;

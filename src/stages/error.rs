@@ -1,11 +1,11 @@
 //! What can go wrong on the way from a case to a result, and whose fault it is.
 
-use super::ImportError;
+use super::{ImportError, UnfinishedError};
 use crate::bearing::defect::DefectError;
 use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError, WaveError};
 use crate::case::{CaseError, ModeExtent};
 use crate::element::ElementError;
-use crate::exchange::{CsvError, NpzError, ReadModesError, UffError};
+use crate::exchange::{ColumnError, CsvError, NpzError, ReadModesError, UffError};
 use crate::linalg::HarmonicError;
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
@@ -314,6 +314,20 @@ pub enum StageError {
     /// Time integration.
     #[error(transparent)]
     Transient(#[from] TransientError),
+    /// An unfinished run that is in the way or cannot go on.
+    #[error(transparent)]
+    Unfinished(#[from] UnfinishedError),
+    /// A run that was asked to stop; it can go on.
+    #[error("interrupted at t = {at_s:.6} s of {end_s} s")]
+    Interrupted {
+        /// How far it came, s.
+        at_s: f64,
+        /// How far it was to go, s.
+        end_s: f64,
+    },
+    /// Columns of a run on disk.
+    #[error(transparent)]
+    Columns(#[from] ColumnError),
     /// Records.
     #[error(transparent)]
     Series(#[from] SeriesError),
@@ -346,6 +360,8 @@ impl StageError {
             Self::Case(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
             Self::Import { source, .. } => source.help(),
+            Self::Unfinished(error) => error.help(),
+            Self::Columns(ColumnError::Cut { .. }) => Some(UnfinishedError::ANEW.to_owned()),
             Self::InterfaceHeld { .. } => Some(
                 "name other nodes in condense.interface, or take the support off them".to_owned(),
             ),
@@ -389,6 +405,8 @@ impl StageError {
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
+            Self::Unfinished(error) => error.is_input(),
+            Self::Interrupted { .. } | Self::Columns(ColumnError::Io { .. }) => false,
             Self::Series(_) | Self::Npz(_) | Self::Uff(_) | Self::Report(_) => false,
             _ => true,
         }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::StageError;
@@ -12,8 +12,8 @@ use crate::case::Case;
 use crate::mesh::MeshError;
 use crate::report::MeshFile;
 
-/// A mesh file and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+/// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MeshDigest {
     /// The file, as the case names it from where the program was called.
     pub path: PathBuf,

@@ -32,6 +32,7 @@ mod imported_report;
 #[cfg(test)]
 mod imported_tests;
 mod inspect;
+mod keeper;
 mod loaded_pass;
 mod loose;
 mod mesh_digest;
@@ -44,6 +45,7 @@ mod mode_shapes;
 mod modes;
 mod modes_report;
 mod places;
+mod recording;
 mod reduced_interface;
 mod reduced_interface_report;
 mod run;
@@ -52,6 +54,8 @@ mod run_report;
 mod scene;
 mod shape_view;
 mod simulation;
+#[cfg(test)]
+mod simulation_tests;
 mod size_chart;
 mod statics;
 mod statics_report;
@@ -60,6 +64,7 @@ mod superelement_record;
 mod survey;
 mod tables;
 mod tie_price;
+mod unfinished;
 
 pub use analysis::{WindowAnalysis, analyse};
 pub use bearing::{bearing_setup, race_contacts};
@@ -81,6 +86,7 @@ pub use import_error::ImportError;
 pub use imported::ImportedHousing;
 pub use imported_report::imported_report;
 pub use inspect::{ElementShape, GroupSize, Inspection};
+pub use keeper::{InMemory, Keeper, Wish};
 pub use loaded_pass::{LoadedPass, LoadedPoint};
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;
@@ -88,8 +94,9 @@ pub use mode_checks_report::{error_text, misses_text, mode_numbers, plain, signe
 pub use mode_shapes::compute_mode_shapes;
 pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
 pub use modes_report::modes_report;
+pub use recording::Recording;
 pub use reduced_interface::ReducedInterface;
-pub use run::{RunResult, compute_run};
+pub use run::{RunResult, compute_kept_run, compute_run};
 pub use run_model::RunModel;
 pub use run_report::run_report;
 pub use scene::Scene;
@@ -101,12 +108,13 @@ pub use survey::{ModalSurvey, RingShapes};
 pub use tie_price::{
     BeamAndSolid, NoTiePrice, TIE_PRICE_MODES, TieComparison, TiePrice, tie_price,
 };
+pub use unfinished::{CHECKPOINT_S, RunIdentity, StopRequest, UnfinishedError, UnfinishedRun};
 
 /// Where a computation tells how far it is.
 pub trait Watch {
     /// A stage begins.
     fn stage(&self, name: &str);
-    /// Part of the stage that is done, 0 to 1.
+    /// Part of the stage that is done, 0 to 1; the first is where it begins.
     fn fraction(&self, done: f64);
 }
 

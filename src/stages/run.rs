@@ -2,14 +2,17 @@
 
 use super::bearing_table;
 use super::statics::Statics;
-use super::{ModelChoice, Scene, Simulation, Span, StageError, Watch, WindowAnalysis, analyse};
+use super::{
+    InMemory, Keeper, ModelChoice, Recording, Scene, Simulation, Span, StageError, Watch,
+    WindowAnalysis, analyse,
+};
 use crate::case::Case;
 use crate::report::Table;
-use crate::system::{LoadedModes, SystemError};
+use crate::system::{LoadedModes, RunRecord, SystemError};
 
 /// Result of a run.
 #[derive(Debug)]
-pub struct RunResult {
+pub struct RunResult<R = RunRecord> {
     /// What was simulated.
     pub scene: Scene,
     /// Its equilibrium among the others, and over a ball pass.
@@ -19,18 +22,30 @@ pub struct RunResult {
     /// Modes linearised there.
     pub loaded: LoadedModes,
     /// The signals, and what they took.
-    pub simulation: Simulation,
+    pub simulation: Simulation<R>,
     /// Analysed windows of all sensors.
     pub windows: Vec<WindowAnalysis>,
     /// Windows or sensors that could not be analysed, and why.
     pub not_analysed: Vec<String>,
 }
 
-/// Carries the command out.
+/// Carries the command out, its signals in memory.
 ///
 /// # Errors
 /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
 pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
+    compute_kept_run(case, watch, &mut InMemory)
+}
+
+/// Carries the command out with its signals where `keeper` wants them, from where it says.
+///
+/// # Errors
+/// As [`compute_run`], [`StageError::Interrupted`] and what the keeper returns.
+pub fn compute_kept_run<K: Keeper>(
+    case: &Case,
+    watch: &impl Watch,
+    keeper: &mut K,
+) -> Result<RunResult<K::Record>, StageError> {
     let mut scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
@@ -49,8 +64,9 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
         output_hz: asked.output_hz,
     };
     watch.stage("step");
-    let simulation =
-        Simulation::from_rest(&scene, &choice.model, span, |done| watch.fraction(done))?;
+    let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, keeper, |done| {
+        watch.fraction(done)
+    })?;
     let mut result = RunResult {
         scene,
         statics,
@@ -65,7 +81,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     Ok(result)
 }
 
-impl RunResult {
+impl<R: Recording> RunResult<R> {
     /// Everything about the bearing in one table.
     pub fn bearing_table(&self) -> Table {
         let scene = &self.scene;
@@ -74,11 +90,9 @@ impl RunResult {
 
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
-        for (index, (name, _)) in self.simulation.record.sensors.iter().enumerate() {
-            let analysed = self
-                .simulation
-                .signal(index)
-                .and_then(|signal| analyse(case, name, &signal, &self.scene.setup));
+        for (index, name) in self.simulation.record.sensors().iter().enumerate() {
+            let read = |window, margin| self.simulation.stretch(index, window, margin);
+            let analysed = analyse(case, name, read, &self.scene.setup);
             match analysed {
                 Ok(windows) => self.windows.extend(windows),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),

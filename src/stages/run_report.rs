@@ -3,12 +3,13 @@
 use super::drawing::draw;
 use super::statics_report::statics_section;
 use super::tables::{assumptions, expected_table, mode_table, model_facts};
-use super::{ExpectedMode, RunEnd, RunResult, StageError, WindowAnalysis};
+use super::{ExpectedMode, Recording, RunEnd, RunResult, StageError, WindowAnalysis};
 use crate::case::Case;
 use crate::report::{
-    Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
-    significant,
+    Axis, Cell, Column as TableColumn, Curve, CurveStyle, Fact, Marker, Plot, Report,
+    SIGNAL_POINTS, Section, Table, Thinner, Verdict, significant,
 };
+use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
 const LISTED_MODES: usize = 20;
@@ -17,7 +18,11 @@ const LISTED_MODES: usize = 20;
 ///
 /// # Errors
 /// [`StageError`] if a signal cannot be shown.
-pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Report, StageError> {
+pub fn run_report<R: Recording>(
+    case: &Case,
+    result: &RunResult<R>,
+    command: &str,
+) -> Result<Report, StageError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
     report = headlines(report, result);
@@ -53,7 +58,7 @@ pub fn run_report(case: &Case, result: &RunResult, command: &str) -> Result<Repo
     Ok(report)
 }
 
-fn headlines(mut report: Report, result: &RunResult) -> Report {
+fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report {
     report = report.headline(
         "Simulated",
         format!("{} s", significant(result.simulation.simulated_s, 4)),
@@ -86,20 +91,28 @@ fn headlines(mut report: Report, result: &RunResult) -> Report {
     report
 }
 
-fn signals(result: &RunResult) -> Result<Section, StageError> {
+fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
     let mut section = Section::new("Signals");
-    if result.simulation.record.time_s.is_empty() {
+    let simulation = &result.simulation;
+    let (record, rows) = (&simulation.record, simulation.record.rows());
+    if rows == 0 {
         return Ok(section.paragraph("The run ended before the first instant was complete."));
     }
-    for (index, (name, _)) in result.simulation.record.sensors.iter().enumerate() {
-        let signal = result.simulation.signal(index)?;
+    let sensors = record.sensors();
+    let grid = [simulation.start_s, simulation.schedule.interval];
+    for (index, name) in sensors.iter().enumerate() {
+        let mut thinner = Thinner::new(rows, SIGNAL_POINTS / sensors.len());
+        record.read(Column::Sensor(index), 0..rows, &mut |piece| {
+            thinner.push(piece);
+            Ok(())
+        })?;
         section = section.plot(
             Plot::new(
                 format!("Acceleration at {name}"),
                 Axis::new("Time", "s"),
                 Axis::new("Acceleration", "m/s^2"),
             )
-            .curve(Curve::of_series(name, &signal))
+            .curve(Curve::of_thinned(name, grid, thinner))
             .caption("Drag to zoom, double click to reset."),
         );
     }
@@ -137,11 +150,11 @@ fn envelope(window: &WindowAnalysis) -> Section {
     let mut peaks = Table::new(
         "Strongest peaks",
         [
-            Column::number("Frequency", "Hz"),
-            Column::number("Amplitude", "m/s^2"),
-            Column::text("Nearest line"),
-            Column::number("Expected", "Hz"),
-            Column::number("Deviation", "%"),
+            TableColumn::number("Frequency", "Hz"),
+            TableColumn::number("Amplitude", "m/s^2"),
+            TableColumn::text("Nearest line"),
+            TableColumn::number("Expected", "Hz"),
+            TableColumn::number("Deviation", "%"),
         ],
     );
     for peak in &window.peaks {
@@ -196,7 +209,7 @@ fn envelope(window: &WindowAnalysis) -> Section {
         .table(peaks)
 }
 
-fn frequencies(case: &Case, result: &RunResult) -> Section {
+fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let modes = &result.scene.stage.modes;
     let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES))
         .map(|mode| modes.frequency_hz(mode))
@@ -228,7 +241,7 @@ fn frequencies(case: &Case, result: &RunResult) -> Section {
     section.table(mode_table(&unloaded, Some(&result.loaded)))
 }
 
-fn computation(result: &RunResult) -> Vec<Fact> {
+fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
     vec![
         Fact::new("Method", result.simulation.method.name()),
         Fact::new(

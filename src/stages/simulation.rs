@@ -1,11 +1,18 @@
 //! A scene stepped through time by one model.
 
-use super::{RunModel, Scene, StageError};
-use crate::dynamics::State;
-use crate::series::TimeSeries;
-use crate::system::{CoupledSystem, Recorder, RunRecord};
-use crate::transient::{BlowUp, Method, Schedule, Statistics, Stepping, TransientError, integrate};
+use super::keeper::fingerprint;
+use super::{InMemory, Keeper, Recording, RunModel, Scene, StageError, UnfinishedError, Wish};
+use crate::dynamics::{Snapshot, State};
+use crate::series::{SeriesError, TimeSeries, TimeWindow};
+use crate::system::{Column, CoupledSystem, Recorder, RunRecord};
+use crate::transient::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
 use std::time::Instant;
+
+/// Rows that are handed on at once.
+const BLOCK: usize = 4096;
+
+/// Parts of the way at which it is told.
+const TOLD: u64 = 10_000;
 
 /// What is simulated of a scene, from its start on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +34,7 @@ pub enum RunEnd {
 
 /// Signals of a scene by one model, and what they took.
 #[derive(Debug)]
-pub struct Simulation {
+pub struct Simulation<R = RunRecord> {
     /// Method used.
     pub method: Method,
     /// How the time was cut.
@@ -38,18 +45,20 @@ pub struct Simulation {
     pub residual: bool,
     /// Steps and evaluations.
     pub statistics: Statistics,
+    /// When it began, s.
+    pub start_s: f64,
     /// Simulated time, s.
     pub simulated_s: f64,
-    /// Wall time of the stepping alone, s.
+    /// Wall time of the stepping alone, s; of a run that went on, of all its parts.
     pub stepping_s: f64,
     /// Signals.
-    pub record: RunRecord,
+    pub record: R,
     /// How it ended.
     pub end: RunEnd,
 }
 
 impl Simulation {
-    /// Steps a scene through `span` from rest; `fraction` is told how far it is, 0 to 1.
+    /// Steps a scene through `span` from rest, its signals in memory; `fraction` is told how far it is, 0 to 1.
     ///
     /// # Errors
     /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
@@ -59,9 +68,7 @@ impl Simulation {
         span: Span,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
-        let system = scene.system(model)?;
-        let state = scene.at_rest(&system);
-        Self::from_state(system, state, model, span, fraction)
+        Self::kept_from_rest(scene, model, span, &mut InMemory, fraction)
     }
 
     /// Steps a system of a model through `span` from a state.
@@ -69,59 +76,92 @@ impl Simulation {
     /// # Errors
     /// As [`from_rest`](Self::from_rest).
     pub fn from_state(
-        mut system: CoupledSystem,
-        mut state: State,
+        system: CoupledSystem,
+        state: State,
         model: &RunModel,
         span: Span,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
-        let start = state.t;
+        Self::kept(system, state, model, span, &mut InMemory, fraction)
+    }
+
+    /// A sensor's acceleration as a series, m/s^2.
+    ///
+    /// # Errors
+    /// [`StageError::Series`] if nothing was recorded.
+    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
+        let values = self.record.sensors[sensor].1.clone();
+        let step = self.schedule.interval;
+        Ok(TimeSeries::new(self.start_s, step, UNIT, values)?)
+    }
+}
+
+/// Unit of the sensors.
+const UNIT: &str = "m/s^2";
+
+impl<R: Recording> Simulation<R> {
+    /// Steps a scene through `span` from rest, or goes on where `keeper` says. What it takes does not grow with time.
+    ///
+    /// # Errors
+    /// [`StageError`], [`StageError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
+    /// is no error here but a [`RunEnd`].
+    pub fn kept_from_rest(
+        scene: &Scene,
+        model: &RunModel,
+        span: Span,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        let system = scene.system(model)?;
+        let state = scene.at_rest(&system);
+        Self::kept(system, state, model, span, keeper, fraction)
+    }
+
+    /// The same from any state.
+    fn kept(
+        mut system: CoupledSystem,
+        state: State,
+        model: &RunModel,
+        span: Span,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        let start_s = state.t;
         let mut schedule = Schedule::covering(span.duration, 1.0 / span.output_hz, model.step)?;
         let wanted = usize::try_from(schedule.intervals)
             .unwrap_or(usize::MAX)
             .saturating_add(1);
-        let mut recorder = Recorder::new(
-            &system,
-            schedule.steps_per_interval,
-            schedule.step(),
-            wanted,
-        )?;
+        let (ratio, step) = (schedule.steps_per_interval, schedule.step());
+        let recorder = Recorder::new(&system, ratio, step, wanted)?;
         schedule.intervals += recorder.intervals_past_the_end();
-        let report_every = (schedule.intervals / 1000).max(1);
-        let clock = Instant::now();
-        let stepped = integrate(
-            &mut system,
-            model.method,
-            &schedule,
-            &mut state,
-            &mut recorder,
-            |done, total| {
-                if done.is_multiple_of(report_every) {
-                    fraction(done as f64 / total as f64);
-                }
-                Stepping::Continue
-            },
-        );
-        let stepping_s = clock.elapsed().as_secs_f64();
-        let (statistics, end, record) = match stepped {
-            Ok(statistics) => (statistics, RunEnd::Complete, recorder.finish()),
-            Err(error) => {
-                let TransientError::BlewUp(blow_up) = error else {
-                    return Err(error.into());
-                };
-                let record = recorder.finish_after(blow_up.good_intervals);
-                (blow_up.statistics, RunEnd::BlewUp(blow_up), record)
-            }
+        let (record, snapshot) = keeper.open(system.sensor_names(), system.setup().balls())?;
+        let mut stepping = Stepping {
+            fingerprint: fingerprint(&mut system, &state),
+            recorder,
+            record,
+            end_s: start_s + span.duration,
+            before_s: 0.0,
+            clock: Instant::now(),
         };
+        let mut integration = match snapshot {
+            None => {
+                let recorder = &mut stepping.recorder;
+                Integration::begin(&mut system, model.method, schedule, state, recorder)?
+            }
+            Some(snapshot) => stepping.recalled(&system, model.method, schedule, &snapshot)?,
+        };
+        let end = stepping.go(&mut system, &mut integration, schedule, keeper, fraction)?;
+        keeper.close();
         Ok(Self {
             method: model.method,
             schedule,
             modes: system.modes(),
             residual: system.has_residual(),
-            statistics,
-            simulated_s: state.t - start,
-            stepping_s,
-            record,
+            statistics: integration.statistics(),
+            start_s,
+            simulated_s: integration.state().t - start_s,
+            stepping_s: stepping.wall_s(),
+            record: stepping.record,
             end,
         })
     }
@@ -140,18 +180,141 @@ impl Simulation {
         }
     }
 
-    /// A sensor's acceleration as a series, m/s^2.
+    /// Part of a sensor's acceleration, m/s^2: a window with so many seconds before and after it as there are.
     ///
     /// # Errors
-    /// [`StageError::Series`] if nothing was recorded.
-    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
-        let start = self.record.time_s.first().copied().unwrap_or(0.0);
-        let values = self.record.sensors[sensor].1.clone();
-        Ok(TimeSeries::new(
-            start,
-            self.schedule.interval,
-            "m/s^2",
-            values,
-        )?)
+    /// [`StageError::Series`] for a window that is not in the record, and what reading it returns.
+    pub fn stretch(
+        &self,
+        sensor: usize,
+        window: TimeWindow,
+        margin_s: f64,
+    ) -> Result<TimeSeries, StageError> {
+        let (rows, step) = (self.record.rows(), self.schedule.interval);
+        if rows == 0 {
+            return Err(SeriesError::Empty.into());
+        }
+        window.check_inside(self.start_s, step, rows)?;
+        let position = |t: f64| (t - self.start_s) / step;
+        // a row more at each end: bounds may miss their instants by round-off
+        let first = (position(window.from - margin_s).floor() - 1.0).max(0.0) as usize;
+        let end = (position(window.to + margin_s).ceil() + 1.0).max(0.0) as usize;
+        let mut values = Vec::new();
+        self.record
+            .read(Column::Sensor(sensor), first..end, &mut |piece| {
+                values.extend_from_slice(piece);
+                Ok(())
+            })?;
+        let start_s = self.start_s + first as f64 * step;
+        Ok(TimeSeries::new(start_s, step, UNIT, values)?)
+    }
+}
+
+/// A simulation under way.
+struct Stepping<R> {
+    fingerprint: [u64; 4],
+    recorder: Recorder,
+    record: R,
+    end_s: f64,
+    /// Wall time of the parts before this one, s.
+    before_s: f64,
+    clock: Instant,
+}
+
+impl<R: Recording> Stepping<R> {
+    fn wall_s(&self) -> f64 {
+        self.before_s + self.clock.elapsed().as_secs_f64()
+    }
+
+    /// Goes to the end, or as far as it comes.
+    fn go(
+        &mut self,
+        system: &mut CoupledSystem,
+        integration: &mut Integration<CoupledSystem>,
+        schedule: Schedule,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<RunEnd, StageError> {
+        let tell_every = (schedule.intervals / TOLD).max(1);
+        let tell = |done: u64| fraction(done as f64 / schedule.intervals as f64);
+        tell(integration.intervals());
+        self.keep(integration, keeper)?;
+        while !integration.is_complete() {
+            if let Err(error) = integration.advance(system, &mut self.recorder) {
+                self.hand_on()?;
+                return match error {
+                    TransientError::BlewUp(blow_up) => Ok(RunEnd::BlewUp(blow_up)),
+                    other => Err(other.into()),
+                };
+            }
+            self.recorder.confirm();
+            if self.recorder.confirmed() >= BLOCK {
+                self.hand_on()?;
+            }
+            let done = integration.intervals();
+            if done.is_multiple_of(tell_every) {
+                tell(done);
+            }
+            match keeper.wish() {
+                Wish::GoOn => {}
+                Wish::Checkpoint => self.keep(integration, keeper)?,
+                Wish::Stop if integration.is_complete() => {}
+                Wish::Stop => {
+                    self.keep(integration, keeper)?;
+                    return Err(StageError::Interrupted {
+                        at_s: integration.state().t,
+                        end_s: self.end_s,
+                    });
+                }
+            }
+        }
+        self.keep(integration, keeper)?;
+        Ok(RunEnd::Complete)
+    }
+
+    /// Brings the rows that are good into the record.
+    fn hand_on(&mut self) -> Result<(), StageError> {
+        let rows = self.recorder.take_confirmed();
+        self.record.append(&rows)
+    }
+
+    fn keep(
+        &mut self,
+        integration: &Integration<CoupledSystem>,
+        keeper: &mut impl Keeper<Record = R>,
+    ) -> Result<(), StageError> {
+        self.hand_on()?;
+        let mut snapshot = Snapshot::default();
+        for word in self.fingerprint {
+            snapshot.count(word);
+        }
+        snapshot.number(self.wall_s());
+        self.recorder.remember(&mut snapshot);
+        integration.remember(&mut snapshot);
+        keeper.keep(&self.record, integration.state().t, &snapshot)
+    }
+
+    /// Takes up what [`keep`](Self::keep) wrote.
+    fn recalled(
+        &mut self,
+        system: &CoupledSystem,
+        method: Method,
+        schedule: Schedule,
+        snapshot: &Snapshot,
+    ) -> Result<Integration<CoupledSystem>, StageError> {
+        let mut reader = snapshot.reader();
+        let mut same = true;
+        for word in self.fingerprint {
+            same &= reader.count().map_err(TransientError::from)? == word;
+        }
+        if !same {
+            return Err(UnfinishedError::Model.into());
+        }
+        self.before_s = reader.number().map_err(TransientError::from)?;
+        let recalled = self.recorder.recall(&mut reader);
+        recalled.map_err(TransientError::from)?;
+        let integration = Integration::resume(system, method, schedule, &mut reader)?;
+        reader.end().map_err(TransientError::from)?;
+        Ok(integration)
     }
 }

@@ -253,6 +253,11 @@ impl CoupledSystem {
         self.residual.is_some()
     }
 
+    /// Names of the sensors.
+    pub fn sensor_names(&self) -> Vec<String> {
+        self.sensors.iter().map(|(name, _)| name.clone()).collect()
+    }
+
     /// The bearing.
     pub fn setup(&self) -> &BearingSetup {
         &self.setup

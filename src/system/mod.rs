@@ -20,6 +20,7 @@ mod raceway;
 mod recorder;
 mod residual;
 mod resting;
+mod run_record;
 mod structure;
 mod turning;
 
@@ -29,5 +30,6 @@ pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use load::LoadProfile;
 pub use loaded::{LoadedMode, LoadedModes, LoadedShapes};
-pub use recorder::{Recorder, RunRecord};
+pub use recorder::Recorder;
+pub use run_record::{Column, RunRecord};
 pub use structure::{Sensor, Structure, StructureModes};

@@ -3,30 +3,9 @@
 
 use super::coupled::CoupledSystem;
 use super::force::dot;
-use crate::dynamics::{Instant, Observer};
-use crate::series::{Decimator, SeriesError};
-
-/// Signals of a run on one time grid; row-major tables have one row an instant.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct RunRecord {
-    /// Time of each instant, s.
-    pub time_s: Vec<f64>,
-    /// Shaft displacement in x, m.
-    pub shaft_x: Vec<f64>,
-    /// Shaft displacement in y, m.
-    pub shaft_y: Vec<f64>,
-    /// Acceleration of every sensor, m/s^2, band-limited to 0.4 of the output rate.
-    pub sensors: Vec<(String, Vec<f64>)>,
-    /// Radial positions of the balls [instants x balls], m: from the bearing centre, in `printed`
-    /// from the ring's mean centre.
-    pub ball_radius: Vec<f64>,
-    /// Forces at the outer race [instants x balls], N.
-    pub outer_force: Vec<f64>,
-    /// Forces at the inner race [instants x balls], N.
-    pub inner_force: Vec<f64>,
-    /// Number of balls.
-    pub balls: usize,
-}
+use super::run_record::{Column, RunRecord};
+use crate::dynamics::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
+use crate::series::{Decimator, DecimatorState, SeriesError};
 
 /// Takes the record while a run goes on.
 ///
@@ -35,20 +14,21 @@ pub struct RunRecord {
 /// motion is not used: in modes that a step does not resolve it is a small difference of large terms
 /// of which the integrator holds only the position well. Positions and forces are taken as they are
 /// at the instant.
+///
+/// A sensor's value comes some output intervals after its instant ([`intervals_past_the_end`](Self::intervals_past_the_end)).
+/// Rows leave the recorder when they are complete and [confirmed](Self::confirm): what it holds does not grow with time.
 #[derive(Debug)]
 pub struct Recorder {
     ratio: u64,
     wanted: usize,
-    tracks: Vec<Track>,
-    record: RunRecord,
-}
-
-/// One sensor on its way to the output rate.
-#[derive(Debug)]
-struct Track {
-    /// Takes displacements, gives accelerations.
-    filter: Decimator,
-    accelerations: Vec<f64>,
+    /// Rows begun.
+    begun: usize,
+    /// One a sensor: takes displacements, gives accelerations.
+    filters: Vec<Decimator>,
+    /// Rows that were not taken out; those whose sensors are still to come at the end.
+    queue: RunRecord,
+    /// Rows at the start of the queue that are good.
+    confirmed: usize,
 }
 
 impl Recorder {
@@ -63,85 +43,120 @@ impl Recorder {
         wanted: usize,
     ) -> Result<Self, SeriesError> {
         let filter = Decimator::second_derivative(ratio as usize, step)?;
-        let tracks = system.sensors.iter().map(|_| Track {
-            filter: filter.clone(),
-            accelerations: Vec::with_capacity(wanted),
-        });
+        let names = system.sensors.iter().map(|(name, _)| name.clone());
         Ok(Self {
             ratio: u64::from(ratio),
             wanted,
-            tracks: tracks.collect(),
-            record: RunRecord {
-                sensors: system
-                    .sensors
-                    .iter()
-                    .map(|(name, _)| (name.clone(), Vec::new()))
-                    .collect(),
-                balls: system.setup.balls(),
-                ..RunRecord::default()
-            },
+            begun: 0,
+            filters: vec![filter; system.sensors.len()],
+            queue: RunRecord::blank(names, system.setup.balls()),
+            confirmed: 0,
         })
     }
 
     /// Output intervals to go on past the last wanted instant, until its low-pass is complete.
     pub fn intervals_past_the_end(&self) -> u64 {
-        self.tracks
+        self.filters
             .first()
-            .map_or(0, |track| track.filter.half_length_outputs() as u64)
+            .map_or(0, |filter| filter.half_length_outputs() as u64)
     }
 
-    /// The record, cut to the instants for which every signal is there.
-    pub fn finish(self) -> RunRecord {
-        let wanted = self.wanted;
-        self.finish_first(wanted)
+    /// Declares everything observed so far good: rows that are complete may leave. To be called between intervals; what a run
+    /// that blows up showed in its last interval stays here.
+    pub fn confirm(&mut self) {
+        self.confirmed = self.queue.rows();
     }
 
-    /// The record of a run that ended badly after `intervals` good output intervals: without the
-    /// instants whose low-pass reaches beyond them.
-    pub fn finish_after(self, intervals: u64) -> RunRecord {
-        let good = intervals.saturating_sub(self.intervals_past_the_end());
-        self.finish_first(usize::try_from(good).unwrap_or(usize::MAX))
+    /// Number of rows that may leave.
+    pub fn confirmed(&self) -> usize {
+        self.confirmed
     }
 
-    fn finish_first(mut self, most: usize) -> RunRecord {
-        let mut instants = self.record.time_s.len().min(self.wanted).min(most);
-        for track in &self.tracks {
-            instants = instants.min(track.accelerations.len());
+    /// Takes these rows out.
+    pub fn take_confirmed(&mut self) -> RunRecord {
+        let rows = std::mem::take(&mut self.confirmed);
+        self.queue.take_first(rows)
+    }
+
+    /// The record of a run that ended well, cut to the instants for which every signal is there.
+    pub fn finish(mut self) -> RunRecord {
+        self.confirm();
+        self.take_confirmed()
+    }
+
+    /// Writes all that the rows to come depend on. Confirmed rows belong to those who took them out: to be called after
+    /// [`take_confirmed`](Self::take_confirmed).
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.begun as u64);
+        for filter in &self.filters {
+            let state = filter.state();
+            snapshot.count(state.phase as u64);
+            snapshot.count(state.intervals);
+            snapshot.numbers(&state.accumulators);
+            snapshot.option(state.first_value);
         }
-        let record = &mut self.record;
-        for (track, (_, values)) in self.tracks.iter().zip(&mut record.sensors) {
-            *values = track.accelerations[..instants].to_vec();
+        for column in Column::all(self.filters.len()) {
+            snapshot.numbers(self.queue.column(column));
         }
-        for column in [&mut record.time_s, &mut record.shaft_x, &mut record.shaft_y] {
-            column.truncate(instants);
+    }
+
+    /// Reads what [`remember`](Self::remember) wrote, into a recorder made for the same system, step and instants.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for a snapshot of something else.
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        let short = |_| SnapshotError::Short;
+        self.begun = snapshot.count()?.try_into().map_err(short)?;
+        for filter in &mut self.filters {
+            let state = DecimatorState {
+                phase: snapshot.count()?.try_into().map_err(short)?,
+                intervals: snapshot.count()?,
+                accumulators: snapshot.numbers()?,
+                first_value: snapshot.option()?,
+            };
+            let other = SnapshotError::Other {
+                what: "steps an output",
+                expected: self.ratio,
+                found: state.phase as u64,
+            };
+            *filter = filter.clone().with_state(&state).map_err(|_| other)?;
         }
-        for table in [
-            &mut record.ball_radius,
-            &mut record.outer_force,
-            &mut record.inner_force,
-        ] {
-            table.truncate(instants * record.balls);
+        for column in Column::all(self.filters.len()) {
+            *self.queue.column_mut(column) = snapshot.numbers()?;
         }
-        self.record
+        let (begun, balls) = (self.queue.time_s.len(), self.queue.balls);
+        for column in Column::all(self.filters.len()) {
+            let (expected, found) = (begun * column.width(balls), self.queue.column(column).len());
+            if found != expected && !matches!(column, Column::Sensor(_)) {
+                return Err(SnapshotError::Other {
+                    what: "numbers of a column",
+                    expected: expected as u64,
+                    found: found as u64,
+                });
+            }
+        }
+        self.confirmed = 0;
+        Ok(())
     }
 }
 
 impl Observer<CoupledSystem> for Recorder {
     fn observe(&mut self, system: &CoupledSystem, now: Instant<'_>) {
         let modes = system.modes;
-        for (sensor, track) in self.tracks.iter_mut().enumerate() {
+        for (sensor, filter) in self.filters.iter_mut().enumerate() {
             let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
                 let forces = system.balls.all(|ball| &ball.outer_radial);
                 let row = residual.sensor_row(sensor).as_flattened().iter();
                 row.zip(forces).map(|(row, force)| row * force).sum()
             });
-            if let Some(acceleration) = track.filter.push(modal + residual) {
-                track.accelerations.push(acceleration);
+            if let Some(acceleration) = filter.push(modal + residual) {
+                self.queue.sensors[sensor].1.push(acceleration);
             }
         }
-        if now.step.is_multiple_of(self.ratio) && self.record.time_s.len() < self.wanted {
-            let record = &mut self.record;
+        if now.step.is_multiple_of(self.ratio) && self.begun < self.wanted {
+            self.begun += 1;
+            let record = &mut self.queue;
             record.time_s.push(now.t);
             record.shaft_x.push(now.y[modes]);
             record.shaft_y.push(now.y[modes + 1]);

@@ -22,7 +22,7 @@
 mod flow;
 
 use super::driver::{Statistics, Stepper};
-use crate::dynamics::{Divergence, SecondOrderSystem};
+use crate::dynamics::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use flow::{Flow, Track};
 
 /// Largest `h sqrt(k)` at which no solution under a force `-k y` grows: where the characteristic polynomial of the two
@@ -129,5 +129,19 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        self.statistics.remember(snapshot);
+        snapshot.count(u64::from(self.halvings));
+        self.track.remember(snapshot);
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.statistics = Statistics::recalled(snapshot)?;
+        let most = self.flows.len() as u64 - 1;
+        // a snapshot of fewer halvings goes on with as many as there are
+        self.halvings = snapshot.count()?.min(most) as u32;
+        self.track.recall(snapshot)
     }
 }

@@ -8,7 +8,9 @@ use super::implicit::Implicit;
 use super::integration::Integration;
 use super::newmark::NewmarkExplicit;
 use super::splitting::Splitting;
-use crate::dynamics::{Divergence, Observer, SecondOrderSystem, State};
+use crate::dynamics::{
+    Divergence, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State,
+};
 use std::f64::consts::TAU;
 
 /// Integration method.
@@ -88,6 +90,33 @@ impl Statistics {
             evaluations: steps + 1,
             ..Self::default()
         }
+    }
+
+    /// Writes the counts.
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
+        for count in [
+            self.steps,
+            self.rejected,
+            self.evaluations,
+            self.solves,
+            self.events,
+        ] {
+            snapshot.count(count);
+        }
+    }
+
+    /// The counts as they were written.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Short`].
+    pub(super) fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+        Ok(Self {
+            steps: snapshot.count()?,
+            rejected: snapshot.count()?,
+            evaluations: snapshot.count()?,
+            solves: snapshot.count()?,
+            events: snapshot.count()?,
+        })
     }
 }
 
@@ -189,6 +218,15 @@ pub(super) trait Stepper<S> {
 
     /// What it took so far.
     fn statistics(&self) -> Statistics;
+
+    /// Writes all that the next steps depend on, beside state and force, and the counts.
+    fn remember(&self, snapshot: &mut Snapshot);
+
+    /// Reads what [`remember`](Self::remember) wrote, into a stepper made for the same system and step.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for a snapshot of something else.
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError>;
 }
 
 /// Integrates `system` from `state`, which is left at the end or at the last good instant.

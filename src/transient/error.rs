@@ -2,7 +2,7 @@
 
 use super::driver::{Method, Statistics};
 use super::limit::StepLimit;
-use crate::dynamics::Divergence;
+use crate::dynamics::{Divergence, SnapshotError};
 use std::fmt;
 use thiserror::Error;
 
@@ -22,6 +22,9 @@ pub enum TransientError {
     /// The solution blew up.
     #[error(transparent)]
     BlewUp(Box<BlowUp>),
+    /// A snapshot to go on from is of something else.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
     /// The step is beyond the method's linear stability limit.
     #[error(
         "step {step_s:.4e} s is beyond the stability limit {limit_s:.4e} s of newmark-explicit (2 / omega of the highest mode, {highest_hz:.4e} Hz)"

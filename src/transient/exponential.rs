@@ -16,7 +16,7 @@
 
 use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
-use crate::dynamics::{Divergence, SecondOrderSystem};
+use crate::dynamics::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 
 /// Flow coefficients of every coordinate for one step length.
 #[derive(Debug)]
@@ -73,5 +73,14 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
 
     fn statistics(&self) -> Statistics {
         Statistics::of_single_evaluations(self.steps)
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.steps);
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.steps = snapshot.count()?;
+        Ok(())
     }
 }

@@ -18,7 +18,10 @@
 
 use super::driver::{Statistics, Stepper};
 use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
-use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent};
+use crate::dynamics::{
+    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
+    Tangent,
+};
 
 /// Parameters of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -264,6 +267,25 @@ impl<S: SecondOrderSystem> Stepper<S> for Implicit {
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        self.statistics.remember(snapshot);
+        snapshot.flag(self.acceleration.is_some());
+        snapshot.numbers(self.acceleration.as_deref().unwrap_or_default());
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.statistics = Statistics::recalled(snapshot)?;
+        self.acceleration = if snapshot.flag()? {
+            let mut acceleration = vec![0.0; self.linear.len()];
+            snapshot.numbers_into("accelerations", &mut acceleration)?;
+            Some(acceleration)
+        } else {
+            snapshot.numbers_into("accelerations", &mut [])?;
+            None
+        };
+        Ok(())
     }
 }
 

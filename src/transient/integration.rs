@@ -2,7 +2,9 @@
 
 use super::driver::{Method, Schedule, Statistics, Stepper, stepper};
 use super::error::{BlowUp, TransientError};
-use crate::dynamics::{Divergence, Instant, Observer, SecondOrderSystem, State};
+use crate::dynamics::{
+    Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State,
+};
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
 /// step that is too long is then seen at most so many steps after its first value out of range.
@@ -55,6 +57,63 @@ impl<S: SecondOrderSystem> Integration<S> {
             intervals: 0,
             samples: 0,
         })
+    }
+
+    /// Goes on where an integration of the same system, method and schedule was when it wrote this, to the last bit as if
+    /// it had never stopped.
+    ///
+    /// # Errors
+    /// [`TransientError::Unstable`], [`TransientError::Schedule`], and [`TransientError::Snapshot`] for a snapshot of
+    /// something else.
+    pub fn resume(
+        system: &S,
+        method: Method,
+        schedule: Schedule,
+        snapshot: &mut SnapshotReader,
+    ) -> Result<Self, TransientError> {
+        let dof = system.linear().len();
+        let mut state = State {
+            t: snapshot.number()?,
+            y: vec![0.0; dof],
+            v: vec![0.0; dof],
+        };
+        let mut force = vec![0.0; dof];
+        for numbers in [&mut state.y, &mut state.v, &mut force] {
+            snapshot.numbers_into("coordinates", numbers)?;
+        }
+        let start = snapshot.number()?;
+        let (intervals, samples) = (snapshot.count()?, snapshot.count()?);
+        let mut stepper = stepper(system, method, &schedule, start)?;
+        stepper.recall(snapshot)?;
+        Ok(Self {
+            method,
+            schedule,
+            stepper,
+            good: std::array::from_fn(|_| state.clone()),
+            newest: 0,
+            start,
+            state,
+            force,
+            intervals,
+            samples,
+        })
+    }
+
+    /// Writes all that the rest depends on, between two intervals.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.number(self.state.t);
+        for numbers in [&self.state.y, &self.state.v, &self.force] {
+            snapshot.numbers(numbers);
+        }
+        snapshot.number(self.start);
+        snapshot.count(self.intervals);
+        snapshot.count(self.samples);
+        self.stepper.remember(snapshot);
+    }
+
+    /// When the first step began, s.
+    pub fn start(&self) -> f64 {
+        self.start
     }
 
     /// Whether all intervals are done.

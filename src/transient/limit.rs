@@ -31,15 +31,17 @@ pub struct StepLimit {
 enum Explicit {
     /// What the force holds: the linear part is exact.
     Force,
+    /// The same without what each coordinate meets of it as a spring of its own.
+    BesideSprings,
     /// All of it.
     Motion,
 }
 
 impl Method {
     /// The method's limit at a state of a system: `2 / omega` of what the force holds for `exponential` and `splitting`,
-    /// sqrt(3) / omega for `exponential-adams`, `2 / omega` of linear part and force together for `newmark-explicit`.
+    /// sqrt(3) / omega for `exponential-adams` of what is no spring of one coordinate in it, `2 / omega` of linear part and force together for `newmark-explicit`.
     ///
-    /// None for the implicit methods, which have no limit, for `dop853`, which chooses its steps, and where nothing vibrates.
+    /// None for the implicit methods, which have no limit, for methods that choose their steps, and where nothing vibrates.
     /// A system that does not tell its tangent has the limit of what it tells. Modes with a large `omega h` move the limit of
     /// the exponential methods by a few percent.
     pub fn step_limit<S: SecondOrderSystem>(
@@ -49,14 +51,20 @@ impl Method {
     ) -> Option<StepLimit> {
         let (phase, explicit) = match self {
             Self::Exponential | Self::Splitting => (VERLET, Explicit::Force),
-            Self::ExponentialAdams => (adams::STABILITY_LIMIT, Explicit::Force),
+            Self::ExponentialAdams { tolerance: None } => {
+                (adams::STABILITY_LIMIT, Explicit::BesideSprings)
+            }
             Self::NewmarkExplicit => (VERLET, Explicit::Motion),
-            Self::Newmark | Self::GeneralizedAlpha { .. } | Self::Dop853 { .. } => return None,
+            Self::Newmark
+            | Self::GeneralizedAlpha { .. }
+            | Self::Dop853 { .. }
+            | Self::ExponentialAdams { tolerance: Some(_) } => return None,
         };
         let mut tangent = Tangent::new(state.y.len());
         system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
         let stiffness = match explicit {
             Explicit::Force => of_terms(&tangent),
+            Explicit::BesideSprings => beside_springs(system, &tangent),
             Explicit::Motion => of_coordinates(system, &tangent),
         };
         let highest = largest_eigenvalue(&stiffness)?.sqrt();
@@ -78,10 +86,30 @@ fn of_terms(tangent: &Tangent) -> DenseMatrix {
 
 /// Linear part and tangent, \[dof x dof\].
 fn of_coordinates(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMatrix {
+    let linear = system.linear().iter();
+    with_diagonal(
+        tangent,
+        linear.map(|coordinate| coordinate.squared_frequency),
+    )
+}
+
+/// Tangent without the springs of coordinates that have none in the linear part, \[dof x dof\].
+fn beside_springs(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMatrix {
+    let mut springs = vec![0.0; tangent.dof()];
+    system.own_stiffness_into(&mut springs);
+    let linear = system.linear().iter().zip(springs);
+    let own = linear.map(|(coordinate, spring)| match coordinate.squared_frequency {
+        0.0 => -spring,
+        _ => 0.0,
+    });
+    with_diagonal(tangent, own)
+}
+
+fn with_diagonal(tangent: &Tangent, diagonal: impl Iterator<Item = f64>) -> DenseMatrix {
     let dof = tangent.dof();
     let mut matrix = DenseMatrix::zeros(dof, dof);
-    for (i, linear) in system.linear().iter().enumerate() {
-        matrix[(i, i)] = linear.squared_frequency;
+    for (i, value) in diagonal.enumerate() {
+        matrix[(i, i)] = value;
     }
     for term in 0..tangent.terms() {
         for (j, position) in tangent.position(term).iter().enumerate() {
@@ -107,6 +135,8 @@ fn largest_eigenvalue(matrix: &DenseMatrix) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::dynamics::LinearCoordinate;
+
+    const ADAMS: Method = Method::ExponentialAdams { tolerance: None };
 
     /// A body of 1 kg on a spring, and one of 0.01 kg that hangs on it by a contact of 1 N/m: positions of both.
     struct Pair([LinearCoordinate; 2]);
@@ -158,7 +188,7 @@ mod tests {
         for (method, phase, highest) in [
             (Method::Exponential, 2.0, contact),
             (Method::Splitting, 2.0, contact),
-            (Method::ExponentialAdams, 3.0_f64.sqrt(), contact),
+            (ADAMS, 3.0_f64.sqrt(), contact),
             (Method::NewmarkExplicit, 2.0, both),
         ] {
             let limit = method.step_limit(&mut pair, &rest()).expect("a limit");

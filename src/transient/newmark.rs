@@ -11,7 +11,9 @@
 //! commutes with a change of basis.
 
 use super::driver::{Statistics, Stepper};
-use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem};
+use crate::dynamics::{
+    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
+};
 
 #[derive(Debug)]
 pub(super) struct NewmarkExplicit {
@@ -74,5 +76,14 @@ impl<S: SecondOrderSystem> Stepper<S> for NewmarkExplicit {
 
     fn statistics(&self) -> Statistics {
         Statistics::of_single_evaluations(self.steps)
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.steps);
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.steps = snapshot.count()?;
+        Ok(())
     }
 }

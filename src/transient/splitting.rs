@@ -11,7 +11,7 @@
 
 use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
-use crate::dynamics::{Divergence, SecondOrderSystem};
+use crate::dynamics::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 
 #[derive(Debug)]
 pub(super) struct Splitting {
@@ -57,5 +57,14 @@ impl<S: SecondOrderSystem> Stepper<S> for Splitting {
 
     fn statistics(&self) -> Statistics {
         Statistics::of_single_evaluations(self.steps)
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.steps);
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.steps = snapshot.count()?;
+        Ok(())
     }
 }

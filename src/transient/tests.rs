@@ -330,7 +330,7 @@ impl SecondOrderSystem for Watched {
 fn a_blow_up_is_noticed_within_a_few_steps_in_an_interval_of_thousands() {
     for method in [
         Method::Exponential,
-        Method::ExponentialAdams,
+        ADAMS,
         Method::Splitting,
         Method::NewmarkExplicit,
     ] {
@@ -384,7 +384,7 @@ fn measured_limit(method: Method) -> f64 {
 fn the_limit_that_is_named_is_the_one_that_is_found() {
     for method in [
         Method::Exponential,
-        Method::ExponentialAdams,
+        ADAMS,
         Method::Splitting,
         Method::NewmarkExplicit,
     ] {
@@ -404,7 +404,7 @@ fn the_limit_that_is_named_is_the_one_that_is_found() {
 #[test]
 fn a_blow_up_tells_step_limit_and_frequency() {
     let blow_up = BlowUp {
-        method: Method::ExponentialAdams,
+        method: ADAMS,
         time: 2.300_052,
         good_until: 2.300_048,
         good_intervals: 23,

@@ -1,7 +1,9 @@
 //! One step of the exponential Adams method, coordinates side by side.
 
 use super::super::propagator::Propagator;
-use crate::dynamics::{LinearCoordinate, SecondOrderSystem};
+use crate::dynamics::{
+    LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
+};
 use multiversion::multiversion;
 
 /// The exact flow of all coordinates over a step, one column a coefficient of [`Propagator`].
@@ -184,6 +186,31 @@ impl Track {
         g.copy_from_slice(&self.force);
         self.find_springs(system);
         self.last = Some(flow.step);
+    }
+
+    /// Writes what the next step depends on.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.option(self.last);
+        for values in [
+            &self.before,
+            &self.place_before,
+            &self.springs,
+            &self.largest,
+        ] {
+            snapshot.numbers(values);
+        }
+    }
+
+    /// Reads what [`remember`](Self::remember) wrote.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for a snapshot of something else.
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.last = snapshot.option()?;
+        snapshot.numbers_into("forces a step before", &mut self.before)?;
+        snapshot.numbers_into("positions a step before", &mut self.place_before)?;
+        snapshot.numbers_into("springs", &mut self.springs)?;
+        snapshot.numbers_into("largest forces", &mut self.largest)
     }
 
     /// Takes the springs of the free coordinates where the force was evaluated last.

@@ -13,7 +13,7 @@
 //! There is none in metres: the model's units mean nothing to the method.
 
 use super::stages::Stages;
-use crate::dynamics::LinearCoordinate;
+use crate::dynamics::{LinearCoordinate, Snapshot, SnapshotError, SnapshotReader};
 
 /// How much smaller than the largest of its group a coordinate is still resolved to the whole tolerance. A static deflection
 /// under a constant force falls with omega^2, so that this covers modes over 1.5 decades of frequency, and the others to
@@ -59,6 +59,28 @@ impl Scale {
                 floors[group] = floors[group].max(QUIET * *largest);
             }
         }
+    }
+
+    /// Writes what was reached so far.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.numbers(&self.largest);
+        for floors in &self.floors {
+            snapshot.numbers(floors);
+        }
+        snapshot.number(self.longest);
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for that of another system.
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        snapshot.numbers_into("scales", &mut self.largest)?;
+        for floors in &mut self.floors {
+            snapshot.numbers_into("groups of scales", floors)?;
+        }
+        self.longest = snapshot.number()?;
+        Ok(())
     }
 
     /// A step to begin with, s: a hundredth of what changes anything by its size at the present slope, a tenth of what turns
@@ -155,6 +177,20 @@ impl Controller {
         self.before = error.max(1e-4);
         let most = if rejected { 1.0 } else { FACTORS[1] };
         factor.clamp(FACTORS[0], most)
+    }
+
+    /// Writes the last error.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.number(self.before);
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Short`].
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.before = snapshot.number()?;
+        Ok(())
     }
 
     /// Factor for another trial after one with this error, above 1.

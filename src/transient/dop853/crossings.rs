@@ -7,7 +7,7 @@
 
 use super::dense::Dense;
 use super::stages::{Span, Stages};
-use crate::dynamics::SecondOrderSystem;
+use crate::dynamics::{SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 
 /// Half of the band about zero in units of `tolerance` times the largest value of the function so far: the force of a contact
 /// there, with the power 3/2 of the overlap, is 1e-3 of the tolerance.
@@ -72,6 +72,43 @@ impl Crossings {
             retaken: 0,
             crowded: 0,
             count: 0,
+        })
+    }
+
+    /// Writes sides and values at the end of the last step; what concerns a step under way is none of it.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.count);
+        snapshot.count(self.crowded as u64);
+        for values in [&self.largest, &self.after] {
+            snapshot.numbers(values);
+        }
+        for &above in &self.above {
+            snapshot.flag(above);
+        }
+    }
+
+    /// As they were written.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for those of another system.
+    pub fn recalled(tolerance: f64, snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+        let (count, crowded) = (snapshot.count()?, snapshot.count()?);
+        let largest = snapshot.numbers()?;
+        let mut after = vec![0.0; largest.len()];
+        snapshot.numbers_into("events", &mut after)?;
+        let above: Result<Vec<bool>, SnapshotError> =
+            after.iter().map(|_| snapshot.flag()).collect();
+        Ok(Self {
+            tolerance,
+            above: above?,
+            before: after.clone(),
+            between: after.clone(),
+            after,
+            largest,
+            aimed: None,
+            retaken: 0,
+            crowded: crowded.try_into().unwrap_or(usize::MAX),
+            count,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::stages::{LAST, Span, Stages};
 use super::tableau::DENSE;
-use crate::dynamics::SecondOrderSystem;
+use crate::dynamics::{SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 
 /// Interpolation over the last step, made when it is asked for.
 #[derive(Debug)]
@@ -26,6 +26,26 @@ impl Dense {
     /// Forgets the step.
     pub fn clear(&mut self) {
         self.ready = false;
+    }
+
+    /// Writes the interpolation.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.flag(self.ready);
+        for terms in &self.terms {
+            snapshot.numbers(terms);
+        }
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for that of another system.
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.ready = snapshot.flag()?;
+        for terms in &mut self.terms {
+            snapshot.numbers_into("terms of an interpolation", terms)?;
+        }
+        Ok(())
     }
 
     /// Position and velocity at a place (0 to 1) of the step that `stages` hold.

@@ -16,7 +16,7 @@ mod stages;
 mod tableau;
 
 use super::driver::{Statistics, Stepper};
-use crate::dynamics::{Divergence, SecondOrderSystem};
+use crate::dynamics::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use control::{Controller, Scale};
 use crossings::{Crossings, resolution};
 use dense::Dense;
@@ -188,6 +188,42 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
                 .map_or(0, |crossings| crossings.count),
             ..Statistics::default()
         }
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        for count in [self.steps, self.rejected, self.samples] {
+            snapshot.count(count);
+        }
+        snapshot.option(self.next);
+        snapshot.number(self.change);
+        self.span.remember(snapshot);
+        self.stages.remember(snapshot);
+        self.dense.remember(snapshot);
+        self.scale.remember(snapshot);
+        self.controller.remember(snapshot);
+        snapshot.flag(self.crossings.is_some());
+        if let Some(crossings) = &self.crossings {
+            crossings.remember(snapshot);
+        }
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        for count in [&mut self.steps, &mut self.rejected, &mut self.samples] {
+            *count = snapshot.count()?;
+        }
+        self.next = snapshot.option()?;
+        self.change = snapshot.number()?;
+        self.span = Span::recalled(snapshot)?;
+        self.stages.recall(snapshot)?;
+        self.dense.recall(snapshot)?;
+        self.scale.recall(snapshot)?;
+        self.controller.recall(snapshot)?;
+        self.crossings = if snapshot.flag()? {
+            Some(Crossings::recalled(self.tolerance, snapshot)?)
+        } else {
+            None
+        };
+        Ok(())
     }
 }
 

@@ -1,7 +1,9 @@
 //! One step of the pair on the first-order form (y, v)' = (v, g - damping v - omega^2 y).
 
 use super::tableau::{Combination, ERROR_3, ERROR_5, EXTENDED, NODES, ROWS, STAGES};
-use crate::dynamics::{LinearCoordinate, SecondOrderSystem};
+use crate::dynamics::{
+    LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
+};
 use std::ops::Range;
 
 /// Numbers that are combined at once.
@@ -40,6 +42,25 @@ impl Span {
         } else {
             self.inside
         }
+    }
+
+    /// Writes it.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        for instant in [self.from, self.to, self.inside] {
+            snapshot.number(instant);
+        }
+    }
+
+    /// As it was written.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Short`].
+    pub fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+        Ok(Self {
+            from: snapshot.number()?,
+            to: snapshot.number()?,
+            inside: snapshot.number()?,
+        })
     }
 
     /// Place of an instant.
@@ -177,6 +198,26 @@ impl Stages {
             let pull = linear.damping * v[i] + linear.squared_frequency * y[i];
             rest[i] = self.force[i] - pull;
         }
+    }
+
+    /// Writes states and slopes of the last step.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.evaluations);
+        for numbers in [&self.start, &self.end, &self.slopes] {
+            snapshot.numbers(numbers);
+        }
+    }
+
+    /// Reads them.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for those of another system.
+    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.evaluations = snapshot.count()?;
+        for numbers in [&mut self.start, &mut self.end, &mut self.slopes] {
+            snapshot.numbers_into("numbers of a stage", numbers)?;
+        }
+        Ok(())
     }
 
     /// Differences to the formulas of order 5 and 3, by the step's length.

@@ -1,0 +1,319 @@
+//! A run's record on disk while it grows: a file a column, nothing but its numbers, little-endian f64 row by row.
+//!
+//! `time_s.f64`, `shaft_x.f64`, `shaft_y.f64`, `sensor-0.f64` .., `ball_radius.f64`, `outer_force.f64`, `inner_force.f64`.
+//! Read with `numpy.fromfile(path)`, the last three with `.reshape(-1, balls)`.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::system::{Column, RunRecord};
+
+/// Bytes a number.
+const BYTES: usize = size_of::<f64>();
+
+/// Numbers that are read at once.
+const PIECE: usize = 1 << 13;
+
+/// The columns of one run.
+#[derive(Debug)]
+pub struct ColumnFiles {
+    folder: PathBuf,
+    sensors: Vec<String>,
+    balls: usize,
+    rows: usize,
+    files: Vec<(Column, File)>,
+}
+
+/// Why columns cannot be written or read.
+#[derive(Debug, Error)]
+pub enum ColumnError {
+    /// The file system refused.
+    #[error("cannot {what} {}: {source}", path.display())]
+    Io {
+        /// What was tried.
+        what: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file that lacks rows which a checkpoint counts on.
+    #[error("{} has {found} bytes: expected at least {expected} of the rows that the checkpoint counts", path.display())]
+    Cut {
+        /// The file.
+        path: PathBuf,
+        /// Bytes that it must have.
+        expected: u64,
+        /// Bytes that it has.
+        found: u64,
+    },
+}
+
+/// Name of a column's file.
+fn file_name(column: Column) -> String {
+    match column {
+        Column::Sensor(sensor) => format!("sensor-{sensor}.f64"),
+        Column::Time => "time_s.f64".to_owned(),
+        Column::ShaftX => "shaft_x.f64".to_owned(),
+        Column::ShaftY => "shaft_y.f64".to_owned(),
+        Column::BallRadius => "ball_radius.f64".to_owned(),
+        Column::OuterForce => "outer_force.f64".to_owned(),
+        Column::InnerForce => "inner_force.f64".to_owned(),
+    }
+}
+
+impl ColumnFiles {
+    /// Begins empty columns in a folder, in the place of earlier ones.
+    ///
+    /// # Errors
+    /// [`ColumnError::Io`].
+    pub fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, ColumnError> {
+        Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
+    }
+
+    /// Goes on with columns after so many rows; what is beyond them is cut off.
+    ///
+    /// # Errors
+    /// [`ColumnError::Io`], [`ColumnError::Cut`] if a column has fewer.
+    pub fn resume(
+        folder: &Path,
+        sensors: Vec<String>,
+        balls: usize,
+        rows: usize,
+    ) -> Result<Self, ColumnError> {
+        Self::open(folder, sensors, balls, rows, &mut OpenOptions::new())
+    }
+
+    fn open(
+        folder: &Path,
+        sensors: Vec<String>,
+        balls: usize,
+        rows: usize,
+        options: &mut OpenOptions,
+    ) -> Result<Self, ColumnError> {
+        let mut files = Vec::new();
+        for column in Column::all(sensors.len()) {
+            let path = folder.join(file_name(column));
+            let failed = |source| ColumnError::Io {
+                what: "open",
+                path: path.clone(),
+                source,
+            };
+            let mut file = options.read(true).write(true).open(&path).map_err(failed)?;
+            let (expected, found) = (
+                (rows * column.width(balls) * BYTES) as u64,
+                file.metadata().map_err(failed)?.len(),
+            );
+            if found < expected {
+                return Err(ColumnError::Cut {
+                    path,
+                    expected,
+                    found,
+                });
+            }
+            file.set_len(expected).map_err(failed)?;
+            file.seek(SeekFrom::End(0)).map_err(failed)?;
+            files.push((column, file));
+        }
+        Ok(Self {
+            folder: folder.to_owned(),
+            sensors,
+            balls,
+            rows,
+            files,
+        })
+    }
+
+    /// Names of the sensors.
+    pub fn sensors(&self) -> &[String] {
+        &self.sensors
+    }
+
+    /// Number of balls.
+    pub fn balls(&self) -> usize {
+        self.balls
+    }
+
+    /// Rows written.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Appends rows of the same sensors and balls.
+    ///
+    /// # Errors
+    /// [`ColumnError::Io`].
+    pub fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
+        let places = 0..rows.rows();
+        let mut bytes = Vec::new();
+        for (column, file) in &mut self.files {
+            let values = &rows.column(*column)[column.places(&places, self.balls)];
+            bytes.clear();
+            bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+            let written = file.write_all(&bytes);
+            written.map_err(failure("write", &self.folder, *column))?;
+        }
+        self.rows += places.len();
+        Ok(())
+    }
+
+    /// Brings everything to the disk.
+    ///
+    /// # Errors
+    /// [`ColumnError::Io`].
+    pub fn sync(&self) -> Result<(), ColumnError> {
+        for (column, file) in &self.files {
+            // with its length
+            let synced = file.sync_data();
+            synced.map_err(failure("write", &self.folder, *column))?;
+        }
+        Ok(())
+    }
+
+    /// Hands the numbers of some rows of a column to `take`, piece by piece. Rows that are not there are left out.
+    ///
+    /// # Errors
+    /// [`ColumnError::Io`] and what `take` returns.
+    pub fn read<E: From<ColumnError>>(
+        &self,
+        column: Column,
+        rows: Range<usize>,
+        mut take: impl FnMut(&[f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let failed = failure("read", &self.folder, column);
+        let rows = rows.start.min(self.rows)..rows.end.min(self.rows);
+        let places = column.places(&rows, self.balls);
+        let mut file = File::open(self.folder.join(file_name(column))).map_err(&failed)?;
+        let first = (places.start * BYTES) as u64;
+        file.seek(SeekFrom::Start(first)).map_err(&failed)?;
+        let mut file = BufReader::with_capacity(1 << 16, file);
+        let (mut left, mut bytes) = (places.len(), [0; BYTES]);
+        let mut values = Vec::with_capacity(PIECE.min(left));
+        while left > 0 {
+            values.clear();
+            for _ in 0..PIECE.min(left) {
+                file.read_exact(&mut bytes).map_err(&failed)?;
+                values.push(f64::from_le_bytes(bytes));
+            }
+            left -= values.len();
+            take(&values)?;
+        }
+        Ok(())
+    }
+}
+
+/// What to say when the file system refuses.
+fn failure(
+    what: &'static str,
+    folder: &Path,
+    column: Column,
+) -> impl Fn(io::Error) -> ColumnError + use<> {
+    let path = folder.join(file_name(column));
+    move |source| ColumnError::Io {
+        what,
+        path: path.clone(),
+        source,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows from one number to another, each column told by its own offset.
+    fn rows(range: Range<u32>) -> RunRecord {
+        let mut record = RunRecord::blank(["P1".to_owned(), "P2".to_owned()], 2);
+        for row in range.map(f64::from) {
+            record.time_s.push(row);
+            record.shaft_x.push(row + 0.1);
+            record.shaft_y.push(row + 0.2);
+            record.sensors[0].1.push(row + 0.3);
+            record.sensors[1].1.push(row + 0.4);
+            for (offset, table) in [
+                (0.5, &mut record.ball_radius),
+                (0.6, &mut record.outer_force),
+                (0.7, &mut record.inner_force),
+            ] {
+                table.extend([row + offset, -row - offset]);
+            }
+        }
+        record
+    }
+
+    fn read(files: &ColumnFiles, range: Range<usize>) -> RunRecord {
+        let mut record = RunRecord::blank(files.sensors().to_vec(), files.balls());
+        for column in Column::all(2) {
+            let mut values = Vec::new();
+            files
+                .read(column, range.clone(), |piece| {
+                    values.extend_from_slice(piece);
+                    Ok::<(), ColumnError>(())
+                })
+                .unwrap();
+            match column {
+                Column::Time => record.time_s = values,
+                Column::ShaftX => record.shaft_x = values,
+                Column::ShaftY => record.shaft_y = values,
+                Column::Sensor(sensor) => record.sensors[sensor].1 = values,
+                Column::BallRadius => record.ball_radius = values,
+                Column::OuterForce => record.outer_force = values,
+                Column::InnerForce => record.inner_force = values,
+            }
+        }
+        record
+    }
+
+    fn names() -> Vec<String> {
+        vec!["P1".to_owned(), "P2".to_owned()]
+    }
+
+    #[test]
+    fn rows_come_back_whole_or_in_part() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut files = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        // more than one piece
+        let most = PIECE as u32 + 100;
+        files.append(&rows(0..7)).unwrap();
+        files.append(&rows(7..most)).unwrap();
+        assert_eq!(files.rows(), most as usize);
+        assert_eq!(read(&files, 0..usize::MAX / 64), rows(0..most));
+        assert_eq!(read(&files, 5..9), rows(5..9));
+        // goes on at the end after reading
+        files.append(&rows(most..most + 3)).unwrap();
+        assert_eq!(
+            read(&files, most as usize - 2..most as usize + 9),
+            rows(most - 2..most + 3)
+        );
+        // another run begins anew
+        let anew = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        assert_eq!(read(&anew, 0..10), rows(0..0));
+    }
+
+    #[test]
+    fn rows_after_a_checkpoint_are_cut_and_missing_ones_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut files = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        files.append(&rows(0..9)).unwrap();
+        files.sync().unwrap();
+        drop(files);
+        let mut files = ColumnFiles::resume(folder.path(), names(), 2, 6).unwrap();
+        files.append(&rows(6..8)).unwrap();
+        assert_eq!(read(&files, 0..100), rows(0..8));
+        drop(files);
+        let error = ColumnFiles::resume(folder.path(), names(), 2, 9).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "{} has 64 bytes: expected at least 72 of the rows that the checkpoint counts",
+                folder.path().join("time_s.f64").display()
+            )
+        );
+        std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
+        let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
+        assert!(matches!(error, ColumnError::Io { .. }), "{error}");
+    }
+}

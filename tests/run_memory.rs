@@ -1,0 +1,45 @@
+//! Memory that stepping takes does not grow with the simulated time.
+//!
+//! Reference: the rows that leave the recorder as they are complete.
+//! Goal: a run of hours takes what a run of seconds takes.
+//! Sketch: the same scene is stepped for two lengths of time, its rows on disk, under an allocator that counts.
+//! Conditions: one test in this file, so that nothing else allocates.
+//! Parameters: four times the time; the rows of the longer run take 5 MB, and one more may be held.
+
+use peak_alloc::PeakAlloc;
+use plummer::case::Case;
+use plummer::stages::{RunIdentity, RunModel, Scene, Simulation, Span, UnfinishedRun, Unwatched};
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+#[test]
+fn stepping_four_times_as_long_takes_the_same_memory() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let path = format!("{root}/examples/scenes/smooth.toml");
+    let set = [
+        "transient.step=2.5e-6".to_owned(),
+        "transient.method=newmark".to_owned(),
+    ];
+    let case = Case::load(&path, &set).unwrap();
+    let asked = case.transient.as_ref().unwrap();
+    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let model = RunModel::of_case(&case, asked, &scene).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let taken = [0.02, 0.08].map(|duration| {
+        let span = Span {
+            duration,
+            output_hz: asked.output_hz,
+        };
+        let identity = RunIdentity::of(&case).unwrap();
+        let mut unfinished = UnfinishedRun::begin(&folder.path().join("partial"), identity);
+        let before = ALLOCATOR.current_usage();
+        ALLOCATOR.reset_peak_usage();
+        let run = Simulation::kept_from_rest(&scene, &model, span, &mut unfinished, |_| {});
+        let rows = run.unwrap().record.rows();
+        assert_eq!(rows, (duration * 400e3_f64).round() as usize + 1);
+        ALLOCATOR.peak_usage().saturating_sub(before)
+    });
+    println!("{taken:?} bytes");
+    assert!(taken[1] < taken[0] + (1 << 18), "{taken:?}");
+}
