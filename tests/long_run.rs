@@ -179,3 +179,26 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     let _ = anew.wait().unwrap();
     assert!(run.checkpoint().unwrap() != checkpoint);
 }
+
+#[test]
+fn a_run_that_blows_up_leaves_what_it_had_and_names_a_step() {
+    let run = Run::new("blown-up", "0.01");
+    let (code, text) = run.ended(&["--set", "transient.step=2.5e-6"]);
+    assert_eq!(code, 1, "{text}");
+    assert!(
+        text.starts_with("error: the solution blew up at t = "),
+        "{text}"
+    );
+    assert!(text.contains("contacts there vibrate at up to "), "{text}");
+    assert!(
+        text.contains(" kHz, exponential is stable up to "),
+        "{text}"
+    );
+    assert!(text.contains("--set transient.step="), "{text}");
+    assert!(
+        text.contains(" instants computed until then are in signals.npz"),
+        "{text}"
+    );
+    assert!(run.folder.join("signals.npz").exists() && run.folder.join("run.json").exists());
+    assert!(!run.partial().exists());
+}

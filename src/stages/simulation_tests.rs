@@ -100,6 +100,7 @@ fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
         &["exponential", "step=1.3e-7", "modes=8"],
     ];
     let few: &[&[&str]] = &[&["exponential", "end=2e-4"]];
+    let mut other = Vec::new();
     for (scene_set, methods) in [(with_inertia, methods), (without, few)] {
         let scene = Scene::build(&case(&scene_set), &Unwatched).unwrap();
         for keys in methods {
@@ -109,12 +110,15 @@ fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
             let mut set = scene_set.clone();
             set.push(&method);
             set.extend(others.iter().map(String::as_str));
-            stops_and_goes_on(&scene, &case(&set));
+            if !goes_on_as_if_it_had_not_stopped(&scene, &case(&set)) {
+                other.push(keys);
+            }
         }
     }
+    assert!(other.is_empty(), "{other:?}");
 }
 
-fn stops_and_goes_on(scene: &Scene, case: &Case) {
+fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
     let (asked, set) = (case.transient.as_ref().unwrap(), &case.source.set);
     let model = RunModel::of_case(case, asked, scene).unwrap();
     let span = Span {
@@ -136,17 +140,15 @@ fn stops_and_goes_on(scene: &Scene, case: &Case) {
         }
     };
     assert_eq!(parts, 6, "{set:?}");
-    assert_eq!(gone_on.statistics, whole.statistics, "{set:?}");
-    assert!(bits(&gone_on.record) == bits(&whole.record), "{set:?}");
     let loads = whole.record.outer_force.iter();
     let loaded = loads.filter(|force| **force > 0.0).count();
     assert!((1..whole.record.outer_force.len()).contains(&loaded));
     // a finished run that goes on has nothing left to do
-    let again = Simulation::kept_from_rest(scene, &model, span, &mut stops, |_| {});
-    assert!(
-        bits(&again.unwrap().record) == bits(&whole.record),
-        "{set:?}"
-    );
+    let again = Simulation::kept_from_rest(scene, &model, span, &mut stops, |_| {}).unwrap();
+    let same = |other: &Simulation| {
+        other.statistics == whole.statistics && bits(&other.record) == bits(&whole.record)
+    };
+    same(&gone_on) && same(&again)
 }
 
 #[test]
