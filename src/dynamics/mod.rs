@@ -80,18 +80,24 @@ pub trait SecondOrderSystem {
     /// [`force_into`](Self::force_into).
     fn events_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _events: &mut [f64]) {}
 
-    /// Whether the state is still one that the model can mean.
+    /// Whether the state is still one that the model can mean. Called every few steps.
     ///
     /// # Errors
     /// [`Divergence`], which ends the run.
     fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
-        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-        if finite(y) && finite(v) {
+        if all_finite(y) && all_finite(v) {
             Ok(())
         } else {
             Err(Divergence::NotFinite)
         }
     }
+}
+
+/// Whether all values are numbers. All are looked at, which several at a time makes faster than to stop at the first.
+pub fn all_finite(values: &[f64]) -> bool {
+    values
+        .iter()
+        .fold(true, |finite, value| finite & value.is_finite())
 }
 
 /// Why a state means nothing any more.
