@@ -8,7 +8,9 @@
 
 use peak_alloc::PeakAlloc;
 use plummer::case::Case;
-use plummer::stages::{RunIdentity, RunModel, Scene, Simulation, Span, UnfinishedRun, Unwatched};
+use plummer::stages::{
+    ModelChoice, RunIdentity, Scene, Simulation, Span, UnfinishedRun, Unwatched,
+};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
@@ -24,7 +26,7 @@ fn stepping_four_times_as_long_takes_the_same_memory() {
     let case = Case::load(&path, &set).unwrap();
     let asked = case.transient.as_ref().unwrap();
     let scene = Scene::build(&case, &Unwatched).unwrap();
-    let model = RunModel::of_case(&case, asked, &scene).unwrap();
+    let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
     let folder = tempfile::tempdir().unwrap();
     let taken = [0.02, 0.08].map(|duration| {
         let span = Span {

@@ -120,7 +120,7 @@ fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
 
 fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
     let (asked, set) = (case.transient.as_ref().unwrap(), &case.source.set);
-    let model = RunModel::of_case(case, asked, scene).unwrap();
+    let model = ModelChoice::of_case(case, asked, scene).unwrap().model;
     let span = Span {
         duration: asked.end - asked.start,
         output_hz: asked.output_hz,
@@ -157,7 +157,7 @@ fn a_run_of_another_model_does_not_go_on() {
         let case = case(set);
         let asked = case.transient.as_ref().unwrap();
         let scene = Scene::build(&case, &Unwatched).unwrap();
-        let model = RunModel::of_case(&case, asked, &scene).unwrap();
+        let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
         let span = Span {
             duration: 1e-4,
             output_hz: asked.output_hz,
