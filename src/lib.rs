@@ -20,7 +20,7 @@
 //! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
-//! 11. [`verification`]: the built-in checks of `plummer verify`.
+//! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation.
 //!
 //! ```no_run
 //! use plummer::case::Case;
@@ -40,6 +40,7 @@
 pub mod assembly;
 pub mod bearing;
 pub mod case;
+pub mod chart;
 pub mod cli;
 pub mod closed_form;
 pub mod dynamics;

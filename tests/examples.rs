@@ -144,6 +144,35 @@ fn the_smooth_scene_is_preloaded_and_has_no_dent() {
     assert!(near(transient.output_hz, 4e5));
 }
 
+/// The scenes of the charts differ in the bearing and its speed alone: the same ring, shaft, damping and sensor.
+#[test]
+fn the_scenes_are_what_they_are_called() {
+    let smooth = load("scenes/smooth.toml");
+    for (name, dents, damping, hz) in [
+        ("healthy", 0, 1.0, 21.0),
+        ("impact", 1, 2.0, 21.0),
+        ("rattle", 0, 0.0, 45.0),
+    ] {
+        let case = load(&format!("scenes/{name}.toml"));
+        case.ready_for(Purpose::Chart).unwrap();
+        let bearing = case.bearing.as_ref().unwrap();
+        assert_eq!(bearing.defects.len(), dents, "{name}");
+        assert!((bearing.contact_damping - damping).abs() < 1e-12, "{name}");
+        assert!((bearing.play() - 2.5e-6).abs() < 1e-12, "{name}");
+        assert!(near(case.speed.as_ref().unwrap().profile[0].hz, hz));
+        let same = |case: &Case| {
+            let parts = (&case.ring, &case.shaft, &case.damping, &case.sensors);
+            serde_json::to_value(parts).unwrap()
+        };
+        assert_eq!(same(&case), same(&smooth), "{name}");
+    }
+    // what lifts the shaft off: m e omega^2 against m g
+    let shaft = smooth.shaft.as_ref().unwrap();
+    let unbalance = |hz: f64| shaft.unbalance * (std::f64::consts::TAU * hz).powi(2);
+    let weight = -shaft.mass * shaft.gravity[1];
+    assert!(unbalance(43.1) < weight && unbalance(45.0) > weight);
+}
+
 /// The solid pillow block: its ring has six degrees of freedom a node, its modes come in out-of-plane ones too.
 #[test]
 fn the_pedestal_vibrates() {

@@ -22,7 +22,8 @@ enum Imports {
 
 use Imports::{Only, RowsAbove};
 
-/// Row, module, what it may import. The case file is read, then run, then shown: three rows; the built-in checks run cases too.
+/// Row, module, what it may import. The case file is read, then run, then shown: three rows; the built-in checks and the chart run
+/// cases too.
 const LAYERS: &[(u32, &str, Imports)] = &[
     (0, "units", RowsAbove),
     (0, "error", RowsAbove),
@@ -46,6 +47,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (11, "case", RowsAbove),
     (12, "stages", RowsAbove),
     (13, "verification", RowsAbove),
+    (13, "chart", RowsAbove),
     (14, "cli", RowsAbove),
 ];
 

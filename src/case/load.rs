@@ -21,6 +21,8 @@ pub enum Purpose {
     Frf,
     /// The simulation in time.
     Run,
+    /// Speed against accuracy of the simulation.
+    Chart,
 }
 
 /// A variant of a case, read.
@@ -212,8 +214,12 @@ impl Case {
                     [&bearing_and_shaft[..], &[equilibrium]].concat(),
                 ),
             },
-            Purpose::Run => (
-                "`run`",
+            Purpose::Run | Purpose::Chart => (
+                if purpose == Purpose::Run {
+                    "`run`"
+                } else {
+                    "`chart`"
+                },
                 [
                     &bearing_and_shaft[..],
                     &[

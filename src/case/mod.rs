@@ -80,7 +80,9 @@ pub use ring::{
 pub use sensor::{Sensor, SensorSpot};
 pub use set::SetProblem;
 pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
-pub use transient::{Accuracy, Analysis, Method, ModesKept, StepLength, Transient, Window};
+pub use transient::{
+    Accuracy, Analysis, Ensemble, Method, ModesKept, StepLength, Transient, Window,
+};
 
 /// One case: everything that a command computes from, but the mesh.
 #[derive(Debug, Clone, Serialize, Deserialize)]

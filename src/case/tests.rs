@@ -114,6 +114,8 @@ fn every_key_of_the_full_case_arrives() {
     assert_eq!(transient.step, StepLength::Seconds(1e-7));
     assert_eq!(transient.modes, ModesKept::Count(11));
     assert!(!transient.residual);
+    assert_eq!((transient.ensemble.runs, transient.ensemble.seed), (64, 7));
+    assert!(near(transient.ensemble.perturbation, 1e-8));
     assert_eq!(case.band_hz(), Some([0.0, 40e3]));
 }
 
@@ -163,6 +165,8 @@ fn defaults_are_those_of_the_format() {
     assert!(transient.tolerance.is_none() && transient.spectral_radius.is_none());
     assert_eq!(transient.modes, ModesKept::Auto);
     assert!(transient.residual);
+    assert_eq!((transient.ensemble.runs, transient.ensemble.seed), (20, 1));
+    assert!(near(transient.ensemble.perturbation, 1e-9));
     assert_eq!(case.band_hz(), Some([0.0, 5e4]));
     assert!(near(
         case.material("steel").unwrap().isotropic().unwrap().young,
@@ -526,10 +530,12 @@ fn a_command_names_the_table_that_it_lacks() {
     for (table, remove) in removals {
         let mut poorer = case.clone();
         remove(&mut poorer);
-        assert_eq!(
-            poorer.ready_for(Purpose::Run).unwrap_err().to_string(),
-            format!("folder/case.toml: `run` needs {table}, which the case file lacks")
-        );
+        for (purpose, command) in [(Purpose::Run, "run"), (Purpose::Chart, "chart")] {
+            assert_eq!(
+                poorer.ready_for(purpose).unwrap_err().to_string(),
+                format!("folder/case.toml: `{command}` needs {table}, which the case file lacks")
+            );
+        }
     }
     let mut poorer = case.clone();
     poorer.ring = None;

@@ -50,6 +50,50 @@ pub struct Transient {
     /// Whether the static compliance of the modes left out is kept, at the contacts and at the sensors.
     #[serde(default = "super::yes")]
     pub residual: bool,
+    /// The runs that `chart` takes statistics and scatter from.
+    #[serde(default)]
+    pub ensemble: Ensemble,
+}
+
+/// Runs of one scene from starts that differ, spread over a ball pass from the start time on. A run whose statistics are
+/// taken is perturbed beside: every coordinate and velocity by a part of itself, at random.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ensemble {
+    /// How many, 2 to 10 000.
+    #[serde(default = "Ensemble::default_runs")]
+    pub runs: usize,
+    /// Largest relative change of a coordinate, > 0 and < 1.
+    #[serde(default = "Ensemble::default_perturbation")]
+    pub perturbation: f64,
+    /// Begin of the random numbers: the same seed gives the same runs.
+    #[serde(default = "Ensemble::default_seed")]
+    pub seed: u64,
+}
+
+impl Ensemble {
+    const fn default_runs() -> usize {
+        20
+    }
+
+    /// Far below every error of interest, far above rounding.
+    const fn default_perturbation() -> f64 {
+        1e-9
+    }
+
+    const fn default_seed() -> u64 {
+        1
+    }
+}
+
+impl Default for Ensemble {
+    fn default() -> Self {
+        Self {
+            runs: Self::default_runs(),
+            perturbation: Self::default_perturbation(),
+            seed: Self::default_seed(),
+        }
+    }
 }
 
 /// How time is stepped.

@@ -11,16 +11,10 @@ struct Unsupported {
     instead: &'static str,
 }
 
-const UNSUPPORTED: [Unsupported; 2] = [
-    Unsupported {
-        path: &["transient", "ensemble"],
-        instead: "leave the key out",
-    },
-    Unsupported {
-        path: &["analysis", "scalogram"],
-        instead: "leave the key out",
-    },
-];
+const UNSUPPORTED: [Unsupported; 1] = [Unsupported {
+    path: &["analysis", "scalogram"],
+    instead: "leave the key out",
+}];
 
 /// Returns an error for the first thing in the document that this version cannot honour.
 ///
@@ -57,10 +51,8 @@ mod tests {
     use super::UNSUPPORTED;
 
     /// One argument for each entry of the table, and the key that the error names.
-    const SAMPLES: [(&str, &str); UNSUPPORTED.len()] = [
-        ("transient.ensemble={runs=64}", "transient.ensemble"),
-        ("analysis.scalogram={from=2.2,to=2.5}", "analysis.scalogram"),
-    ];
+    const SAMPLES: [(&str, &str); UNSUPPORTED.len()] =
+        [("analysis.scalogram={from=2.2,to=2.5}", "analysis.scalogram")];
 
     #[test]
     fn every_entry_is_refused_by_name() {
@@ -76,13 +68,16 @@ mod tests {
 
     #[test]
     fn its_line_is_found() {
-        let text = FULL.replace("[transient]\n", "[transient]\nensemble = { runs = 64 }\n");
-        let is_it = |line: &str| line.starts_with("ensemble");
+        let text = FULL.replace(
+            "[analysis]\n",
+            "[analysis]\nscalogram = { from = 2.2, to = 2.5 }\n",
+        );
+        let is_it = |line: &str| line.starts_with("scalogram");
         let line = 1 + text.lines().position(is_it).unwrap();
         assert_eq!(
             read(&text, &[]).unwrap_err().to_string(),
             format!(
-                "folder/case.toml:{line}: `transient.ensemble` is not supported yet by this version"
+                "folder/case.toml:{line}: `analysis.scalogram` is not supported yet by this version"
             )
         );
     }

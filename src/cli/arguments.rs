@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
 use crate::case::Case;
+use crate::chart::Effort;
 use crate::stages::CHECKPOINT_S;
 use crate::units::LengthUnit;
 
@@ -59,6 +60,18 @@ Example: what a force on the raceway does at the sensors, against the full model
 Files:
   frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path
   frf.uff   the same for test software (universal file, dataset 58)";
+
+const CHART_EXAMPLE: &str = "\
+Examples: which method and step the dented bearing needs; a first look in a fraction of the time
+  plummer chart examples/scenes/impact.toml
+  plummer chart examples/scenes/smooth.toml --quick
+
+Files:
+  chart.json   points, front, the program's choice, omissions with their reasons, horizon, statistics of the ensemble
+  chart.svg    error against wall time
+  report.html  the same to zoom into, and tables
+
+Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
 
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
@@ -145,6 +158,15 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
+    /// Speed against accuracy of the simulation over methods, steps and sizes of the model
+    #[command(after_help = CHART_EXAMPLE)]
+    Chart {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Fewer starts, a shorter span and fewer models
+        #[arg(long)]
+        quick: bool,
+    },
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
@@ -205,9 +227,19 @@ impl Command {
             Self::Modes { .. } => "modes",
             Self::Condense { .. } => "condense",
             Self::Frf { .. } => "frf",
+            Self::Chart { .. } => "chart",
             Self::Inspect { .. } => "inspect",
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
+        }
+    }
+
+    /// How much a chart computes.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        match self {
+            Self::Chart { quick: true, .. } => Effort::Quick,
+            _ => Effort::Full,
         }
     }
 }
@@ -338,6 +370,7 @@ mod tests {
             "plummer modes --help",
             "plummer condense --help",
             "plummer frf --help",
+            "plummer chart --help",
             "plummer inspect --help",
             "plummer export --help",
             "plummer verify --help",

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::ExportError;
 use crate::case::CaseError;
+use crate::chart::ChartError;
 use crate::stages::StageError;
 use crate::verification::VerificationError;
 
@@ -80,6 +81,9 @@ pub enum CliError {
     /// Something was not exported.
     #[error(transparent)]
     Export(Box<ExportError>),
+    /// A chart could not be made.
+    #[error(transparent)]
+    Chart(Box<ChartError>),
     /// A built-in check could not be carried out.
     #[error(transparent)]
     Verification(Box<VerificationError>),
@@ -88,6 +92,12 @@ pub enum CliError {
 impl From<VerificationError> for CliError {
     fn from(error: VerificationError) -> Self {
         Self::Verification(Box::new(error))
+    }
+}
+
+impl From<ChartError> for CliError {
+    fn from(error: ChartError) -> Self {
+        Self::Chart(Box::new(error))
     }
 }
 
@@ -115,6 +125,7 @@ impl CliError {
             | Self::ResumeAnew => 2,
             Self::Stage(error) if error.is_input() => 2,
             Self::Export(error) if error.is_input() => 2,
+            Self::Chart(error) if error.is_input() => 2,
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
@@ -122,6 +133,7 @@ impl CliError {
             | Self::Signals(_)
             | Self::Stage(_)
             | Self::Export(_)
+            | Self::Chart(_)
             | Self::Verification(_) => 1,
         }
     }
@@ -133,6 +145,7 @@ impl CliError {
             Self::Case(error) => error.help(),
             Self::Stage(error) => error.help(),
             Self::Export(error) => error.help(),
+            Self::Chart(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
@@ -165,7 +178,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{CliError, ExportError, VerificationError};
+    use super::{ChartError, CliError, ExportError, VerificationError};
     use crate::case::Case;
     use crate::exchange::DofTableError;
     use crate::stages::{StageError, UnfinishedError};
@@ -284,6 +297,26 @@ mod tests {
                 2,
                 "error: out/a has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
                  help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
+            ),
+            (
+                CliError::from(ChartError::TooShort {
+                    found: 1e-4,
+                    band_hz: 4e4,
+                    needed: 5e-4,
+                }),
+                2,
+                "error: transient.end - transient.start is 0.0001 s: a chart in the band up to 40000 Hz needs at least 0.0005 s\n\
+                 help: a later transient.end, by at least 0.0005 s after transient.start\n",
+            ),
+            (
+                CliError::from(ChartError::NoReference {
+                    method: "dop853",
+                    start_s: 2.3,
+                    reason: "the solution blew up".to_owned(),
+                }),
+                1,
+                "error: the reference by dop853 failed at the start at 2.3 s: the solution blew up\n\
+                 help: `plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere\n",
             ),
             (
                 CliError::from(VerificationError::NoBearing),

@@ -4,6 +4,7 @@
 //! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
 
 mod arguments;
+mod chart;
 mod condense;
 mod export;
 mod failure;
@@ -72,6 +73,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
         Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
         Command::Frf { case } => compute(case, Purpose::Frf, arguments),
+        Command::Chart { case, .. } => compute(case, Purpose::Chart, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Verify { full } => verify::verify(*full, options),
         Command::Inspect {
@@ -103,6 +105,7 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
         Purpose::Modes => modes::modes(&case, options, &progress),
         Purpose::Condense => condense::condense(&case, arguments, &progress),
         Purpose::Frf => frf::frf(&case, options, &progress),
+        Purpose::Chart => chart::chart(&case, arguments.command.effort(), options, &progress),
     };
     progress.finish();
     outcome

@@ -72,6 +72,9 @@ struct Entry<'a> {
     name: &'a str,
     colour: usize,
     style: &'static str,
+    /// Path data of its symbol, and whether it is open.
+    symbol: Option<String>,
+    open: bool,
 }
 
 /// The figures of a structure in space.
@@ -195,6 +198,8 @@ fn block_view<'a>(block: &'a Block, numbers: &mut Numbers) -> Result<BlockView<'
                     name: &series.name,
                     colour,
                     style: "box",
+                    symbol: None,
+                    open: false,
                 })
                 .collect(),
         },
@@ -250,7 +255,9 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
     let layout = Layout::of(plot)?;
     let legend = plot.curves.iter().enumerate().map(|(k, curve)| Entry {
         name: &curve.name,
-        colour: k % COLOURS,
+        colour: svg_plot::colour(curve, k),
+        symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
+        open: curve.symbol.is_open(),
         style: match curve.style {
             CurveStyle::Line => "line",
             CurveStyle::Dashed => "dashed",

@@ -8,7 +8,7 @@ use super::ReportError;
 use super::decimate;
 use super::layout::{Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
 use super::plot::{Abscissa, Curve, CurveStyle, Plot};
-use super::svg_plot::COLOURS;
+use super::svg_plot::{COLOURS, colour};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 pub(super) const BUDGET: usize = 2_800_000;
@@ -32,6 +32,7 @@ struct PlotData<'a> {
     y: AxisData,
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
+    levels: Vec<LevelData<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -46,6 +47,12 @@ struct CurveData<'a> {
     name: &'a str,
     colour: usize,
     style: &'static str,
+    /// Path data of its symbol, of points alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    symbol: Option<String>,
+    open: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    labels: Vec<&'a str>,
     #[serde(flatten)]
     x: AbscissaData,
     /// f32, in shown units.
@@ -70,6 +77,12 @@ struct MarkerData<'a> {
     at: f64,
     label: &'a str,
     colour: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct LevelData<'a> {
+    at: f64,
+    label: &'a str,
 }
 
 /// Bytes a curve needs in full.
@@ -108,6 +121,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
         high: view.high,
     };
     let curves = plot.curves.iter().enumerate();
+    let levels = plot.levels.iter().filter(|level| level.at.is_finite());
     let markers = plot.markers.iter().filter(|m| m.at.is_finite());
     let data = PlotData {
         width: WIDTH,
@@ -132,6 +146,12 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
                 colour: marker.family % COLOURS,
             })
             .collect(),
+        levels: levels
+            .map(|level| LevelData {
+                at: level.at / layout.y.factor,
+                label: &level.label,
+            })
+            .collect(),
     };
     let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
         plot: plot.title.clone(),
@@ -143,6 +163,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
 
 fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
     let most = share / bytes_a_point(curve);
+    let mut labels = Vec::new();
     let (x, y) = match &curve.x {
         Abscissa::Even { start, step } => {
             let thinned = decimate::even(&curve.y, most);
@@ -154,6 +175,7 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
         }
         Abscissa::Points(x) => {
             let kept = decimate::indices(&curve.y, most);
+            labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)));
             let shown = kept.iter().map(|k| x[*k] / layout.x.factor);
             let x = AbscissaData::Points {
                 x: base64(shown.flat_map(f64::to_le_bytes)),
@@ -164,7 +186,10 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
     let shown = y.iter().map(|v| (v / layout.y.factor) as f32);
     CurveData {
         name: &curve.name,
-        colour: number % COLOURS,
+        colour: colour(curve, number),
+        symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
+        open: curve.symbol.is_open(),
+        labels: labels.into_iter().map(String::as_str).collect(),
         style: match curve.style {
             CurveStyle::Line => "line",
             CurveStyle::Dashed => "dashed",

@@ -2,13 +2,14 @@
 
 use super::ReportError;
 use super::number::{DisplayUnit, display_unit};
-use super::plot::{Axis, Curve, CurveStyle, Marker, Plot, Scale};
+use super::plot::{Axis, Curve, CurveStyle, Level, Marker, Plot, Scale};
 use super::ticks;
 
 /// Size of a plot, in pixels of its own coordinates; the page scales it.
 pub(super) const WIDTH: f64 = 920.0;
 /// Height of the plotting area.
 const AREA_HEIGHT: f64 = 250.0;
+const TALL_AREA_HEIGHT: f64 = 430.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 18.0;
 const TOP: f64 = 14.0;
@@ -104,7 +105,14 @@ impl<'a> Layout<'a> {
                 snapped(&plot.x, widened(&plot.x, found, room))
             }
         };
-        let found = extent(plot, &plot.y, x_range, |p| p.1)?;
+        let shown = |level: &&Level| {
+            level.at.is_finite() && (plot.y.scale == Scale::Linear || level.at > 0.0)
+        };
+        let levels = plot.levels.iter().filter(shown).map(|level| level.at);
+        let found = levels.fold(
+            extent(plot, &plot.y, x_range, |p| p.1)?,
+            |[low, high], at| [low.min(at), high.max(at)],
+        );
         let y_range = match plot.y.range {
             Some(range) => checked(plot, &plot.y, range)?,
             None => widened(&plot.y, found, HEADROOM),
@@ -113,14 +121,19 @@ impl<'a> Layout<'a> {
         let y = AxisView::new(&plot.y, y_range);
         let (markers, rows) = place_markers(plot, &x);
         let top = TOP + MARKER_ROW * rows as f64;
+        let area = if plot.tall {
+            TALL_AREA_HEIGHT
+        } else {
+            AREA_HEIGHT
+        };
         Ok(Self {
             x,
             y,
             left: LEFT,
             right: WIDTH - RIGHT,
             top,
-            bottom: top + AREA_HEIGHT,
-            height: top + AREA_HEIGHT + BOTTOM,
+            bottom: top + area,
+            height: top + area + BOTTOM,
             rows,
             markers,
         })

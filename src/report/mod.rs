@@ -29,6 +29,7 @@ mod standalone;
 mod svg;
 mod svg_drawing;
 mod svg_plot;
+mod symbol;
 mod table;
 mod ticks;
 
@@ -41,7 +42,7 @@ pub use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
 pub use number::{fixed, pretty_unit, significant};
-pub use plot::{Abscissa, Axis, Curve, CurveStyle, Marker, Plot, Scale};
+pub use plot::{Abscissa, Axis, Curve, CurveStyle, Level, Marker, Plot, Scale, Symbol};
 pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
 };

@@ -51,10 +51,28 @@ pub enum CurveStyle {
     Points,
 }
 
+/// What stands at each point of a curve drawn as points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Symbol {
+    /// A filled circle.
+    #[default]
+    Dot,
+    /// A filled diamond.
+    Diamond,
+    /// A filled square.
+    Square,
+    /// A filled triangle.
+    Triangle,
+    /// A wide circle around the point, to mark what another curve has there.
+    Ring,
+    /// A wide square around the point.
+    Frame,
+}
+
 /// A curve. Ordinates that are not finite are gaps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Name in the legend.
+    /// Name in the legend; one without a name is not in it.
     pub name: String,
     /// Abscissas.
     pub x: Abscissa,
@@ -62,6 +80,12 @@ pub struct Curve {
     pub y: Vec<f64>,
     /// How it is drawn.
     pub style: CurveStyle,
+    /// What stands at its points, if it is drawn as points.
+    pub symbol: Symbol,
+    /// Its colour, counted from 0; `None`: the next one.
+    pub colour: Option<usize>,
+    /// What each point is, shown where the reader points at it; points beyond the list have none.
+    pub labels: Vec<String>,
 }
 
 /// A vertical line with a label, such as an expected defect frequency.
@@ -73,6 +97,15 @@ pub struct Marker {
     pub label: String,
     /// Markers of one family share a colour.
     pub family: usize,
+}
+
+/// A horizontal line with a label, such as a limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Where, in the y axis' unit.
+    pub at: f64,
+    /// What stands at its left end.
+    pub label: String,
 }
 
 /// A plot.
@@ -90,6 +123,10 @@ pub struct Plot {
     pub curves: Vec<Curve>,
     /// Vertical lines.
     pub markers: Vec<Marker>,
+    /// Horizontal lines; the vertical range reaches them.
+    pub levels: Vec<Level>,
+    /// Whether it is taller than usual, for clouds of points.
+    pub tall: bool,
 }
 
 impl Axis {
@@ -126,6 +163,9 @@ impl Curve {
             x,
             y,
             style: CurveStyle::Line,
+            symbol: Symbol::Dot,
+            colour: None,
+            labels: Vec::new(),
         }
     }
 
@@ -176,6 +216,28 @@ impl Curve {
         self
     }
 
+    /// The curve as points with a symbol.
+    #[must_use]
+    pub fn points(mut self, symbol: Symbol) -> Self {
+        self.style = CurveStyle::Points;
+        self.symbol = symbol;
+        self
+    }
+
+    /// The curve in a colour of the palette, counted from 0.
+    #[must_use]
+    pub fn colour(mut self, colour: usize) -> Self {
+        self.colour = Some(colour);
+        self
+    }
+
+    /// The curve with what each of its points is.
+    #[must_use]
+    pub fn labels(mut self, labels: Vec<String>) -> Self {
+        self.labels = labels;
+        self
+    }
+
     /// The part of the curve with abscissas in `from` ..= `to`, such as the low end of a long spectrum: what is not
     /// shown need not be embedded.
     #[must_use]
@@ -184,6 +246,8 @@ impl Curve {
             .filter(|k| (from..=to).contains(&self.x_at(*k)))
             .collect();
         self.y = keep.iter().map(|k| self.y[*k]).collect();
+        let labels = keep.iter().map_while(|k| self.labels.get(*k).cloned());
+        self.labels = labels.collect();
         self.x = match self.x {
             Abscissa::Even { start, step } => Abscissa::Even {
                 start: start + keep.first().map_or(0.0, |k| *k as f64 * step),
@@ -233,6 +297,8 @@ impl Plot {
             y,
             curves: Vec::new(),
             markers: Vec::new(),
+            levels: Vec::new(),
+            tall: false,
         }
     }
 
@@ -247,6 +313,21 @@ impl Plot {
     #[must_use]
     pub fn marker(mut self, marker: Marker) -> Self {
         self.markers.push(marker);
+        self
+    }
+
+    /// The plot with a horizontal line more, in the y axis' unit.
+    #[must_use]
+    pub fn level(mut self, at: f64, label: impl Into<String>) -> Self {
+        let label = label.into();
+        self.levels.push(Level { at, label });
+        self
+    }
+
+    /// The plot taller than usual.
+    #[must_use]
+    pub fn tall(mut self) -> Self {
+        self.tall = true;
         self
     }
 
@@ -279,8 +360,10 @@ mod tests {
             }
         );
         let points = Abscissa::Points((0..10).map(|k| f64::from(k * k)).collect());
-        let cut = Curve::new("c", points, y).within(3.0, 17.0);
+        let labels = ["0", "1", "2", "3"].map(str::to_owned).to_vec();
+        let cut = Curve::new("c", points, y).labels(labels).within(3.0, 17.0);
         assert_eq!(cut.y, [2.0, 3.0, 4.0]);
+        assert_eq!(cut.labels, ["2", "3"]);
         assert_eq!(cut.x, Abscissa::Points(vec![4.0, 9.0, 16.0]));
     }
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::layout::{Layout, WIDTH};
 use super::svg::escape;
 use super::svg_plot::COLOURS;
-use super::{Plot, ReportError, Spans, spans, svg_plot};
+use super::{Curve, CurveStyle, Plot, ReportError, Spans, spans, svg_plot};
 
 /// The report's colours, written out: a file of its own has no style sheet to ask.
 const PALETTE: [&str; COLOURS] = [
@@ -23,12 +23,10 @@ impl Plot {
     pub fn to_svg(&self) -> Result<String, ReportError> {
         let layout = Layout::of(self)?;
         let inner = svg_plot::draw(self, &layout, "plot");
-        let names: Vec<&str> = self
-            .curves
-            .iter()
-            .map(|curve| curve.name.as_str())
-            .collect();
-        Ok(file(&self.title, &names, &inner, layout.height))
+        let named = self.curves.iter().enumerate();
+        let named = named.filter(|(_, curve)| !curve.name.is_empty());
+        let entries: Vec<Entry> = named.map(|(k, curve)| Entry::of(curve, k)).collect();
+        Ok(file(&self.title, &entries, &inner, layout.height))
     }
 }
 
@@ -47,30 +45,74 @@ impl Spans {
     }
 }
 
+/// A name in the legend and what stands before it.
+struct Entry<'a> {
+    name: &'a str,
+    sign: String,
+}
+
+impl<'a> Entry<'a> {
+    fn of(curve: &'a Curve, number: usize) -> Self {
+        let colour = PALETTE[svg_plot::colour(curve, number)];
+        let sign = match curve.style {
+            CurveStyle::Line => {
+                format!("<path d=\"M0 0H18\" stroke=\"{colour}\" stroke-width=\"2\"/>")
+            }
+            CurveStyle::Dashed => format!(
+                "<path d=\"M0 0H18\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>"
+            ),
+            CurveStyle::Points => {
+                let (path, at) = (curve.symbol.path(), "translate(9 0)");
+                if curve.symbol.is_open() {
+                    format!(
+                        "<path transform=\"{at} scale(.8)\" d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>"
+                    )
+                } else {
+                    format!("<path transform=\"{at}\" d=\"{path}\" fill=\"{colour}\"/>")
+                }
+            }
+        };
+        Self {
+            name: &curve.name,
+            sign,
+        }
+    }
+
+    /// Width with its sign, pixels; generous, for the fonts that a reader may have.
+    fn width(&self) -> f64 {
+        44.0 + 6.6 * self.name.chars().count() as f64
+    }
+}
+
 /// A drawing of the page in a file: title and legend above it.
-fn file(title: &str, names: &[&str], inner: &str, height: f64) -> String {
-    let head = HEAD[0] + if names.is_empty() { 0.0 } else { HEAD[1] };
+fn file(title: &str, names: &[Entry], inner: &str, height: f64) -> String {
+    let (mut legend, mut rows, mut x) = (String::new(), 0.0, WIDTH);
+    for entry in names {
+        if x + entry.width() > WIDTH {
+            x = 14.0;
+            rows += 1.0;
+        }
+        let y = HEAD[0] + HEAD[1] * (rows - 1.0);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            legend,
+            "<g transform=\"translate({x:.0} {:.0})\">{}</g><text x=\"{:.0}\" y=\"{:.0}\">{}</text>",
+            y + 8.0,
+            entry.sign,
+            x + 24.0,
+            y + 12.0,
+            escape(entry.name)
+        );
+        x += entry.width();
+    }
+    let head = HEAD[0] + HEAD[1] * rows;
     let whole = head + height;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {whole}\" width=\"{WIDTH}\" height=\"{whole}\">\n<style>{}</style>\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"14\" y=\"21\" style=\"font-size:15px;font-weight:600\">{}</text>\n",
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"14\" y=\"21\" style=\"font-size:15px;font-weight:600\">{}</text>\n{legend}",
         style(),
         escape(title)
     );
-    let mut x = 14.0;
-    for (number, name) in names.iter().enumerate() {
-        let colour = PALETTE[number % COLOURS];
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.0}\" y=\"{:.0}\" width=\"12\" height=\"12\" fill=\"{colour}\"/><text x=\"{:.0}\" y=\"{:.0}\">{}</text>",
-            HEAD[0] + 2.0,
-            x + 17.0,
-            HEAD[0] + 12.0,
-            escape(name)
-        );
-        x += 40.0 + 6.6 * name.chars().count() as f64;
-    }
     let placed = inner.replacen(
         "<svg ",
         &format!("<svg y=\"{head}\" width=\"{WIDTH}\" height=\"{height}\" "),
@@ -85,12 +127,13 @@ fn style() -> String {
         "text{font:12px \"Segoe UI\",\"Helvetica Neue\",Arial,\"DejaVu Sans\",sans-serif;fill:#1b242d}\
          .area{fill:#fff}.frame{fill:none;stroke:#8794a0}.grid{stroke:#dde3e8}.fine{stroke:#eef1f4}\
          .title{font-size:12.5px;fill:#5a6672}.curve{fill:none;stroke-width:1.25}.dashed{stroke-dasharray:6 4}\
-         .dots{fill-opacity:.85}.marker line{stroke:#8794a0;stroke-dasharray:4 3}",
+         .dots{fill-opacity:.85}.marker line,.level line{stroke:#8794a0;stroke-dasharray:4 3}\
+         .level text{font-size:11px;fill:#5a6672;paint-order:stroke;stroke:#fff;stroke-width:3px}",
     );
     for (number, colour) in PALETTE.iter().enumerate() {
         let _ = write!(
             style,
-            ".c{number}{{stroke:{colour}}}.dots.c{number}{{fill:{colour};stroke:#fff;stroke-width:.6}}.b{number}{{fill:{colour}}}.marker.m{number} line{{stroke:{colour}}}"
+            ".c{number}{{stroke:{colour}}}.dots.c{number}{{fill:{colour};stroke:#fff;stroke-width:.6}}.dots.open.c{number}{{fill:none;stroke:{colour};stroke-width:1.8}}.b{number}{{fill:{colour}}}.marker.m{number} line{{stroke:{colour}}}"
         );
     }
     style
@@ -98,7 +141,7 @@ fn style() -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Abscissa, Axis, Curve, SpanPoint, SpanRow};
+    use super::super::{Abscissa, Axis, SpanPoint, SpanRow};
     use super::*;
 
     #[test]
@@ -114,6 +157,18 @@ mod tests {
         assert!(svg.contains(">A &lt; B</text>") && svg.contains(">one &amp; all</text>"));
         assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
         assert!(!svg.contains("var(") && !svg.contains("href"));
+        let wide = Curve {
+            name: "a".repeat(120),
+            ..plot.curves[0].clone()
+        };
+        // a name that does not fit beside the first one goes below it: 22 more
+        let two = plot.clone().curve(wide).to_svg().expect("a valid plot");
+        let height = |svg: &str| -> f64 {
+            let rest = svg.split("viewBox=\"0 0 920 ").nth(1).expect("a size");
+            let number = rest.split('"').next().expect("a height");
+            number.parse().expect("a number")
+        };
+        assert!((height(&two) - height(&svg) - 22.0).abs() < 1e-9);
         let spans = Spans {
             title: "S".to_owned(),
             caption: None,

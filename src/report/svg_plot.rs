@@ -29,6 +29,7 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
     let _ = write!(out, "<rect class=\"area\" {area}/><g class=\"view\">");
     grid(&mut out, layout);
     markers(&mut out, layout);
+    levels(&mut out, plot, layout);
     let _ = write!(out, "<g clip-path=\"url(#{id}-clip)\">");
     for (k, curve) in plot.curves.iter().enumerate() {
         draw_curve(&mut out, curve, layout, k);
@@ -119,8 +120,32 @@ fn markers(out: &mut String, layout: &Layout) {
     }
 }
 
+/// Class of a curve's colour.
+pub(super) fn colour(curve: &Curve, number: usize) -> usize {
+    curve.colour.unwrap_or(number) % COLOURS
+}
+
+/// Horizontal lines, each with its label above its left end.
+fn levels(out: &mut String, plot: &Plot, layout: &Layout) {
+    for level in &plot.levels {
+        let y = tenth(layout.y_px(level.at / layout.y.factor));
+        if !(layout.top..=layout.bottom).contains(&y) {
+            continue;
+        }
+        let (left, right) = (layout.left, layout.right);
+        let _ = write!(
+            out,
+            "<g class=\"level\"><line x1=\"{left}\" y1=\"{y}\" x2=\"{right}\" y2=\"{y}\"/>\
+             <text x=\"{}\" y=\"{}\">{}</text></g>",
+            left + 6.0,
+            y - 4.0,
+            escape(&level.label)
+        );
+    }
+}
+
 fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
-    let class = number % COLOURS;
+    let class = colour(curve, number);
     let shown = |k: usize| {
         (
             layout.x_px(curve.x_at(k) / layout.x.factor),
@@ -131,11 +156,18 @@ fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
     let near = |(x, y): (f64, f64)| (x, y.clamp(-2000.0, 3000.0));
     let points = in_view(curve, layout);
     if curve.style == CurveStyle::Points {
-        let _ = write!(out, "<g class=\"dots c{class}\">");
-        for (x, y) in points.into_iter().flatten().map(shown).map(near) {
+        let open = if curve.symbol.is_open() { " open" } else { "" };
+        let _ = write!(out, "<g class=\"dots c{class}{open}\">");
+        let path = curve.symbol.path();
+        for place in points.into_iter().flatten() {
+            let (x, y) = near(shown(place));
             if x.is_finite() && y.is_finite() {
                 let (x, y) = (tenth(x), tenth(y));
-                let _ = write!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"3.5\"/>");
+                let _ = write!(out, "<path transform=\"translate({x} {y})\" d=\"{path}\">");
+                if let Some(label) = curve.labels.get(place) {
+                    let _ = write!(out, "<title>{}</title>", escape(label));
+                }
+                out.push_str("</path>");
             }
         }
         out.push_str("</g>");
@@ -209,7 +241,7 @@ fn tenth(pixels: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plot::{Abscissa, Axis, Marker};
+    use super::super::plot::{Abscissa, Axis, Marker, Symbol};
     use super::*;
 
     fn svg(plot: &Plot) -> String {
@@ -258,8 +290,39 @@ mod tests {
         let mut marked = plot(vec![1.0, 2.0, 3.0]).marker(Marker::new(1e-5, "a & b").family(2));
         marked.curves[0].style = CurveStyle::Points;
         let svg = svg(&marked);
-        assert_eq!(svg.matches("<circle").count(), 3);
+        assert_eq!(svg.matches("<path transform").count(), 3);
         assert!(svg.contains("<g class=\"marker m2\"><title>a &amp; b</title>"));
+    }
+
+    #[test]
+    fn points_have_symbols_colours_and_labels_and_levels_are_named() {
+        let points = |symbol| {
+            let x = Abscissa::Points(vec![1.0, 10.0]);
+            Curve::new("a", x, vec![1e-3, 1e-2]).points(symbol)
+        };
+        let drawn = Plot::new("t", Axis::new("x", "s").log(), Axis::new("y", "").log())
+            .curve(points(Symbol::Diamond).labels(vec!["one & two".to_owned()]))
+            .curve(points(Symbol::Ring).colour(9))
+            .level(1e-5, "floor")
+            .tall();
+        let drawn = svg(&drawn);
+        assert_eq!(drawn.matches("d=\"M0 -4.375").count(), 2);
+        assert_eq!(drawn.matches("<title>one &amp; two</title>").count(), 1);
+        // nine is three of six colours; a ring is not filled
+        assert!(drawn.contains("<g class=\"dots c3 open\">"));
+        assert!(drawn.contains(">floor</text></g>"));
+        // the range reaches the level, which lies inside the area of 430 from 14 on
+        let level = drawn
+            .split("<g class=\"level\"><line ")
+            .nth(1)
+            .expect("a level");
+        let y: f64 = level
+            .split("y1=\"")
+            .nth(1)
+            .and_then(|rest| rest.split('"').next())
+            .and_then(|y| y.parse().ok())
+            .expect("its place");
+        assert!(y > 350.0 && y < 444.0, "{y}");
     }
 
     #[test]

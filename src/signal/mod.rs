@@ -17,6 +17,7 @@ mod fourier;
 mod lines;
 mod peaks;
 mod spectrum;
+mod third_octave;
 
 pub use band_limit::{band_limit, band_limit_edge_s};
 pub use butterworth::{DEFAULT_ORDER, high_pass, high_pass_of_order};
@@ -27,3 +28,4 @@ pub use error::SignalError;
 pub use lines::{EnvelopePeak, LineMatch, NamedLine, PeakSearch, envelope_peaks, match_line};
 pub use peaks::{Peak, local_maxima, peak_near};
 pub use spectrum::{AmplitudeSpectrum, DEFAULT_RESOLUTION_HZ, amplitude_spectrum};
+pub use third_octave::{BandLevel, third_octaves};

@@ -105,6 +105,7 @@ pub use statics::{PassPoint, Statics};
 pub use structure::StructureStage;
 pub use superelement_record::{reduced_superelement_record, superelement_record};
 pub use survey::{ModalSurvey, RingShapes};
+pub(crate) use tables::{assumptions, model_facts};
 pub use tie_price::{
     BeamAndSolid, NoTiePrice, TIE_PRICE_MODES, TieComparison, TiePrice, tie_price,
 };

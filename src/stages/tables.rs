@@ -9,7 +9,7 @@ use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 const LISTED_MODES: usize = 20;
 
 /// The linear model in facts; `condensed`: how, where something of the report was computed with it.
-pub(super) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) -> Vec<Fact> {
+pub(crate) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) -> Vec<Fact> {
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![
@@ -177,7 +177,7 @@ pub(super) fn expected_table(expected: &[ExpectedMode]) -> Table {
 }
 
 /// What a reader must know to judge the numbers.
-pub(super) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<String> {
+pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<String> {
     let mut list = Vec::new();
     if let Some(setup) = setup {
         list.push(match setup.formulation {

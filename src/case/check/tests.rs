@@ -209,6 +209,14 @@ fn rings_and_contacts_have_no_loss_factor() {
 }
 
 #[test]
+fn a_perturbation_is_between_zero_and_one() {
+    for value in ["0", "1"] {
+        let rule = format!("found {value}, expected a number above 0 and below 1");
+        full(&format!("transient.ensemble.perturbation={value}"), &rule);
+    }
+}
+
+#[test]
 fn counts_stay_within_their_range() {
     for (argument, rule) in [
         ("ring.nodes=7", "found 7, expected 8 to 2000 nodes"),
@@ -216,6 +224,14 @@ fn counts_stay_within_their_range() {
         ("bearing.balls=2", "found 2, expected 3 to 40 balls"),
         ("bearing.balls=41", "found 41, expected 3 to 40 balls"),
         ("transient.modes=0", "found 0, expected at least 1"),
+        (
+            "transient.ensemble.runs=1",
+            "found 1, expected 2 to 10000 runs",
+        ),
+        (
+            "transient.ensemble.runs=10001",
+            "found 10001, expected 2 to 10000 runs",
+        ),
     ] {
         full(argument, rule);
     }

@@ -284,6 +284,12 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
     if let ModesKept::Count(count) = transient.modes {
         at_least_one("transient.modes", count)?;
     }
+    let ensemble = transient.ensemble;
+    if !(2..=10_000).contains(&ensemble.runs) {
+        let (found, expected) = (ensemble.runs, "2 to 10000 runs");
+        return Err(Rule::Count { found, expected }.at("transient.ensemble.runs"));
+    }
+    fraction("transient.ensemble.perturbation", ensemble.perturbation)?;
     above_zero("transient.output_hz", transient.output_hz)?;
     if let Some(accuracy) = &case.accuracy
         && transient.output_hz < 2.0 * accuracy.band_hz[1]

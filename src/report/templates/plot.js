@@ -151,6 +151,11 @@
         if (tick.label !== null) out.push(`<text class="tick" x="${d.left - 7}" y="${y + 4}" text-anchor="end">${tick.label}</text>`);
       }
       this.drawMarkers(out);
+      for (const level of d.levels) {
+        const y = tenth(this.yPixel(level.at));
+        if (!(y >= d.top && y <= d.bottom)) continue;
+        out.push(`<g class="level"><line x1="${d.left}" y1="${y}" x2="${d.right}" y2="${y}"/><text x="${d.left + 6}" y="${y - 4}">${escape(level.label)}</text></g>`);
+      }
       out.push(`<g clip-path="url(#${this.clip})">`);
       for (const curve of d.curves) if (curve.visible) this.drawCurve(out, curve);
       out.push("</g>");
@@ -179,10 +184,12 @@
       const [first, end] = this.range(curve);
       const pixel = (k) => [this.xPixel(curve.at(k)), Math.min(3000, Math.max(-2000, this.yPixel(curve.y[k])))];
       if (curve.style === "points") {
-        out.push(`<g class="dots c${curve.colour}">`);
+        out.push(`<g class="dots c${curve.colour}${curve.open ? " open" : ""}">`);
         for (let k = first; k < end; k += 1) {
-          const [x, y] = pixel(k);
-          if (Number.isFinite(x) && Number.isFinite(y)) out.push(`<circle cx="${tenth(x)}" cy="${tenth(y)}" r="3.5"/>`);
+          const [x, y] = pixel(k), label = curve.labels?.[k];
+          if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+          const title = label === undefined ? "" : `<title>${escape(label)}</title>`;
+          out.push(`<path transform="translate(${tenth(x)} ${tenth(y)})" d="${curve.symbol}">${title}</path>`);
         }
         out.push("</g>");
         return;
@@ -215,7 +222,7 @@
     pointer(event) {
       const d = this.data, box = this.svg.getBoundingClientRect();
       const x = (event.clientX - box.left) * d.width / box.width, y = (event.clientY - box.top) * d.height / box.height;
-      return { x, part: (x - d.left) / (d.right - d.left), inside: x >= d.left && x <= d.right && y >= d.top && y <= d.bottom };
+      return { x, y, part: (x - d.left) / (d.right - d.left), inside: x >= d.left && x <= d.right && y >= d.top && y <= d.bottom };
     }
 
     overlay(html) {
@@ -226,8 +233,25 @@
       this.cover.innerHTML = html;
     }
 
-    // The nearest point of the first visible curve, under the pointer.
+    // The nearest labelled point within reach of the pointer.
+    named(at) {
+      const d = this.data;
+      let best = 400, found = null;
+      for (const curve of d.curves) {
+        if (!curve.visible || !curve.labels) continue;
+        const [first, end] = this.range(curve);
+        for (let k = first; k < end; k += 1) {
+          const x = this.xPixel(curve.at(k)), y = this.yPixel(curve.y[k]), far = (x - at.x) ** 2 + (y - at.y) ** 2;
+          if (far < best) { best = far; found = { x, y, text: curve.labels[k] }; }
+        }
+      }
+      this.overlay(found ? `<circle class="spot" cx="${found.x}" cy="${found.y}" r="3"/>` : "");
+      this.output.textContent = found ? found.text : "";
+    }
+
+    // The nearest point of the first visible curve, under the pointer; of plots with labelled points the nearest of these.
     read(at) {
+      if (this.data.curves.some((c) => c.labels)) { this.named(at); return; }
       const d = this.data, curve = d.curves.find((c) => c.visible && c.rising && c.y.length);
       if (!at.inside || !curve) { this.overlay(""); this.output.textContent = ""; return; }
       const v = this.value(this.x, at.part);

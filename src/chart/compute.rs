@@ -1,0 +1,242 @@
+//! The chart of a scene, from its case.
+
+use super::candidates::families;
+use super::points::{Point, evaluate, measure, point};
+use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
+use super::{ChartError, Effort, Reference, Settings, Start, Starts, pareto_front};
+use crate::case::{self, Case, ModesKept, StepLength};
+use crate::stages::{ModelChoice, RunModel, Scene, StageError, Watch};
+use crate::system::{CoupledSystem, SystemError};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Speed against accuracy of a scene.
+#[derive(Debug)]
+pub struct Chart {
+    /// What was simulated.
+    pub scene: Scene,
+    /// What was compared.
+    pub settings: Settings,
+    /// Where the runs began.
+    pub starts: Starts,
+    /// What the errors are measured by.
+    pub reference: Reference,
+    /// Every candidate that was computed; those without an error are the omissions.
+    pub points: Vec<Point>,
+    /// Places of the points that none beats in cost and error, by cost; none that is below the floor.
+    pub front: Vec<usize>,
+    /// Place of the program's own choice.
+    pub chosen: usize,
+    /// Place of the source paper's method.
+    pub source: usize,
+    /// Statistics beyond the horizon.
+    pub statistics: Vec<ModelStatistics>,
+}
+
+/// Statistics of a model against those of the reference, from the same starts.
+#[derive(Debug)]
+pub struct ModelStatistics {
+    /// Place of its point.
+    pub point: usize,
+    /// The figures, or why there are none.
+    pub figures: Result<Vec<ComparedFigure>, String>,
+}
+
+impl Chart {
+    /// Points without an error, and why.
+    pub fn omissions(&self) -> impl Iterator<Item = (usize, &super::Failure)> {
+        let points = self.points.iter().enumerate();
+        points.filter_map(|(place, point)| Some((place, point.error.as_ref().err()?)))
+    }
+
+    /// Whether a point's error is below what the reference can tell.
+    pub fn below_floor(&self, point: &Point) -> bool {
+        let error = point.error.as_ref();
+        error.is_ok_and(|error| error.mean < self.reference.disagreement)
+    }
+}
+
+/// Computes the chart of a case.
+///
+/// # Errors
+/// [`ChartError`]; a candidate that fails is no error but an omission.
+pub fn compute_chart(
+    case: &Case,
+    effort: Effort,
+    watch: &(impl Watch + Sync),
+) -> Result<Chart, ChartError> {
+    let scene = Scene::build(case, watch)?;
+    // a chart without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let settings = Settings::of(case, asked, effort)?;
+    watch.stage("starts");
+    let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
+    watch.stage("reference");
+    let progress = Counter::new(watch, starts.starts.len());
+    let reference = Reference::find(&scene, &starts, &settings, || progress.done())?;
+    let chosen = |asked: &case::Transient| -> Result<RunModel, ChartError> {
+        Ok(ModelChoice::of_case(case, asked, &scene)?.model)
+    };
+    let automatic = chosen(&automatic(asked, case::Method::Auto))?;
+    let source = chosen(&automatic_source(asked))?;
+    watch.stage("points");
+    let (mut points, places) =
+        candidates(&scene, &reference, &settings, [automatic, source], watch);
+    let [chosen, source] = places;
+    watch.stage("time");
+    if let Some(first) = reference.starts.first() {
+        measure(&scene, &mut points, first, &settings, |part| {
+            watch.fraction(part);
+        });
+    }
+    let front = front(&points, reference.disagreement);
+    watch.stage("statistics");
+    let statistics = statistics(
+        case,
+        &scene,
+        &reference,
+        &settings,
+        [&points[chosen], &points[source]],
+        places,
+        watch,
+    );
+    Ok(Chart {
+        scene,
+        settings,
+        starts,
+        reference,
+        points,
+        front,
+        chosen,
+        source,
+        statistics,
+    })
+}
+
+/// What a case asks for with everything left to the program but the method.
+fn automatic(asked: &case::Transient, method: case::Method) -> case::Transient {
+    case::Transient {
+        method,
+        step: StepLength::Auto,
+        modes: ModesKept::Auto,
+        residual: true,
+        tolerance: None,
+        spectral_radius: None,
+        ..asked.clone()
+    }
+}
+
+/// The source paper's method as it is used there: all displacements, its own step.
+fn automatic_source(asked: &case::Transient) -> case::Transient {
+    case::Transient {
+        residual: false,
+        ..automatic(asked, case::Method::NewmarkExplicit)
+    }
+}
+
+/// All points, and the places of the two that must be there.
+fn candidates(
+    scene: &Scene,
+    reference: &Reference,
+    settings: &Settings,
+    wanted: [RunModel; 2],
+    watch: &(impl Watch + Sync),
+) -> (Vec<Point>, [usize; 2]) {
+    let families = families(settings, &wanted);
+    let progress = Counter::new(watch, families.len());
+    let found: Vec<Vec<Point>> = families
+        .par_iter()
+        .map(|family| {
+            let points = evaluate(scene, family, reference, settings);
+            progress.done();
+            points
+        })
+        .collect();
+    let mut points = found.concat();
+    let places = wanted.map(|model| {
+        let known = points.iter().position(|point| point.model == model);
+        known.unwrap_or_else(|| {
+            points.push(point(scene, &model, reference, settings));
+            points.len() - 1
+        })
+    });
+    (points, places)
+}
+
+/// Places of the points that none beats, without what lies below the floor.
+fn front(points: &[Point], floor: f64) -> Vec<usize> {
+    let measured = points.iter().enumerate();
+    let measured: Vec<(usize, (f64, f64))> = measured
+        .filter_map(|(place, point)| Some((place, point.measured()?)))
+        .filter(|(_, (_, error))| *error >= floor)
+        .collect();
+    let values: Vec<(f64, f64)> = measured.iter().map(|(_, value)| *value).collect();
+    let places = pareto_front(&values).into_iter();
+    places.map(|place| measured[place].0).collect()
+}
+
+/// Statistics of points against the reference's second method, which is the cheaper one.
+fn statistics(
+    case: &Case,
+    scene: &Scene,
+    reference: &Reference,
+    settings: &Settings,
+    points: [&Point; 2],
+    places: [usize; 2],
+    watch: &(impl Watch + Sync),
+) -> Vec<ModelStatistics> {
+    let starts: Vec<Start> = reference.starts.iter().map(|s| s.start.clone()).collect();
+    let analysis = FigureSettings {
+        band_hz: [case.band_hz().map_or(0.0, |band| band[0]), settings.band_hz],
+        high_pass_hz: case.analysis.high_pass_hz,
+    };
+    let progress = Counter::new(watch, 3 * starts.len());
+    let run = |model: &RunModel,
+               system: &(dyn Fn() -> Result<CoupledSystem, StageError> + Sync)| {
+        let done = || progress.done();
+        ensemble(scene, &starts, model, system, settings, &analysis, done)
+    };
+    let [_, beside] = &reference.models;
+    let measured_by = run(beside, &|| Ok(scene.system(beside)?));
+    let own = |point: &Point| {
+        let by = measured_by
+            .as_ref()
+            .map_err(|failure| failure.reason.clone())?;
+        if let Err(failure) = &point.error {
+            return Err(failure.reason.clone());
+        }
+        let model = &point.model;
+        let own = run(model, &|| scene.system(model)).map_err(|failure| failure.reason)?;
+        Ok(compare(&own, by))
+    };
+    points
+        .into_iter()
+        .zip(places)
+        .map(|(of, point)| ModelStatistics {
+            point,
+            figures: own(of),
+        })
+        .collect()
+}
+
+/// Tells a watch how many of the parts are done.
+struct Counter<'a, W> {
+    watch: &'a W,
+    count: usize,
+    done: AtomicUsize,
+}
+
+impl<'a, W: Watch> Counter<'a, W> {
+    fn new(watch: &'a W, count: usize) -> Self {
+        Self {
+            watch,
+            count: count.max(1),
+            done: AtomicUsize::new(0),
+        }
+    }
+
+    fn done(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        self.watch.fraction(done as f64 / self.count as f64);
+    }
+}

@@ -1,0 +1,41 @@
+//! Speed against accuracy: methods, steps and sizes of the model on one scene, against a reference that is measured first.
+//!
+//! [`compute_chart`] goes through it: [`Starts`] over a ball pass; the [`Reference`] of two methods of different kind that
+//! are refined until they agree; the [`Growth`] of small perturbations, and with it the horizon inside which signals can be
+//! compared point by point; the [`Point`]s; the front of those that none beats ([`pareto_front`]); and beyond the horizon
+//! statistics over an ensemble ([`compare`]). [`chart_report`] shows it.
+//!
+//! **Limitations.** Errors are those of the sensors' accelerations up to the band's highest frequency; what lies below its
+//! lowest is not taken out. Statistics are those of the first sensor.
+
+mod candidates;
+mod compute;
+mod effort;
+mod error;
+mod front;
+mod growth;
+mod perturbation;
+mod plots;
+mod points;
+#[cfg(test)]
+mod points_tests;
+mod reference;
+mod report;
+mod starts;
+mod statistics;
+mod trace;
+
+pub use candidates::parameter_of;
+pub use compute::{Chart, ModelStatistics, compute_chart};
+pub use effort::{Effort, Settings};
+pub use error::ChartError;
+pub use front::pareto_front;
+pub use growth::Growth;
+pub use perturbation::perturb;
+pub use plots::{between_methods, growth, work_precision};
+pub use points::{Point, PointError};
+pub use reference::{Reference, StartReference};
+pub use report::chart_report;
+pub use starts::{Start, Starts};
+pub use statistics::{ComparedFigure, Estimate, Figure, compare, figures};
+pub use trace::{Failure, FailureKind, Trace};

@@ -1,0 +1,230 @@
+//! The points of the chart: how far each candidate is from the reference, and what it costs.
+
+use super::candidates::{Family, model_name, parameter_of};
+use super::trace::{Failure, FailureKind, Trace, simulate};
+use super::{Reference, Settings, StartReference};
+use crate::stages::{RunModel, Scene, Span};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// An error of the signal's own size or more shows nothing.
+const TOO_INACCURATE: f64 = 1.0;
+
+/// An error from which a refinement is expected to bring something, and what it must then bring to go on.
+const CONVERGING: f64 = 0.3;
+const GAIN: f64 = 0.85;
+
+/// Simulated time by which costs are measured, s, and how often; the median counts.
+const TIMED: f64 = 2e-3;
+const ROUNDS: usize = 3;
+
+/// Mean and scatter of the errors of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointError {
+    /// Mean over the starts.
+    pub mean: f64,
+    /// Standard deviation over the starts.
+    pub deviation: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+/// A candidate and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Method, model and step.
+    pub model: RunModel,
+    /// Wall time a simulated second, on one thread, s; `None` where it was not measured.
+    pub wall_s: Option<f64>,
+    /// Relative difference from the reference over the horizons, or why there is none.
+    pub error: Result<PointError, Failure>,
+}
+
+impl Point {
+    /// The method's name.
+    pub fn method(&self) -> &'static str {
+        self.model.method.name()
+    }
+
+    /// The model in words.
+    pub fn model_name(&self) -> String {
+        model_name(&self.model)
+    }
+
+    /// "step_s" or "tolerance", and its value.
+    pub fn parameter(&self) -> (&'static str, f64) {
+        parameter_of(&self.model)
+    }
+
+    /// Cost and mean error of a point that has both.
+    pub fn measured(&self) -> Option<(f64, f64)> {
+        Some((self.wall_s?, self.error.as_ref().ok()?.mean))
+    }
+}
+
+/// Part of the target below which nothing finer is tried.
+const FINE: f64 = 0.01;
+
+/// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
+/// or until the error is far below the target or at the floor. Starts in parallel.
+pub(super) fn evaluate(
+    scene: &Scene,
+    family: &Family,
+    reference: &Reference,
+    settings: &Settings,
+) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
+    let mut before: Option<f64> = None;
+    for model in &family.models {
+        let point = point(scene, model, reference, settings);
+        let (now, refused) = match &point.error {
+            Ok(error) => (Some(error.mean), false),
+            Err(failure) => (None, failure.kind == FailureKind::Refused),
+        };
+        points.push(point);
+        let gained_nothing = matches!((before, now), (Some(before), Some(now))
+            if now < CONVERGING && now > GAIN * before);
+        let fine = reference.disagreement.max(FINE * settings.target);
+        let fine_enough = now.is_some_and(|now| now <= fine);
+        if refused || gained_nothing || fine_enough {
+            break;
+        }
+        before = now;
+    }
+    points
+}
+
+/// A point without its cost.
+pub(super) fn point(
+    scene: &Scene,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+) -> Point {
+    // the first start that fails tells enough; which one does not depend on the number of threads
+    let failed = AtomicBool::new(false);
+    let starts: Vec<&StartReference> = reference
+        .starts
+        .iter()
+        .step_by(settings.point_stride())
+        .collect();
+    let errors: Vec<Option<Result<f64, Failure>>> = starts
+        .par_iter()
+        .map(|start| {
+            if failed.load(Ordering::Relaxed) {
+                return None;
+            }
+            let error = error_of(scene, model, start, settings);
+            if error.is_err() {
+                failed.store(true, Ordering::Relaxed);
+            }
+            Some(error)
+        })
+        .collect();
+    let error = if failed.into_inner() {
+        Err(first_failure(scene, model, &starts, settings, errors))
+    } else {
+        let values: Vec<f64> = errors.into_iter().flatten().flatten().collect();
+        judged(&values)
+    };
+    Point {
+        model: *model,
+        wall_s: None,
+        error,
+    }
+}
+
+/// The failure of the first start that fails, computed where it was left out.
+fn first_failure(
+    scene: &Scene,
+    model: &RunModel,
+    starts: &[&StartReference],
+    settings: &Settings,
+    errors: Vec<Option<Result<f64, Failure>>>,
+) -> Failure {
+    let starts = starts.iter().zip(errors);
+    let failures = starts.filter_map(|(start, known)| {
+        let error = known.unwrap_or_else(|| error_of(scene, model, start, settings));
+        error.err()
+    });
+    failures.into_iter().next().unwrap_or(Failure {
+        kind: FailureKind::Refused,
+        reason: String::new(),
+    })
+}
+
+/// Relative difference from the reference over a start's horizon.
+fn error_of(
+    scene: &Scene,
+    model: &RunModel,
+    start: &StartReference,
+    settings: &Settings,
+) -> Result<f64, Failure> {
+    let system = scene.system(model)?;
+    let state = start.start.state(scene, &system);
+    let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
+    let error = trace.error(&start.trace, 0.0, start.horizon_s);
+    error.map_err(|error| Failure {
+        kind: FailureKind::Refused,
+        reason: error.to_string(),
+    })
+}
+
+/// Mean and scatter, or that they show nothing.
+fn judged(errors: &[f64]) -> Result<PointError, Failure> {
+    let count = errors.len() as f64;
+    let mean = errors.iter().sum::<f64>() / count;
+    let squares = errors.iter().map(|error| (error - mean).powi(2));
+    let deviation = (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    if mean < TOO_INACCURATE {
+        Ok(PointError {
+            mean,
+            deviation,
+            largest,
+        })
+    } else {
+        Err(Failure {
+            kind: FailureKind::TooInaccurate,
+            reason: format!(
+                "the signal differs from the reference by {mean:.2e} of its root mean square"
+            ),
+        })
+    }
+}
+
+/// Measures what the points cost, one run at a time and on this thread: the median of some rounds over all points, so that what
+/// else the machine does for a while falls on a round and not on a point. `done` is told the share that is done.
+pub(super) fn measure(
+    scene: &Scene,
+    points: &mut [Point],
+    start: &StartReference,
+    settings: &Settings,
+    done: impl Fn(f64),
+) {
+    let span = Span {
+        duration: TIMED.min(settings.span_s),
+        output_hz: settings.output_hz,
+    };
+    let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
+    for round in 0..ROUNDS {
+        for (place, point) in points.iter().enumerate() {
+            walls[place].extend(wall(scene, point, start, span));
+            let count = (ROUNDS * points.len()) as f64;
+            done((round * points.len() + place + 1) as f64 / count);
+        }
+    }
+    for (point, mut walls) in points.iter_mut().zip(walls) {
+        walls.sort_by(f64::total_cmp);
+        point.wall_s = walls.get(walls.len() / 2).copied();
+    }
+}
+
+/// Wall time of one run over its simulated time; `None` for a point without an error.
+fn wall(scene: &Scene, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
+    point.error.as_ref().ok()?;
+    let system = scene.system(&point.model).ok()?;
+    let state = start.start.state(scene, &system);
+    let simulation = simulate(system, state, &point.model, span).ok()?;
+    Some(simulation.stepping_s / simulation.simulated_s)
+}

@@ -1,0 +1,325 @@
+//! `plummer chart`: speed against accuracy.
+
+use super::report_files::ReportFiles;
+use super::results::common;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::case::Case;
+use crate::chart::{
+    Chart, ComparedFigure, Effort, Estimate, Point, StartReference, chart_report, compute_chart,
+    parameter_of, work_precision,
+};
+use crate::report::significant;
+use crate::stages::{RunModel, StageError};
+use serde_json::{Map, Value, json};
+
+/// Computes the chart of a case and writes `chart.svg`, the report, its tables and, last, `chart.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn chart(
+    case: &Case,
+    effort: Effort,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let result = compute_chart(case, effort, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let svg = work_precision(&result).to_svg().map_err(StageError::from)?;
+    let svg = folder.write("chart.svg", svg.as_bytes())?;
+    let command = result_command(effort, &options.command_line("chart", case));
+    let report = chart_report(case, &result, &command);
+    let files = ReportFiles::write(&folder, "chart", case, report)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("chart", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), json!(files.tables));
+    map.extend(fields(case, &result));
+    let json = Value::Object(map);
+    let path = folder.write("chart.json", format!("{json:#}\n").as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: [vec![path, svg], files.paths].concat(),
+        verdict: verdict(&result),
+    })
+}
+
+/// The command line with what it computed.
+fn result_command(effort: Effort, line: &str) -> String {
+    match effort {
+        Effort::Full => line.to_owned(),
+        Effort::Quick => format!("{line} --quick"),
+    }
+}
+
+fn verdict(result: &Chart) -> Verdict {
+    if result.reference.agreed {
+        return Verdict::Good;
+    }
+    let [by, beside] = result.reference.models.map(|model| model.method.name());
+    Verdict::Bad {
+        what: format!(
+            "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
+            result.reference.disagreement, result.settings.target
+        ),
+        help: Some(
+            "points below that are not marked; a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
+                .to_owned(),
+        ),
+    }
+}
+
+fn summary(result: &Chart) -> String {
+    let reference = &result.reference;
+    let [by, beside] = reference.models.map(|model| model.method.name());
+    let ms = |seconds: f64| significant(1e3 * seconds, 3);
+    let mut lines = vec![
+        format!(
+            "{} starts over {} ms; {by} and {beside} on all {} modes differ by {} (the floor)",
+            result.starts.starts.len(),
+            ms(result.starts.spread_s),
+            result.scene.stage.modes.count(),
+            significant(reference.disagreement, 2),
+        ),
+        format!(
+            "nearby solutions stay together for {} ms (mean; least {} ms) of {} ms",
+            ms(reference.mean_horizon_s()),
+            ms(reference.least_horizon_s()),
+            ms(result.settings.span_s),
+        ),
+        format!(
+            "{} points, {} omitted; front, by wall time a simulated second:",
+            result.points.len(),
+            result.omissions().count()
+        ),
+    ];
+    lines.extend(
+        result
+            .front
+            .iter()
+            .map(|&place| line(&result.points[place])),
+    );
+    lines.push("the program's choice:".to_owned());
+    lines.push(line(&result.points[result.chosen]));
+    lines.push("the source's method:".to_owned());
+    lines.push(line(&result.points[result.source]));
+    lines.join("\n")
+}
+
+fn line(point: &Point) -> String {
+    let (name, value) = point.parameter();
+    let error = match &point.error {
+        Ok(error) => format!(
+            "error {} (+- {})",
+            significant(error.mean, 2),
+            significant(error.deviation, 2)
+        ),
+        Err(failure) => failure.reason.clone(),
+    };
+    let wall = point
+        .wall_s
+        .map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
+    format!(
+        "  {wall} s/s  {}, {}, {name} {}: {error}",
+        point.method(),
+        point.model_name(),
+        significant(value, 3)
+    )
+}
+
+/// What `chart.json` says beside what every result carries.
+fn fields(case: &Case, result: &Chart) -> Map<String, Value> {
+    let reference = &result.reference;
+    let fields = json!({
+        "scene": case.title,
+        "band_hz": case.band_hz(),
+        "target": result.settings.target,
+        "span_s": result.settings.span_s,
+        "ensemble": {
+            "starts_s": reference.starts.iter().map(|s| s.start.time_s).collect::<Vec<_>>(),
+            "spread_s": result.starts.spread_s,
+            "perturbation": result.settings.ensemble.perturbation,
+            "seed": result.settings.ensemble.seed,
+            "left_out": result.starts.left_out,
+        },
+        "reference": {
+            "methods": reference.models.map(|model| method(&model)),
+            "model": "all modes, balls with inertia",
+            "modes": result.scene.stage.modes.count(),
+            "disagreement": reference.disagreement,
+            "agreed": reference.agreed,
+            "starts": reference.starts.iter().map(of_start).collect::<Vec<_>>(),
+        },
+        "horizon_s": reference.mean_horizon_s(),
+        "least_horizon_s": reference.least_horizon_s(),
+        "growth_rate_per_s": reference.growth_rate_per_s(),
+        "points": result.points.iter().map(|point| of_point(result, point)).collect::<Vec<_>>(),
+        "front": result.front,
+        "omissions": result.omissions().map(|(place, failure)| json!({
+            "point": place,
+            "method": result.points[place].method(),
+            "model": result.points[place].model_name(),
+            "parameter": parameter(&result.points[place]),
+            "kind": failure.kind.name(),
+            "reason": failure.reason,
+        })).collect::<Vec<_>>(),
+        "chosen": result.chosen,
+        "source": result.source,
+        "statistics": {
+            "seconds": result.settings.statistics_s,
+            "models": result.statistics.iter().map(|of| json!({
+                "point": of.point,
+                "figures": of.figures.as_ref().ok().map(|all| all.iter().map(|figure| of_figure(result, figure)).collect::<Vec<_>>()),
+                "reason": of.figures.as_ref().err(),
+            })).collect::<Vec<_>>(),
+        },
+    });
+    match fields {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// A method of the reference and what it was refined to.
+fn method(model: &RunModel) -> Value {
+    let (name, value) = parameter_of(model);
+    json!({ "method": model.method.name(), name: value })
+}
+
+fn of_start(start: &StartReference) -> Value {
+    json!({
+        "start_s": start.start.time_s,
+        "horizon_s": start.horizon_s,
+        "disagreement": start.disagreement,
+        "refinements": start.refinements,
+        "growth_rate_per_s": start.growth.rate_per_s(),
+        "time_s": start.growth.times_s(),
+        "perturbed": start.growth.distances(),
+        "methods": start.between.distances(),
+    })
+}
+
+fn parameter(point: &Point) -> Value {
+    let (name, value) = point.parameter();
+    json!({ name: value })
+}
+
+fn of_point(result: &Chart, point: &Point) -> Value {
+    let error = point.error.as_ref();
+    json!({
+        "method": point.method(),
+        "model": point.model_name(),
+        "parameter": parameter(point),
+        "wall_s": point.wall_s,
+        "error": error.ok().map(|error| error.mean),
+        "deviation": error.ok().map(|error| error.deviation),
+        "largest_error": error.ok().map(|error| error.largest),
+        "ok": error.is_ok(),
+        "below_floor": result.below_floor(point),
+        "reason": error.err().map(|failure| &failure.reason),
+    })
+}
+
+fn of_figure(result: &Chart, figure: &ComparedFigure) -> Value {
+    let estimate = |of: &Estimate| {
+        json!({
+            "mean": of.mean,
+            "deviation": of.deviation,
+            "standard_error": of.standard_error,
+        })
+    };
+    json!({
+        "name": figure.name,
+        "unit": figure.unit,
+        "own": estimate(&figure.own),
+        "reference": estimate(&figure.reference),
+        "difference": estimate(&figure.difference),
+        "standard_errors": figure.standard_errors(),
+        "differs": figure.differs(result.settings.target),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use serde_json::Value;
+
+    use super::{Effort, Options, Progress, chart};
+    use crate::case::{Case, Source};
+    use crate::cli::Visibility;
+
+    /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
+    fn small() -> Case {
+        let path = format!("{}/examples/scenes/smooth.toml", env!("CARGO_MANIFEST_DIR"));
+        let set = [
+            "ring.nodes=12",
+            "accuracy.band_hz=[0,160000]",
+            "transient.end=0.13e-3",
+            "transient.ensemble.runs=2",
+        ];
+        let case = Case::from_source(Source {
+            text: fs::read_to_string(&path).unwrap(),
+            path: path.into(),
+            set: set.map(str::to_owned).to_vec(),
+        });
+        case.unwrap()
+    }
+
+    #[test]
+    fn a_chart_has_its_files_and_fields() {
+        let case = small();
+        let out = std::env::temp_dir().join(format!("plummer-{}-chart", std::process::id()));
+        fs::create_dir_all(&out).unwrap();
+        let options = Options {
+            out: Some(out.clone()),
+            ..Options::default()
+        };
+        let progress = Progress::new(Visibility::Hidden);
+        let outcome = chart(&case, Effort::Quick, &options, &progress).unwrap();
+        let json = outcome.result;
+        assert_eq!(json["scene"], "Preloaded bearing at constant speed");
+        // nothing grows where all balls stay in contact: the span, in whole windows of ten periods
+        assert!((json["horizon_s"].as_f64().unwrap() - 0.125e-3).abs() < 1e-9);
+        let floor = json["reference"]["disagreement"].as_f64().unwrap();
+        // below a tenth of the target, or the chart says so
+        assert!(floor > 0.0 && floor < 1e-3, "{floor:e}");
+        assert_eq!(json["reference"]["agreed"], true);
+        assert_eq!(json["reference"]["methods"][0]["method"], "dop853");
+        let points = json["points"].as_array().unwrap();
+        for point in points {
+            let ok = point["ok"] == true;
+            for key in ["wall_s", "error", "deviation", "largest_error"] {
+                assert_eq!(point[key].as_f64().is_some(), ok, "{point}");
+            }
+            assert_eq!(point["reason"].is_null(), ok, "{point}");
+        }
+        let at = |place: &Value| &points[place.as_u64().unwrap() as usize];
+        assert_eq!(at(&json["chosen"])["method"], "exponential");
+        assert_eq!(at(&json["source"])["method"], "newmark-explicit");
+        assert_eq!(at(&json["source"])["model"], "all modes");
+        let front = json["front"].as_array().unwrap();
+        assert!(!front.is_empty());
+        for pair in front.windows(2) {
+            let [first, next] = [&pair[0], &pair[1]].map(at);
+            assert!(first["wall_s"].as_f64() < next["wall_s"].as_f64());
+            assert!(first["error"].as_f64() > next["error"].as_f64());
+            assert_eq!(next["below_floor"], false);
+        }
+        for omitted in json["omissions"].as_array().unwrap() {
+            assert_eq!(at(&omitted["point"])["reason"], omitted["reason"]);
+        }
+        let figures = &json["statistics"]["models"][0]["figures"];
+        assert_eq!(figures[0]["name"], "root mean square");
+        assert!(figures[0]["reference"]["mean"].as_f64().unwrap() > 0.0);
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        assert!(read("chart.svg").starts_with("<svg "));
+        assert!(read("report.html").contains("Points that none beats"));
+        assert_eq!(
+            json,
+            serde_json::from_str::<Value>(&read("chart.json")).unwrap()
+        );
+        fs::remove_dir_all(out).unwrap();
+    }
+}
