@@ -80,7 +80,7 @@ const DENTED: [&str; 2] = [
 
 #[test]
 fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
-    let with_inertia = [&["transient.end=6e-4"], &DENTED[..]].concat();
+    let with_inertia = [&["transient.end=3e-4"], &DENTED[..]].concat();
     let without = [
         &with_inertia[..],
         &[
