@@ -197,7 +197,7 @@ fn statistics(
         ensemble(scene, &starts, model, system, settings, &analysis, done)
     };
     let [_, beside] = &reference.models;
-    let measured_by = run(beside, &|| Ok(scene.system(beside)?));
+    let measured_by = run(beside, &|| scene.system(beside));
     let own = |point: &Point| {
         let by = measured_by
             .as_ref()

@@ -145,8 +145,9 @@ impl CoupledSystem {
         let (group, lane) = (j / LANES, j % LANES);
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
         let known = self.work.known[j].0;
+        let near = (s - known).abs() <= SAME_PLACE * s.abs();
         // also where none is known
-        if !((s - known).abs() <= SAME_PLACE * s.abs()) {
+        if !near {
             self.work.known[j] = (s, self.outer_force(j, s));
         }
         let (at, force) = &self.work.known[j];
