@@ -7,8 +7,9 @@ use crate::dynamics::{
 };
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
-/// step that is too long is then seen at most so many steps after its first value out of range.
-const STEPS_UNCHECKED: u64 = 4;
+/// step that is too long is then seen fewer than so many steps after its first value out of range. By instructions a look takes
+/// 11 % of the cheapest step (7 modes, no residual), so that looking takes below 2 % of a run.
+const STEPS_UNCHECKED: u64 = 6;
 
 /// Good states that are kept. The method's limit is told for the worst of them: in a single one the ball that vibrates may be
 /// just off its races.

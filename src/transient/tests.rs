@@ -357,9 +357,9 @@ fn a_blow_up_is_noticed_within_a_few_steps_in_an_interval_of_thousands() {
             let first = system.first_beyond.expect("it left its range");
             let late = blow_up.statistics.steps - first;
             println!("{method:?}: {blow_up}");
-            assert!(late < 4, "{method:?}: {late} steps late");
+            assert!(late < 6, "{method:?}: {late} steps late");
             let bad = (blow_up.time - blow_up.good_until) / h;
-            assert!(bad < 4.5 && blow_up.good_until < blow_up.time, "{bad}");
+            assert!(bad < 6.5 && blow_up.good_until < blow_up.time, "{bad}");
             assert!(state.y[0].abs() <= limit);
             assert_eq!(blow_up.beyond_the_limit(), Some(true));
         }
