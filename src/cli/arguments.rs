@@ -118,6 +118,9 @@ pub enum Command {
     Run {
         /// Case file (TOML)
         case: PathBuf,
+        /// Say which model the run would take and why, with the estimated errors, and run nothing
+        #[arg(long, conflicts_with = "resume")]
+        explain: bool,
         /// Go on with the unfinished run in the folder for the results
         #[arg(long)]
         resume: bool,

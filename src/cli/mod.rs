@@ -95,6 +95,12 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
     let folder = OutputFolder::of(&case, options);
+    if let Command::Run { explain: true, .. } = arguments.command {
+        let progress = Progress::new(options.visibility());
+        let outcome = run::explain(&case, &progress);
+        progress.finish();
+        return outcome;
+    }
     match arguments.command {
         Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
         _ => folder.claim(arguments.command.name(), options.force)?,

@@ -7,8 +7,8 @@ use crate::exchange::{NpzWriter, write_modes_npz};
 use crate::linalg::DenseMatrix;
 use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
-    CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModesResult, Reading, Recording,
-    ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
+    ChosenPart, CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModelChoice, ModesResult,
+    Reading, Recording, ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
 };
 use crate::system::{BallsInertia, Column};
 use serde_json::{Map, Value, json};
@@ -80,12 +80,7 @@ pub(super) fn run_json<R: Recording>(
                 BallsInertia::QuasiStatic => "quasi-static",
             },
             "residual": result.simulation.residual,
-            "why": result.choice.parts.iter().map(|part| json!({
-                "what": part.what,
-                "chosen": part.chosen,
-                "why": part.why,
-                "estimated_error": part.estimated_error,
-            })).collect::<Vec<_>>(),
+            "why": choice_json(&result.choice)["parts"],
         },
         "estimated_error": result.choice.estimated_error,
         "equilibrium": {
@@ -356,6 +351,23 @@ fn loaded(reading: &Reading) -> Value {
                 "ball_share": mode.ball_share,
             })).collect::<Vec<_>>(),
         })
+    })
+}
+
+/// A model's parts, with reasons and estimated errors.
+pub(super) fn choice_json(choice: &ModelChoice) -> Value {
+    let part = |part: &ChosenPart| {
+        json!({
+            "what": part.what,
+            "chosen": part.chosen,
+            "why": part.why,
+            "estimated_error": part.estimated_error,
+        })
+    };
+    json!({
+        "command": "run --explain",
+        "parts": choice.parts.iter().map(part).collect::<Vec<_>>(),
+        "estimated_error": choice.estimated_error,
     })
 }
 

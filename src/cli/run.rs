@@ -1,12 +1,12 @@
 //! `plummer run`: the simulation in time.
 
 use super::report_files::ReportFiles;
-use super::results::{run_json, write_signals};
+use super::results::{choice_json, run_json, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
 use crate::stages::{
     CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
-    UnfinishedRun, compute_kept_run, run_report,
+    UnfinishedRun, compute_kept_run, explain_run, run_report,
 };
 use crate::transient::BlowUp;
 use std::time::Duration;
@@ -27,6 +27,20 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
     } else {
         Ok(())
     }
+}
+
+/// Says which model the run of a case would take; writes nothing.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong or there is nothing to start from.
+pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
+    let choice = explain_run(case, progress)?;
+    Ok(Outcome {
+        summary: choice.table().plain(),
+        result: choice_json(&choice),
+        written: Vec::new(),
+        verdict: Verdict::Good,
+    })
 }
 
 /// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`. Until then its rows

@@ -96,7 +96,7 @@ pub use modes::{ExpectedMode, ModesResult, Reading, compute_modes};
 pub use modes_report::modes_report;
 pub use recording::Recording;
 pub use reduced_interface::ReducedInterface;
-pub use run::{RunResult, compute_kept_run, compute_run};
+pub use run::{RunResult, compute_kept_run, compute_run, explain_run};
 pub use run_model::RunModel;
 pub use run_report::run_report;
 pub use scene::Scene;

@@ -37,6 +37,17 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     compute_kept_run(case, watch, &mut InMemory)
 }
 
+/// The model that a case's run would take, without running it.
+///
+/// # Errors
+/// As [`compute_run`].
+pub fn explain_run(case: &Case, watch: &impl Watch) -> Result<ModelChoice, StageError> {
+    let scene = Scene::build(case, watch)?;
+    // a run without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    ModelChoice::of_case(case, asked, &scene)
+}
+
 /// Carries the command out with its signals where `keeper` wants them, from where it says.
 ///
 /// # Errors

@@ -42,6 +42,8 @@ pub fn run_report<R: Recording>(
             .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
             .facts(model_facts(case, &result.scene.stage, true)),
     );
+    report =
+        report.section(Section::new("What was modelled, and why").table(result.choice.table()));
     report = report.section(Section::new("Bearing").table(result.bearing_table()));
     report = report.section(statics_section(&result.scene.setup, &result.statics));
     report = report.section(Section::new("Computation").facts(computation(result)));

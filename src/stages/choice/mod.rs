@@ -5,6 +5,7 @@
 mod balls;
 mod mode_errors;
 mod stepping;
+mod table;
 
 use super::{RunModel, Scene, StageError};
 use crate::case::{self, Case, ModesKept};
