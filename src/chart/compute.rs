@@ -3,10 +3,11 @@
 use super::candidates::families;
 use super::points::{Point, evaluate, measure, point};
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
-use super::{ChartError, Effort, Reference, Settings, Start, Starts, pareto_front};
+use super::systems::{Ready, Systems};
+use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
 use crate::case::{self, Case, ModesKept, StepLength};
-use crate::stages::{ModelChoice, RunModel, Scene, StageError, Watch};
-use crate::system::{CoupledSystem, SystemError};
+use crate::stages::{ModelChoice, RunModel, Scene, Watch};
+use crate::system::SystemError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -153,10 +154,11 @@ fn candidates(
         })
         .collect();
     let mut points = found.concat();
+    let mut systems = Systems::new(scene);
     let places = wanted.map(|model| {
         let known = points.iter().position(|point| point.model == model);
         known.unwrap_or_else(|| {
-            points.push(point(scene, &model, reference, settings));
+            points.push(point(systems.of(&model), &model, reference, settings));
             points.len() - 1
         })
     });
@@ -191,30 +193,30 @@ fn statistics(
         high_pass_hz: case.analysis.high_pass_hz,
     };
     let progress = Counter::new(watch, 3 * starts.len());
-    let run = |model: &RunModel,
-               system: &(dyn Fn() -> Result<CoupledSystem, StageError> + Sync)| {
+    let run = |system: &Ready, model: &RunModel| {
         let done = || progress.done();
-        ensemble(scene, &starts, model, system, settings, &analysis, done)
+        ensemble(system, &starts, model, settings, &analysis, done)
     };
     let [_, beside] = &reference.models;
-    let measured_by = run(beside, &|| scene.system(beside));
-    let own = |point: &Point| {
-        let by = measured_by
-            .as_ref()
-            .map_err(|failure| failure.reason.clone())?;
+    let measured_by = scene
+        .system(beside)
+        .map_err(Failure::from)
+        .and_then(|system| run(&Ready::new(scene, system), beside));
+    let mut systems = Systems::new(scene);
+    let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
+        let by = measured_by.as_ref().map_err(Clone::clone)?;
         if let Err(failure) = &point.error {
-            return Err(failure.reason.clone());
+            return Err(failure.clone());
         }
         let model = &point.model;
-        let own = run(model, &|| scene.system(model)).map_err(|failure| failure.reason)?;
-        Ok(compare(&own, by))
+        Ok(compare(&run(systems.of(model)?, model)?, by))
     };
     points
         .into_iter()
         .zip(places)
         .map(|(of, point)| ModelStatistics {
             point,
-            figures: own(of),
+            figures: own(of).map_err(|failure| failure.reason),
         })
         .collect()
 }

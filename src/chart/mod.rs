@@ -23,6 +23,7 @@ mod reference;
 mod report;
 mod starts;
 mod statistics;
+mod systems;
 mod trace;
 
 pub use candidates::parameter_of;

@@ -1,6 +1,7 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
 use super::candidates::{Family, model_name, parameter_of};
+use super::systems::{Ready, Systems};
 use super::trace::{Failure, FailureKind, Trace, simulate};
 use super::{Reference, Settings, StartReference};
 use crate::stages::{RunModel, Scene, Span};
@@ -75,8 +76,9 @@ pub(super) fn evaluate(
 ) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
     let mut before: Option<f64> = None;
+    let mut systems = Systems::new(scene);
     for model in &family.models {
-        let point = point(scene, model, reference, settings);
+        let point = point(systems.of(model), model, reference, settings);
         let (now, refused) = match &point.error {
             Ok(error) => (Some(error.mean), false),
             Err(failure) => (None, failure.kind == FailureKind::Refused),
@@ -96,11 +98,26 @@ pub(super) fn evaluate(
 
 /// A point without its cost.
 pub(super) fn point(
-    scene: &Scene,
+    system: Result<&Ready, Failure>,
     model: &RunModel,
     reference: &Reference,
     settings: &Settings,
 ) -> Point {
+    let error = system.and_then(|system| error(system, model, reference, settings));
+    Point {
+        model: *model,
+        wall_s: None,
+        error,
+    }
+}
+
+/// Mean error over the starts.
+fn error(
+    system: &Ready,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+) -> Result<PointError, Failure> {
     // the first start that fails tells enough; which one does not depend on the number of threads
     let failed = AtomicBool::new(false);
     let starts: Vec<&StartReference> = reference
@@ -114,29 +131,23 @@ pub(super) fn point(
             if failed.load(Ordering::Relaxed) {
                 return None;
             }
-            let error = error_of(scene, model, start, settings);
+            let error = error_of(system, model, start, settings);
             if error.is_err() {
                 failed.store(true, Ordering::Relaxed);
             }
             Some(error)
         })
         .collect();
-    let error = if failed.into_inner() {
-        Err(first_failure(scene, model, &starts, settings, errors))
-    } else {
-        let values: Vec<f64> = errors.into_iter().flatten().flatten().collect();
-        judged(&values)
-    };
-    Point {
-        model: *model,
-        wall_s: None,
-        error,
+    if failed.into_inner() {
+        return Err(first_failure(system, model, &starts, settings, errors));
     }
+    let values: Vec<f64> = errors.into_iter().flatten().flatten().collect();
+    judged(&values)
 }
 
 /// The failure of the first start that fails, computed where it was left out.
 fn first_failure(
-    scene: &Scene,
+    system: &Ready,
     model: &RunModel,
     starts: &[&StartReference],
     settings: &Settings,
@@ -144,7 +155,7 @@ fn first_failure(
 ) -> Failure {
     let starts = starts.iter().zip(errors);
     let failures = starts.filter_map(|(start, known)| {
-        let error = known.unwrap_or_else(|| error_of(scene, model, start, settings));
+        let error = known.unwrap_or_else(|| error_of(system, model, start, settings));
         error.err()
     });
     failures.into_iter().next().unwrap_or(Failure {
@@ -155,13 +166,12 @@ fn first_failure(
 
 /// Relative difference from the reference over a start's horizon.
 fn error_of(
-    scene: &Scene,
+    system: &Ready,
     model: &RunModel,
     start: &StartReference,
     settings: &Settings,
 ) -> Result<f64, Failure> {
-    let system = scene.system(model)?;
-    let state = start.start.state(scene, &system);
+    let (system, state) = system.at(&start.start);
     let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
     let error = trace.error(&start.trace, 0.0, start.horizon_s);
     error.map_err(|error| Failure {
@@ -206,10 +216,11 @@ pub(super) fn measure(
         duration: TIMED.min(settings.span_s),
         output_hz: settings.output_hz,
     };
+    let mut systems = Systems::new(scene);
     let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
     for round in 0..ROUNDS {
         for (place, point) in points.iter().enumerate() {
-            walls[place].extend(wall(scene, point, start, span));
+            walls[place].extend(wall(&mut systems, point, start, span));
             let count = (ROUNDS * points.len()) as f64;
             done((round * points.len() + place + 1) as f64 / count);
         }
@@ -221,10 +232,9 @@ pub(super) fn measure(
 }
 
 /// Wall time of one run over its simulated time; `None` for a point without an error.
-fn wall(scene: &Scene, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
+fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
     point.error.as_ref().ok()?;
-    let system = scene.system(&point.model).ok()?;
-    let state = start.start.state(scene, &system);
+    let (system, state) = systems.of(&point.model).ok()?.at(&start.start);
     let simulation = simulate(system, state, &point.model, span).ok()?;
     Some(simulation.stepping_s / simulation.simulated_s)
 }

@@ -1,5 +1,6 @@
 //! What the chart measures by: two methods of different kind on the fullest model, refined until they agree.
 
+use super::systems::Ready;
 use super::trace::{Failure, Trace};
 use super::{ChartError, Growth, Settings, Start, Starts};
 use crate::stages::{RunModel, Scene};
@@ -65,8 +66,10 @@ impl Reference {
         settings: &Settings,
         done: impl Fn() + Sync,
     ) -> Result<Self, ChartError> {
+        let [by, _] = models(settings, 0);
+        let system = Ready::new(scene, scene.system(&by)?);
         let found = starts.starts.par_iter().map(|start| {
-            let found = of_start(scene, start, settings);
+            let found = of_start(&system, start, settings);
             done();
             found
         });
@@ -130,14 +133,13 @@ fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
 }
 
 fn of_start(
-    scene: &Scene,
+    system: &Ready,
     start: &Start,
     settings: &Settings,
 ) -> Result<StartReference, ChartError> {
     let (span, window) = (settings.span_s, settings.window_s);
     let run = |model: &RunModel, perturbation: f64| -> Result<Trace, ChartError> {
-        let system = scene.system(model)?;
-        let mut state = start.state(scene, &system);
+        let (system, mut state) = system.at(start);
         let seed = settings.ensemble.seed;
         super::perturb(&mut state, perturbation, seed, start.number);
         Trace::simulate(system, state, model, settings, span).map_err(|failure: Failure| {

@@ -1,11 +1,11 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
+use super::systems::Ready;
 use super::trace::{Failure, simulate};
 use super::{Settings, Start, perturb};
 use crate::series::TimeSeries;
 use crate::signal::{EnvelopeAnalysis, SignalError, third_octaves};
-use crate::stages::{RunModel, Scene, StageError};
-use crate::system::CoupledSystem;
+use crate::stages::{RunModel, StageError};
 use rayon::prelude::*;
 
 /// Standard errors beyond which a difference is not chance: with many runs one in 370 is larger by chance alone.
@@ -142,10 +142,9 @@ fn nominal(centre_hz: f64) -> f64 {
 /// # Errors
 /// The [`Failure`] of the first start that fails.
 pub(super) fn ensemble(
-    scene: &Scene,
+    system: &Ready,
     starts: &[Start],
     model: &RunModel,
-    system: impl Fn() -> Result<CoupledSystem, StageError> + Sync,
     settings: &Settings,
     analysis: &FigureSettings,
     done: impl Fn() + Sync,
@@ -153,8 +152,7 @@ pub(super) fn ensemble(
     let runs: Vec<Result<Vec<Figure>, Failure>> = starts
         .par_iter()
         .map(|start| {
-            let system = system()?;
-            let mut state = start.state(scene, &system);
+            let (system, mut state) = system.at(start);
             let ensemble = settings.ensemble;
             perturb(
                 &mut state,

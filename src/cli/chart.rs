@@ -316,10 +316,10 @@ mod tests {
         let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
         assert!(read("chart.svg").starts_with("<svg "));
         assert!(read("report.html").contains("Points that none beats"));
-        assert_eq!(
-            json,
-            serde_json::from_str::<Value>(&read("chart.json")).unwrap()
-        );
+        let written: Value = serde_json::from_str(&read("chart.json")).unwrap();
+        for key in ["front", "chosen", "omissions", "scene"] {
+            assert_eq!(written[key], json[key], "{key}");
+        }
         fs::remove_dir_all(out).unwrap();
     }
 }
