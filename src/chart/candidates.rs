@@ -13,6 +13,9 @@ const SPECTRAL_RADIUS: f64 = 0.8;
 const STEPS: [i32; 2] = [2, 8];
 const QUICK_LAST_STEP: i32 = 6;
 
+/// How many of the longest steps are tried of the implicit method in all modes.
+const IMPLICIT_STEPS: usize = 4;
+
 /// Steps tried of the source's method in all modes beside its own, in units of that: the first two are beyond its limit or
 /// near to it.
 const SOURCE_STEPS: [f64; 4] = [4.0, 3.0, 2.0, 1.0];
@@ -32,8 +35,13 @@ pub(super) struct Family {
     pub(super) models: Vec<RunModel>,
 }
 
-/// The families that a chart tries; `source` is the source paper's method as it is used there.
-pub(super) fn families(settings: &Settings, [chosen, source]: &[RunModel; 2]) -> Vec<Family> {
+/// The families that a chart tries; `frequencies_hz` are those of all modes, ascending, and `source` is the source paper's
+/// method as it is used there.
+pub(super) fn families(
+    settings: &Settings,
+    frequencies_hz: &[f64],
+    [chosen, source]: &[RunModel; 2],
+) -> Vec<Family> {
     let all = (ModeSelection::All, false);
     let kept = |bands: f64, residual| (ModeSelection::UpTo(bands * settings.band_hz), residual);
     // the basis on which all methods are compared beside that of all modes
@@ -43,6 +51,7 @@ pub(super) fn families(settings: &Settings, [chosen, source]: &[RunModel; 2]) ->
         let others = BANDS.into_iter();
         bases.extend(others.flat_map(|bands| [kept(bands, true), kept(bands, false)]));
     }
+    let bases = distinct(bases, frequencies_hz);
     let [longest, shortest] = STEPS;
     let shortest = match settings.effort {
         Effort::Full => shortest,
@@ -104,7 +113,10 @@ pub(super) fn families(settings: &Settings, [chosen, source]: &[RunModel; 2]) ->
     families.extend(others.map(|method| fixed(method, usual)));
     families.push(by_tolerance(usual));
     if settings.effort == Effort::Full {
-        families.push(fixed(Method::Newmark, all));
+        // a step of it solves for all modes: what is shorter would take longer than all others together
+        let mut implicit = fixed(Method::Newmark, all);
+        implicit.models.truncate(IMPLICIT_STEPS);
+        families.push(implicit);
         families.push(by_tolerance(all));
         families.push(Family {
             models: SOURCE_STEPS
@@ -120,6 +132,28 @@ pub(super) fn families(settings: &Settings, [chosen, source]: &[RunModel; 2]) ->
         });
     }
     families
+}
+
+/// Without those that keep the same modes as one before.
+fn distinct(
+    bases: Vec<(ModeSelection, bool)>,
+    frequencies_hz: &[f64],
+) -> Vec<(ModeSelection, bool)> {
+    let kept = |selection: &ModeSelection| match *selection {
+        ModeSelection::All => frequencies_hz.len(),
+        ModeSelection::Count(count) => count,
+        ModeSelection::UpTo(hz) => frequencies_hz.iter().filter(|&&f| f <= hz).count(),
+    };
+    let mut seen = Vec::new();
+    let new = |(selection, residual): &(ModeSelection, bool)| {
+        let count = kept(selection);
+        // nothing is left out of all modes
+        let key = (count, *residual && count < frequencies_hz.len());
+        let new = !seen.contains(&key);
+        seen.push(key);
+        new
+    };
+    bases.into_iter().filter(new).collect()
 }
 
 /// The modes of a model in words: "modes up to 120 kHz + residual".
@@ -144,5 +178,28 @@ pub fn parameter_of(model: &RunModel) -> (&'static str, f64) {
             tolerance: Some(tolerance),
         } => ("tolerance", tolerance),
         _ => ("step_s", model.step),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bases_that_keep_the_same_modes_are_tried_once() {
+        let up_to = |hz, residual| (ModeSelection::UpTo(hz), residual);
+        let all = (ModeSelection::All, false);
+        let bases = vec![
+            up_to(3.0, true),
+            all,
+            up_to(3.5, true),
+            up_to(3.5, false),
+            up_to(5.0, true),
+            up_to(5.0, false),
+        ];
+        assert_eq!(
+            distinct(bases, &[1.0, 3.0, 4.0]),
+            [up_to(3.0, true), all, up_to(3.5, false)]
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 use super::candidates::families;
 use super::points::{Point, evaluate, measure, point};
+use super::reference::models;
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
 use super::systems::{Ready, Systems};
 use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
@@ -143,7 +144,11 @@ fn candidates(
     wanted: [RunModel; 2],
     watch: &(impl Watch + Sync),
 ) -> (Vec<Point>, [usize; 2]) {
-    let families = families(settings, &wanted);
+    let modes = &scene.stage.modes;
+    let frequencies_hz: Vec<f64> = (0..modes.count())
+        .map(|mode| modes.frequency_hz(mode))
+        .collect();
+    let families = families(settings, &frequencies_hz, &wanted);
     let progress = Counter::new(watch, families.len());
     let found: Vec<Vec<Point>> = families
         .par_iter()
@@ -177,7 +182,7 @@ fn front(points: &[Point], floor: f64) -> Vec<usize> {
     places.map(|place| measured[place].0).collect()
 }
 
-/// Statistics of points against the reference's second method, which is the cheaper one.
+/// Statistics of points against the reference's second method, which is the cheaper one, with its first step.
 fn statistics(
     case: &Case,
     scene: &Scene,
@@ -197,11 +202,11 @@ fn statistics(
         let done = || progress.done();
         ensemble(system, &starts, model, settings, &analysis, done)
     };
-    let [_, beside] = &reference.models;
+    let [_, beside] = models(settings, 0);
     let measured_by = scene
-        .system(beside)
+        .system(&beside)
         .map_err(Failure::from)
-        .and_then(|system| run(&Ready::new(scene, system), beside));
+        .and_then(|system| run(&Ready::new(scene, system), &beside));
     let mut systems = Systems::new(scene);
     let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
         let by = measured_by.as_ref().map_err(Clone::clone)?;

@@ -21,7 +21,7 @@ const QUICK_RUNS: usize = 6;
 const POINT_STARTS: usize = 8;
 
 /// Length of the runs whose statistics are compared, in spans.
-const STATISTICS_SPANS: f64 = 4.0;
+const STATISTICS_SPANS: f64 = 3.0;
 
 /// How much a chart computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

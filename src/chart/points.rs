@@ -15,6 +15,9 @@ const TOO_INACCURATE: f64 = 1.0;
 const CONVERGING: f64 = 0.3;
 const GAIN: f64 = 0.85;
 
+/// Points in a row that differ by less than this part, where the error is larger: refining does not reach what is wrong.
+const STUCK: (usize, f64) = (3, 0.1);
+
 /// Simulated time by which costs are measured, s, and how often; the median counts.
 const TIMED: f64 = 2e-3;
 const ROUNDS: usize = 3;
@@ -75,25 +78,39 @@ pub(super) fn evaluate(
     settings: &Settings,
 ) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
-    let mut before: Option<f64> = None;
+    let mut means: Vec<f64> = Vec::new();
     let mut systems = Systems::new(scene);
     for model in &family.models {
         let point = point(systems.of(model), model, reference, settings);
-        let (now, refused) = match &point.error {
+        let (mean, refused) = match &point.error {
             Ok(error) => (Some(error.mean), false),
-            Err(failure) => (None, failure.kind == FailureKind::Refused),
+            Err(failure) => (failure.error, failure.kind == FailureKind::Refused),
         };
         points.push(point);
-        let gained_nothing = matches!((before, now), (Some(before), Some(now))
-            if now < CONVERGING && now > GAIN * before);
+        match mean {
+            Some(mean) => means.push(mean),
+            None => means.clear(),
+        }
         let fine = reference.disagreement.max(FINE * settings.target);
-        let fine_enough = now.is_some_and(|now| now <= fine);
-        if refused || gained_nothing || fine_enough {
+        let fine_enough = means.last().is_some_and(|mean| *mean <= fine);
+        if refused || fine_enough || gains_nothing(&means) {
             break;
         }
-        before = now;
     }
     points
+}
+
+/// Whether the last of a family's errors, from the roughest on, say that refining brings nothing more.
+fn gains_nothing(means: &[f64]) -> bool {
+    let [.., before, last] = means else {
+        return false;
+    };
+    let (count, part) = STUCK;
+    let stuck = means.len() >= count
+        && means[means.len() - count..]
+            .iter()
+            .all(|mean| (mean / last - 1.0).abs() < part);
+    (*last < CONVERGING && *last > GAIN * before) || stuck
 }
 
 /// A point without its cost.
@@ -158,10 +175,8 @@ fn first_failure(
         let error = known.unwrap_or_else(|| error_of(system, model, start, settings));
         error.err()
     });
-    failures.into_iter().next().unwrap_or(Failure {
-        kind: FailureKind::Refused,
-        reason: String::new(),
-    })
+    let first = failures.into_iter().next();
+    first.unwrap_or_else(|| Failure::new(FailureKind::Refused, String::new()))
 }
 
 /// Relative difference from the reference over a start's horizon.
@@ -174,10 +189,7 @@ fn error_of(
     let (system, state) = system.at(&start.start);
     let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
     let error = trace.error(&start.trace, 0.0, start.horizon_s);
-    error.map_err(|error| Failure {
-        kind: FailureKind::Refused,
-        reason: error.to_string(),
-    })
+    error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
 }
 
 /// Mean and scatter, or that they show nothing.
@@ -199,6 +211,7 @@ fn judged(errors: &[f64]) -> Result<PointError, Failure> {
             reason: format!(
                 "the signal differs from the reference by {mean:.2e} of its root mean square"
             ),
+            error: Some(mean),
         })
     }
 }
@@ -237,4 +250,35 @@ fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span
     let (system, state) = systems.of(&point.model).ok()?.at(&start.start);
     let simulation = simulate(system, state, &point.model, span).ok()?;
     Some(simulation.stepping_s / simulation.simulated_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refining_ends_where_it_brings_nothing() {
+        assert!(!gains_nothing(&[0.01]));
+        assert!(!gains_nothing(&[0.1, 0.05]));
+        assert!(gains_nothing(&[0.1, 0.05, 0.049]));
+        // far from converged: errors that are alike by chance go on, three of them do not
+        assert!(!gains_nothing(&[1.47, 1.46]));
+        assert!(!gains_nothing(&[3.0, 1.47, 1.46]));
+        assert!(gains_nothing(&[1.47, 1.46, 1.47]));
+    }
+
+    #[test]
+    fn errors_have_a_mean_and_a_scatter_or_show_nothing() {
+        let error = judged(&[0.1, 0.3]).unwrap();
+        assert!((error.mean - 0.2).abs() < 1e-15 && (error.largest - 0.3).abs() < 1e-15);
+        // the sample's: sqrt(2) 0.1
+        assert!((error.deviation - 0.02_f64.sqrt()).abs() < 1e-15);
+        let failure = judged(&[0.5, 2.5]).unwrap_err();
+        assert_eq!(failure.kind, FailureKind::TooInaccurate);
+        assert!(
+            failure.reason.contains("by 1.50e0 of its"),
+            "{}",
+            failure.reason
+        );
+    }
 }

@@ -105,8 +105,8 @@ impl Reference {
     }
 }
 
-/// The fullest model by the method measured by, and by that beside it.
-fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
+/// The fullest model by the method measured by, and by that beside it, refined so often.
+pub(super) fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
     let (step, tolerance) = FIRST;
     // a few refinements
     let times = refinements as i32;

@@ -34,6 +34,8 @@ pub struct Failure {
     pub kind: FailureKind,
     /// What happened.
     pub reason: String,
+    /// Relative error, where the signals could be compared.
+    pub error: Option<f64>,
 }
 
 impl FailureKind {
@@ -48,16 +50,24 @@ impl FailureKind {
     }
 }
 
+impl Failure {
+    /// A failure without a signal that could be compared.
+    pub(super) fn new(kind: FailureKind, reason: String) -> Self {
+        Self {
+            kind,
+            reason,
+            error: None,
+        }
+    }
+}
+
 impl From<StageError> for Failure {
     fn from(error: StageError) -> Self {
         let kind = match error {
             StageError::Transient(TransientError::Unstable { .. }) => FailureKind::Unstable,
             _ => FailureKind::Refused,
         };
-        Self {
-            kind,
-            reason: error.to_string(),
-        }
+        Self::new(kind, error.to_string())
     }
 }
 
@@ -149,10 +159,7 @@ pub(super) fn simulate(
     let simulation = Simulation::from_state(system, state, model, span, |_| ())?;
     match simulation.end {
         RunEnd::Complete => Ok(simulation),
-        RunEnd::BlewUp(error) => Err(Failure {
-            kind: FailureKind::BlewUp,
-            reason: error.to_string(),
-        }),
+        RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
     }
 }
 
