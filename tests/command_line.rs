@@ -153,3 +153,23 @@ fn a_mesh_with_folded_elements_is_a_bad_answer() {
     let missing = plummer(&folder, &["inspect", "no.msh"]);
     assert_eq!(missing.status.code(), Some(2));
 }
+
+#[test]
+fn a_model_is_explained_without_a_run() {
+    let folder = scratch("explain");
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/smooth.toml");
+    let output = plummer(&folder, &["run", case, "--explain", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "modes",
+        "balls",
+        "method",
+        "largest step",
+        "together",
+        "exponential-adams",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!folder.join("out").exists(), "nothing is written");
+}

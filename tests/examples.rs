@@ -69,7 +69,7 @@ fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
         10.0
     ));
     let transient = case.transient.as_ref().unwrap();
-    assert_eq!(transient.method, Method::Exponential);
+    assert_eq!(transient.method, Method::Auto);
     assert!(near(transient.end, 2.6));
 }
 

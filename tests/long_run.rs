@@ -191,7 +191,7 @@ fn a_run_that_blows_up_leaves_what_it_had_and_names_a_step() {
     );
     assert!(text.contains("contacts there vibrate at up to "), "{text}");
     assert!(
-        text.contains(" kHz, exponential is stable up to "),
+        text.contains(" kHz, exponential-adams is stable up to "),
         "{text}"
     );
     assert!(text.contains("--set transient.step="), "{text}");

@@ -296,7 +296,7 @@ mod tests {
             assert_eq!(point["reason"].is_null(), ok, "{point}");
         }
         let at = |place: &Value| &points[place.as_u64().unwrap() as usize];
-        assert_eq!(at(&json["chosen"])["method"], "exponential");
+        assert_eq!(at(&json["chosen"])["method"], "exponential-adams");
         assert_eq!(at(&json["source"])["method"], "newmark-explicit");
         assert_eq!(at(&json["source"])["model"], "all modes");
         let front = json["front"].as_array().unwrap();

@@ -13,7 +13,8 @@
 //! `h sqrt(k)` = [`STABILITY_LIMIT`], with a phase error of `(h^2 k)^2 / 43` in a relative one, a four-hundredth of velocity
 //! Verlet's at `h sqrt(k) = 0.07`, and it damps what it does not resolve: 1 % a step at 0.7.
 //!
-//! With a tolerance the time between samples is halved as often as the bend b asks for: it is what the positions leave out of
+//! With a tolerance what each free coordinate meets of the force as a spring of its own is stepped exactly: it is taken anew in
+//! every step and goes from the force to the flow. And the time between samples is halved as often as the bend b asks for: it is what the positions leave out of
 //! the force, and is held below the tolerance in units of the largest force that the coordinate has seen. A step that is
 //! halved keeps to the grid, so that every sample is the end of a step and nothing is interpolated.
 //!
@@ -98,7 +99,8 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
         v: &mut [f64],
         g: &mut [f64],
     ) -> Result<(), Divergence> {
-        if self.statistics.steps == 0 && self.statistics.rejected == 0 {
+        let with_springs = self.tolerance.is_some();
+        if with_springs && self.statistics.steps == 0 {
             // the force was evaluated there before
             self.track.find_springs(system);
         }
@@ -120,7 +122,10 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
                 continue;
             }
             self.track
-                .accept(system, &self.flows[flow], [&mut *y, &mut *v, &mut *g]);
+                .accept(&self.flows[flow], [&mut *y, &mut *v, &mut *g]);
+            if with_springs {
+                self.track.find_springs(system);
+            }
             self.statistics.steps += 1;
             part = end;
         }

@@ -31,15 +31,13 @@ pub struct StepLimit {
 enum Explicit {
     /// What the force holds: the linear part is exact.
     Force,
-    /// The same without what each coordinate meets of it as a spring of its own.
-    BesideSprings,
     /// All of it.
     Motion,
 }
 
 impl Method {
     /// The method's limit at a state of a system: `2 / omega` of what the force holds for `exponential` and `splitting`,
-    /// sqrt(3) / omega for `exponential-adams` of what is no spring of one coordinate in it, `2 / omega` of linear part and force together for `newmark-explicit`.
+    /// sqrt(3) / omega for `exponential-adams` with equal steps, `2 / omega` of linear part and force together for `newmark-explicit`.
     ///
     /// None for the implicit methods, which have no limit, for methods that choose their steps, and where nothing vibrates.
     /// A system that does not tell its tangent has the limit of what it tells. Modes with a large `omega h` move the limit of
@@ -51,9 +49,7 @@ impl Method {
     ) -> Option<StepLimit> {
         let (phase, explicit) = match self {
             Self::Exponential | Self::Splitting => (VERLET, Explicit::Force),
-            Self::ExponentialAdams { tolerance: None } => {
-                (adams::STABILITY_LIMIT, Explicit::BesideSprings)
-            }
+            Self::ExponentialAdams { tolerance: None } => (adams::STABILITY_LIMIT, Explicit::Force),
             Self::NewmarkExplicit => (VERLET, Explicit::Motion),
             Self::Newmark
             | Self::GeneralizedAlpha { .. }
@@ -64,7 +60,6 @@ impl Method {
         system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
         let stiffness = match explicit {
             Explicit::Force => of_terms(&tangent),
-            Explicit::BesideSprings => beside_springs(system, &tangent),
             Explicit::Motion => of_coordinates(system, &tangent),
         };
         let highest = largest_eigenvalue(&stiffness)?.sqrt();
@@ -86,30 +81,10 @@ fn of_terms(tangent: &Tangent) -> DenseMatrix {
 
 /// Linear part and tangent, \[dof x dof\].
 fn of_coordinates(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMatrix {
-    let linear = system.linear().iter();
-    with_diagonal(
-        tangent,
-        linear.map(|coordinate| coordinate.squared_frequency),
-    )
-}
-
-/// Tangent without the springs of coordinates that have none in the linear part, \[dof x dof\].
-fn beside_springs(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMatrix {
-    let mut springs = vec![0.0; tangent.dof()];
-    system.own_stiffness_into(&mut springs);
-    let linear = system.linear().iter().zip(springs);
-    let own = linear.map(|(coordinate, spring)| match coordinate.squared_frequency {
-        0.0 => -spring,
-        _ => 0.0,
-    });
-    with_diagonal(tangent, own)
-}
-
-fn with_diagonal(tangent: &Tangent, diagonal: impl Iterator<Item = f64>) -> DenseMatrix {
     let dof = tangent.dof();
     let mut matrix = DenseMatrix::zeros(dof, dof);
-    for (i, value) in diagonal.enumerate() {
-        matrix[(i, i)] = value;
+    for (i, linear) in system.linear().iter().enumerate() {
+        matrix[(i, i)] = linear.squared_frequency;
     }
     for term in 0..tangent.terms() {
         for (j, position) in tangent.position(term).iter().enumerate() {

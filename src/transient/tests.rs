@@ -450,3 +450,88 @@ fn steps_divide_the_interval() {
     );
     assert!(Schedule::covering(1.0, 1e-5, f64::NAN).is_err());
 }
+
+/// `y'' = -k y - c y^3`, all of it in the force, with or without its spring told.
+struct Hardening {
+    linear: [LinearCoordinate; 1],
+    cubic: f64,
+    told: bool,
+    place: f64,
+}
+
+impl SecondOrderSystem for Hardening {
+    fn linear(&self) -> &[LinearCoordinate] {
+        &self.linear
+    }
+
+    fn force_into(&mut self, _t: f64, y: &[f64], _v: &[f64], g: &mut [f64]) {
+        self.place = y[0];
+        g[0] = -(W * W + self.cubic * y[0] * y[0]) * y[0];
+    }
+
+    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
+        let own = W * W + 3.0 * self.cubic * self.place * self.place;
+        stiffness[0] = if self.told { own } else { 0.0 };
+    }
+}
+
+/// End position after ten time units from 1 at rest, and the counts.
+fn hardening(cubic: f64, told: bool, tolerance: f64) -> (f64, Statistics) {
+    let free = LinearCoordinate {
+        squared_frequency: 0.0,
+        damping: 0.0,
+    };
+    let mut system = Hardening {
+        linear: [free],
+        cubic,
+        told,
+        place: 0.0,
+    };
+    let mut state = State {
+        t: 0.0,
+        y: vec![1.0],
+        v: vec![0.0],
+    };
+    let schedule = Schedule::covering(10.0, 0.25, 0.25).expect("valid");
+    let method = Method::ExponentialAdams {
+        tolerance: Some(tolerance),
+    };
+    let counts = integrate(
+        &mut system,
+        method,
+        &schedule,
+        &mut state,
+        &mut NoRecord,
+        |_, _| Stepping::Continue,
+    );
+    (state.y[0], counts.expect("stable"))
+}
+
+#[test]
+fn a_spring_that_is_told_is_stepped_exactly() {
+    let exact = (10.0 * W).cos();
+    let (told, counts) = hardening(0.0, true, 1e-2);
+    // round-off of a hundred steps; steps of 0.75 rad
+    assert!((told - exact).abs() < 1e-12, "{told} {exact}");
+    assert!(counts.steps < 100, "{counts:?}");
+    let (untold, more) = hardening(0.0, false, 1e-2);
+    assert!((untold - exact).abs() > 1e-6 && more.steps > 2 * counts.steps);
+}
+
+#[test]
+fn steps_follow_from_the_tolerance() {
+    let (reference, _) = hardening(4.0, true, 1e-8);
+    let errors = [1e-2, 1e-3, 1e-4].map(|tolerance| {
+        let (end, counts) = hardening(4.0, true, tolerance);
+        println!("{tolerance:e}: {:e} {counts:?}", end - reference);
+        ((end - reference).abs(), counts)
+    });
+    for pair in errors.windows(2) {
+        let [(rough, few), (fine, many)] = [pair[0], pair[1]];
+        // the error falls with the tolerance to the power 3/2; halves are coarse
+        assert!(fine < 0.2 * rough, "{fine:e} {rough:e}");
+        // and steps grow with its root
+        assert!(many.steps > 2 * few.steps && many.steps < 8 * few.steps);
+    }
+    assert!(errors[0].1.evaluations == 1 + errors[0].1.steps + errors[0].1.rejected);
+}

@@ -11,7 +11,7 @@ mod placing;
 mod quasi_static;
 mod tangent;
 #[cfg(test)]
-mod tangent_tests;
+pub(super) mod tangent_tests;
 mod with_residual;
 
 use super::bearing_setup::{BallsInertia, Formulation};

@@ -18,7 +18,7 @@ const GRAVITY: [f64; 2] = [0.0, -9.81];
 const FIRST: f64 = 5.2;
 
 /// A steel ring of 24 nodes on springs.
-fn structure() -> Structure {
+pub(in super::super) fn structure() -> Structure {
     let layer = RingLayer {
         material: Material::new(210e9, 0.3, 7850.0).unwrap(),
         area: 12e-6,

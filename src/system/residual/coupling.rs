@@ -259,3 +259,52 @@ fn least_common_multiple(a: usize, b: usize) -> usize {
     }
     a / x.max(1) * b
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::force::tangent_tests::structure;
+    use super::*;
+
+    #[test]
+    fn quintics_are_the_interpolation_and_do_not_depend_on_the_way() {
+        let structure = structure();
+        let modes = structure.modes().unwrap();
+        let kept: Vec<usize> = (0..10).collect();
+        let residual = ResidualFlexibility::new(&structure, &modes, &kept).unwrap();
+        let balls = 7;
+        let mut coupling = Coupling::new(residual.clone(), balls);
+        let exact = |turn: f64| -> Vec<Touch> {
+            let place = |j: usize| (turn + j as f64 / balls as f64) * residual.elements as f64;
+            let touch = |place: f64| {
+                let whole = place.floor();
+                residual.touch(whole as usize % residual.elements, place - whole)
+            };
+            (0..balls).map(|j| touch(place(j))).collect()
+        };
+        let mut at = |turn: f64| -> Vec<f64> {
+            coupling.turn_to(turn);
+            let columns = (0..balls).map(|k| {
+                coupling.turn_column::<0>(k, true);
+                (0..balls)
+                    .map(|j| coupling.between(j, k))
+                    .collect::<Vec<_>>()
+            });
+            columns.collect::<Vec<_>>().concat()
+        };
+        let first = at(0.123);
+        let mut largest = 0.0_f64;
+        let mut worst = 0.0_f64;
+        for i in 0..200 {
+            let turn = f64::from(i) * 0.618_034 % 1.0;
+            let touches = exact(turn);
+            for (place, found) in at(turn).into_iter().enumerate() {
+                let [value, _] = residual.between(&touches[place % balls], &touches[place / balls]);
+                worst = worst.max((found - value).abs());
+                largest = largest.max(value.abs());
+            }
+        }
+        // the accuracy is held at a quarter of each stretch; elsewhere it is of the same size
+        assert!(worst < 3.0 * ACCURACY * largest, "{:e}", worst / largest);
+        assert_eq!(at(0.123), first);
+    }
+}

@@ -145,12 +145,7 @@ impl Track {
     }
 
     /// Takes the step: the velocity under the parabola of the force.
-    pub fn accept(
-        &mut self,
-        system: &impl SecondOrderSystem,
-        flow: &Flow,
-        [y, v, g]: [&mut [f64]; 3],
-    ) {
+    pub fn accept(&mut self, flow: &Flow, [y, v, g]: [&mut [f64]; 3]) {
         let [.., response, ramp] = &flow.columns;
         let (held, free) = (..self.free, self.free..);
         // before the first step there is no parabola: the velocity under the line through its ends
@@ -184,7 +179,6 @@ impl Track {
         y.copy_from_slice(&self.position);
         self.before.copy_from_slice(g);
         g.copy_from_slice(&self.force);
-        self.find_springs(system);
         self.last = Some(flow.step);
     }
 
