@@ -58,7 +58,7 @@ impl ComparedFigure {
         }
     }
 
-    /// Whether the model's figure differs by more than chance ([`BEYOND_CHANCE`] standard errors) and by more than a relative
+    /// Whether the model's figure differs by more than chance (three standard errors) and by more than a relative
     /// `target`; levels by as many decibels as that makes.
     pub fn differs(&self, target: f64) -> bool {
         let limit = match self.unit {
