@@ -46,6 +46,7 @@ pub mod closed_form;
 pub mod dynamics;
 pub mod element;
 pub mod exchange;
+mod lanes;
 pub mod linalg;
 pub mod material;
 pub mod mesh;

@@ -27,6 +27,7 @@ use Imports::{Only, RowsAbove};
 const LAYERS: &[(u32, &str, Imports)] = &[
     (0, "units", RowsAbove),
     (0, "error", RowsAbove),
+    (0, "lanes", RowsAbove),
     (1, "linalg", RowsAbove),
     (1, "closed_form", Only(&[])),
     (1, "series", Only(&[])),

@@ -41,12 +41,15 @@ pub trait SecondOrderSystem {
     /// What is left out costs such a method iterations, not accuracy; by default all is.
     fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], _tangent: &mut Tangent) {}
 
-    /// Sets what each coordinate meets of the force as a spring of its own, `-dg_i/dy_i` >= 0 (1/s^2), where the force was
-    /// evaluated last, for methods that step such springs exactly; zero where it is not known.
+    /// Sets what each coordinate meets of the force as a spring of its own, `-dg_i/dy_i` >= 0 (1/s^2), and the size of what its
+    /// force is the sum of (m/s^2), both where the force was evaluated last, for methods that step such springs exactly; zero
+    /// where they are not known.
     ///
-    /// Any value leaves such a method right; how near it is decides how long its steps can be.
-    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
-        stiffness.fill(0.0);
+    /// Any values leave such a method right: how near the springs are decides how long its steps can be, and what is large
+    /// beside the force says that most of it cancels, so that a tolerance has something to refer to.
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
+        springs.fill(0.0);
+        sizes.fill(0.0);
     }
 
     /// [`Self::force_into`] and [`Self::tangent_into`] at once, for a system that need not evaluate twice.

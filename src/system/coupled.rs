@@ -6,13 +6,13 @@ use super::equilibrium::Equilibrium;
 use super::error::SystemError;
 use super::force::REACH;
 use super::inner::InnerRace;
-use super::lanes::{self, Lanes};
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
 use super::residual::{Coupling, ResidualFlexibility};
 use super::structure::{Structure, StructureModes};
 use crate::bearing::{Race, RotationCursor};
 use crate::dynamics::{LinearCoordinate, State};
+use crate::lanes::{self, Lanes};
 use std::f64::consts::TAU;
 
 /// Which modes of the structure a run keeps.

@@ -12,7 +12,6 @@ mod equilibrium;
 mod error;
 mod force;
 mod inner;
-mod lanes;
 mod load;
 mod loaded;
 mod race;

@@ -1,9 +1,9 @@
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 
 use super::bearing_setup::BearingSetup;
-use super::lanes::{Lanes, each};
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
+use crate::lanes::{Lanes, each};
 use std::f64::consts::PI;
 
 /// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential

@@ -18,10 +18,11 @@ use std::f64::consts::TAU;
 pub enum Method {
     /// Exponential velocity Verlet.
     Exponential,
-    /// Exponential Adams method of third order.
+    /// Exponential Adams method.
     ExponentialAdams {
         /// Largest part of the force, in units of the largest that a coordinate has seen, that a step may leave out of its
-        /// prediction: steps are halved until it is less. Equal steps without it.
+        /// prediction: steps are halved until it is less, and of fourth order where that predicts better. Equal steps of third
+        /// order without it.
         tolerance: Option<f64>,
     },
     /// Central differences with implicit damping, the source paper's.

@@ -26,6 +26,8 @@ pub(super) struct Propagator {
     pub response: f64,
     /// y1 from rest under a force that grows from 0 to 1 over the step, s^2; v1 is then `response / h`.
     pub ramp: f64,
+    /// y1 from rest under a force that grows with the square of time from 0 to 1, s^2; v1 is then `2 ramp / h`.
+    pub square: f64,
     /// Weight of the force at the start in v1, s: `velocity_velocity response / position_velocity`.
     pub kick_before: f64,
     /// Weight of the force at the end, s: `position_velocity - kick_before`, so that `g = w^2 y`
@@ -84,13 +86,15 @@ impl Propagator {
         let s = h * sine;
         let position_position = cosine + 0.5 * c * s;
         let response = (1.0 - position_position) / w2;
+        let ramp = (1.0 - (s + c * response) / h) / w2;
         Self {
             position_position,
             position_velocity: s,
             velocity_position: -w2 * s,
             velocity_velocity: cosine - 0.5 * c * s,
             response,
-            ramp: (1.0 - (s + c * response) / h) / w2,
+            ramp,
+            square: (1.0 - 2.0 * (response / h + c * ramp) / h) / w2,
             kick_before: 0.0,
             kick_after: 0.0,
         }
@@ -113,6 +117,13 @@ impl Propagator {
                     + s * self.response / h
                     + self.response
                     + self.ramp),
+            // a quarter of the square, then a quarter of all three
+            square: 0.25
+                * (self.position_position * self.square
+                    + 2.0 * s * self.ramp / h
+                    + self.response
+                    + 2.0 * self.ramp
+                    + self.square),
             kick_before: 0.0,
             kick_after: 0.0,
         }
@@ -122,7 +133,8 @@ impl Propagator {
     fn series(w2: f64, c: f64, h: f64) -> Self {
         // terms a_k h^k of s; a_(k+2) (k+1)(k+2) = -c (k+1) a_(k+1) - w^2 a_k
         let (mut before, mut term) = (0.0, h);
-        let (mut s, mut slope, mut integral, mut ramp) = (h, 1.0, 0.5 * h * h, h * h / 6.0);
+        let (mut s, mut slope, mut integral) = (h, 1.0, 0.5 * h * h);
+        let (mut ramp, mut square) = (h * h / 6.0, h * h / 12.0);
         for k in 1..24 {
             let order = f64::from(k);
             let next = -(c * h * term + w2 * h * h * before / order) / (order + 1.0);
@@ -131,6 +143,7 @@ impl Propagator {
             slope += (order + 1.0) * next / h;
             integral += next * h / (order + 2.0);
             ramp += next * h / ((order + 2.0) * (order + 3.0));
+            square += 2.0 * next * h / ((order + 2.0) * (order + 3.0) * (order + 4.0));
         }
         Self {
             position_position: 1.0 - w2 * integral,
@@ -139,6 +152,7 @@ impl Propagator {
             velocity_velocity: slope,
             response: integral,
             ramp,
+            square,
             kick_before: 0.0,
             kick_after: 0.0,
         }
@@ -219,18 +233,29 @@ mod tests {
             };
             // Simpson's rule: 400 intervals leave (h w / 400)^4 / 180 of the largest
             let count = 400;
-            let sum: f64 = (1..=count)
-                .map(|i| {
-                    let weight = match i {
-                        i if i == count => 1.0,
-                        i if i % 2 == 1 => 4.0,
-                        _ => 2.0,
-                    };
-                    weight * at(h * f64::from(i) / f64::from(count)).response
-                })
-                .sum();
-            let expected = sum / f64::from(3 * count);
+            let mean = |of: &dyn Fn(f64) -> f64| {
+                let sum: f64 = (0..=count)
+                    .map(|i| {
+                        let weight = match i {
+                            i if i == 0 || i == count => 1.0,
+                            i if i % 2 == 1 => 4.0,
+                            _ => 2.0,
+                        };
+                        weight * of(f64::from(i) / f64::from(count))
+                    })
+                    .sum();
+                sum / f64::from(3 * count)
+            };
+            let response = |x: f64| if x > 0.0 { at(h * x).response } else { 0.0 };
+            let expected = mean(&response);
             let found = at(h).ramp;
+            assert!(
+                (found / expected - 1.0).abs() < 1e-6,
+                "{w} {c}: {found} {expected}"
+            );
+            // a square is the sum of ramps of twice the slope: x^2 = 2 int (x - z) dz
+            let expected = mean(&|x| 2.0 * (1.0 - x) * response(x));
+            let found = at(h).square;
             assert!(
                 (found / expected - 1.0).abs() < 1e-6,
                 "{w} {c}: {found} {expected}"

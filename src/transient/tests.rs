@@ -469,9 +469,10 @@ impl SecondOrderSystem for Hardening {
         g[0] = -(W * W + self.cubic * y[0] * y[0]) * y[0];
     }
 
-    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
         let own = W * W + 3.0 * self.cubic * self.place * self.place;
-        stiffness[0] = if self.told { own } else { 0.0 };
+        springs[0] = if self.told { own } else { 0.0 };
+        sizes[0] = 0.0;
     }
 }
 

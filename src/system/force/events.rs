@@ -10,8 +10,8 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use super::super::lanes::LANES;
 use super::dot;
+use crate::lanes::LANES;
 
 impl CoupledSystem {
     /// How many events the contacts have.

@@ -2,10 +2,10 @@
 
 use super::super::coupled::CoupledSystem;
 use super::super::inner::InnerGap;
-use super::super::lanes::{self, LANES, Lanes, positive};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::CentreMotion;
 use crate::bearing::RotationState;
+use crate::lanes::{self, LANES, Lanes, positive};
 
 impl CoupledSystem {
     /// Inner forces: what they do to the shaft, and along the radius vectors to the balls.

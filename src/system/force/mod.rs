@@ -3,7 +3,7 @@
 //! Balls stand side by side in lanes, and so do modes. A ball that cannot reach the outer race, however the kept modes move
 //! it, costs no mode row.
 
-mod ball_stiffness;
+mod ball_springs;
 mod events;
 mod inner_race;
 mod outer_race;
@@ -16,9 +16,10 @@ mod with_residual;
 
 use super::bearing_setup::{BallsInertia, Formulation};
 use super::coupled::CoupledSystem;
-use super::lanes::{self, LANES};
 use crate::bearing::RotationState;
 use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
+use crate::lanes::{self, LANES};
+use ball_springs::find_own_springs;
 use multiversion::multiversion;
 
 /// A ball that is farther from the race than this (m) cannot be reached by the residual
@@ -53,8 +54,8 @@ impl SecondOrderSystem for CoupledSystem {
         self.add_tangent(t, [y, v, g], tangent);
     }
 
-    fn own_stiffness_into(&self, stiffness: &mut [f64]) {
-        self.ball_stiffness_into(stiffness);
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
+        find_own_springs(self, springs, sizes);
     }
 
     fn events(&self) -> usize {

@@ -2,10 +2,10 @@
 
 use super::super::bearing_setup::BallsInertia;
 use super::super::coupled::{CoupledSystem, Work};
-use super::super::lanes::{self, LANES, Lanes, positive};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::super::raceway::{Place, RacewayTable};
 use crate::bearing::RotationState;
+use crate::lanes::{self, LANES, Lanes, positive};
 use std::f64::consts::TAU;
 
 impl CoupledSystem {

@@ -1,11 +1,11 @@
 //! Where the balls are, and what they may feel there.
 
 use super::super::coupled::CoupledSystem;
-use super::super::lanes::{self, Lanes};
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
 use super::super::turning::directions;
 use crate::bearing::RotationState;
+use crate::lanes::{self, Lanes};
 
 impl CoupledSystem {
     /// Directions of the shaft and of all balls, and the balls' places: one sine and cosine, the others by rotation through

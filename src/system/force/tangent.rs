@@ -20,11 +20,11 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use super::super::lanes::LANES;
 use super::super::race::{Damage, RaceForce};
 use super::super::resting::in_the_plane;
 use crate::bearing::RotationState;
 use crate::dynamics::{Tangent, TangentTerm};
+use crate::lanes::LANES;
 use std::f64::consts::TAU;
 
 impl CoupledSystem {

@@ -1,8 +1,8 @@
 //! Outer contacts on a race that also gives way by the static residual of the modes left out.
 
 use super::super::coupled::CoupledSystem;
-use super::super::lanes::{LANES, Lanes, each, first_mut, positive};
 use crate::bearing::RotationState;
+use crate::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over the balls that share the residual flexibility, far more than it takes.
 pub(super) const MAX_SWEEPS: usize = 40;

@@ -3,8 +3,8 @@
 //! Inside an element the interpolation is smooth. A polynomial through Chebyshev points reproduces it to [`ACCURACY`]; each
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
-use super::super::lanes::{LANES, Lanes, each};
 use super::Quintic;
+use crate::lanes::{LANES, Lanes, each};
 use std::f64::consts::PI;
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.

@@ -4,8 +4,8 @@
 //! until quintics with the values and slopes of their ends and their middle reproduce them to [`ACCURACY`]; a stretch lasts
 //! many steps, and its quintics are made when it is entered.
 
-use super::super::lanes::{LANES, Lanes, each, first, first_mut, together};
 use super::{ResidualFlexibility, Touch};
+use crate::lanes::{LANES, Lanes, each, first, first_mut, together};
 use std::f64::consts::TAU;
 
 /// Largest deviation of the quintics, relative to the largest flexibility between balls. The residual is some percent of what a

@@ -10,9 +10,9 @@
 mod coupling;
 
 use super::SystemError;
-use super::lanes::{LANES, Lanes};
 use super::raceway::RacewayTable;
 use super::structure::{Structure, StructureModes};
+use crate::lanes::{LANES, Lanes};
 use crate::linalg::DenseMatrix;
 use crate::model::Ring;
 use std::f64::consts::TAU;

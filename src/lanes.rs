@@ -6,18 +6,18 @@
 use std::hint::black_box;
 
 /// Numbers in one group.
-pub(super) const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// One group of numbers.
-pub(super) type Lanes = [f64; LANES];
+pub(crate) type Lanes = [f64; LANES];
 
 /// Groups for `count` numbers, all with the same value.
-pub(super) fn column(count: usize, value: f64) -> Vec<Lanes> {
+pub(crate) fn column(count: usize, value: f64) -> Vec<Lanes> {
     vec![[value; LANES]; count.div_ceil(LANES)]
 }
 
 /// Groups that hold `values`, filled up with `rest`.
-pub(super) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
+pub(crate) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
     let mut groups = column(values.len(), rest);
     for (lane, value) in groups.as_flattened_mut().iter_mut().zip(values) {
         *lane = *value;
@@ -27,19 +27,19 @@ pub(super) fn filled(values: &[f64], rest: f64) -> Vec<Lanes> {
 
 /// The first `N` of these, all for `N` = 0: a loop over a number that the compiler knows is unrolled.
 #[inline(always)]
-pub(super) fn first<const N: usize, T>(items: &[T]) -> &[T] {
+pub(crate) fn first<const N: usize, T>(items: &[T]) -> &[T] {
     if N == 0 { items } else { &items[..N] }
 }
 
 /// The same to be changed.
 #[inline(always)]
-pub(super) fn first_mut<const N: usize, T>(items: &mut [T]) -> &mut [T] {
+pub(crate) fn first_mut<const N: usize, T>(items: &mut [T]) -> &mut [T] {
     if N == 0 { items } else { &mut items[..N] }
 }
 
 /// Copies `values` to the front; what fills up the last group becomes zero.
 #[inline(always)]
-pub(super) fn set(groups: &mut [Lanes], values: &[f64]) {
+pub(crate) fn set(groups: &mut [Lanes], values: &[f64]) {
     for (group, values) in groups.iter_mut().zip(values.chunks(LANES)) {
         *group = from(values);
     }
@@ -47,7 +47,7 @@ pub(super) fn set(groups: &mut [Lanes], values: &[f64]) {
 
 /// The first values as a group, filled up with zeros: stored as a whole, so that it can be read as a whole at once.
 #[inline(always)]
-pub(super) fn from(values: &[f64]) -> Lanes {
+pub(crate) fn from(values: &[f64]) -> Lanes {
     match *values {
         [a, b, c, d, ..] => [a, b, c, d],
         [a, b, c] => [a, b, c, 0.0],
@@ -59,7 +59,7 @@ pub(super) fn from(values: &[f64]) -> Lanes {
 
 /// Copies what stands at the front out again.
 #[inline(always)]
-pub(super) fn get(groups: &[Lanes], values: &mut [f64]) {
+pub(crate) fn get(groups: &[Lanes], values: &mut [f64]) {
     for (values, group) in values.chunks_mut(LANES).zip(groups) {
         put(group, values);
     }
@@ -67,7 +67,7 @@ pub(super) fn get(groups: &[Lanes], values: &mut [f64]) {
 
 /// Copies a group to at most so many values.
 #[inline(always)]
-pub(super) fn put(group: &Lanes, values: &mut [f64]) {
+pub(crate) fn put(group: &Lanes, values: &mut [f64]) {
     match values {
         [a, b, c, d, ..] => [*a, *b, *c, *d] = *group,
         [a, b, c] => [*a, *b, *c, _] = *group,
@@ -79,20 +79,20 @@ pub(super) fn put(group: &Lanes, values: &mut [f64]) {
 
 /// `f` of every lane.
 #[inline(always)]
-pub(super) fn each(f: impl Fn(usize) -> f64) -> Lanes {
+pub(crate) fn each(f: impl Fn(usize) -> f64) -> Lanes {
     // written out: without optimisation a loop would go through memory
     [f(0), f(1), f(2), f(3)]
 }
 
 /// x, or 0 where it is negative; NaN stays.
 #[inline(always)]
-pub(super) fn positive(x: f64) -> f64 {
+pub(crate) fn positive(x: f64) -> f64 {
     if x <= 0.0 { 0.0 } else { x }
 }
 
 /// `a . b`, lane by lane and then over the lanes.
 #[inline(always)]
-pub(super) fn dot<'a>(a: impl Iterator<Item = &'a Lanes>, b: &[Lanes]) -> f64 {
+pub(crate) fn dot<'a>(a: impl Iterator<Item = &'a Lanes>, b: &[Lanes]) -> f64 {
     let mut sums = [0.0; LANES];
     for (a, b) in a.zip(b) {
         sums = each(|l| sums[l] + a[l] * b[l]);
@@ -102,7 +102,7 @@ pub(super) fn dot<'a>(a: impl Iterator<Item = &'a Lanes>, b: &[Lanes]) -> f64 {
 
 /// `sum += factor * row`.
 #[inline(always)]
-pub(super) fn add_scaled(sum: &mut [Lanes], factor: f64, row: &[Lanes]) {
+pub(crate) fn add_scaled(sum: &mut [Lanes], factor: f64, row: &[Lanes]) {
     for (sum, row) in sum.iter_mut().zip(row) {
         *sum = each(|l| sum[l] + factor * row[l]);
     }
@@ -110,14 +110,14 @@ pub(super) fn add_scaled(sum: &mut [Lanes], factor: f64, row: &[Lanes]) {
 
 /// Sum over the lanes.
 #[inline(always)]
-pub(super) fn total(x: &Lanes) -> f64 {
+pub(crate) fn total(x: &Lanes) -> f64 {
     let x = together(*x);
     (x[0] + x[1]) + (x[2] + x[3])
 }
 
 /// The same group. A compiler that sees that its lanes part takes all before apart, or into half registers.
 #[inline(always)]
-pub(super) fn together(x: Lanes) -> Lanes {
+pub(crate) fn together(x: Lanes) -> Lanes {
     black_box(x)
 }
 
