@@ -116,7 +116,7 @@ pub fn compute_chart(
 }
 
 /// What a case asks for with everything left to the program but the method.
-fn automatic(asked: &case::Transient, method: case::Method) -> case::Transient {
+pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::Transient {
     case::Transient {
         method,
         step: StepLength::Auto,
@@ -227,14 +227,14 @@ fn statistics(
 }
 
 /// Tells a watch how many of the parts are done.
-struct Counter<'a, W> {
+pub(super) struct Counter<'a, W> {
     watch: &'a W,
     count: usize,
     done: AtomicUsize,
 }
 
 impl<'a, W: Watch> Counter<'a, W> {
-    fn new(watch: &'a W, count: usize) -> Self {
+    pub(super) fn new(watch: &'a W, count: usize) -> Self {
         Self {
             watch,
             count: count.max(1),
@@ -242,7 +242,7 @@ impl<'a, W: Watch> Counter<'a, W> {
         }
     }
 
-    fn done(&self) {
+    pub(super) fn done(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.watch.fraction(done as f64 / self.count as f64);
     }

@@ -5,6 +5,8 @@
 //! compared point by point; the [`Point`]s; the front of those that none beats ([`pareto_front`]); and beyond the horizon
 //! statistics over an ensemble ([`compare`]). [`chart_report`] shows it.
 //!
+//! Beside it [`compute_stability`] asks which steps each method can take at all, under which conditions.
+//!
 //! **Limitations.** Errors are those of the sensors' accelerations up to the band's highest frequency; what lies below its
 //! lowest is not taken out. Statistics are those of the first sensor.
 
@@ -21,6 +23,7 @@ mod points;
 mod points_tests;
 mod reference;
 mod report;
+mod stability;
 mod starts;
 mod statistics;
 mod systems;
@@ -37,6 +40,11 @@ pub use plots::{between_methods, growth, work_precision};
 pub use points::{Point, PointError};
 pub use reference::{Reference, StartReference};
 pub use report::chart_report;
+pub use stability::{
+    Condition, ConditionStability, MethodStability, Stability, StepRecord, Window,
+    compute_stability, resonance_plot, stability_map, stability_record, stability_report,
+    stability_section,
+};
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure, compare, figures};
 pub use trace::{Failure, FailureKind, Trace};

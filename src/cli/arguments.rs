@@ -65,11 +65,14 @@ const CHART_EXAMPLE: &str = "\
 Examples: which method and step the dented bearing needs; a first look in a fraction of the time
   plummer chart examples/scenes/impact.toml
   plummer chart examples/scenes/smooth.toml --quick
+  plummer chart examples/scenes/impact.toml --only stability
 
 Files:
-  chart.json   points, front, the program's choice, omissions with their reasons, horizon, statistics of the ensemble
-  chart.svg    error against wall time
-  report.html  the same to zoom into, and tables
+  chart.json      points, front, the program's choice, omissions with their reasons, horizon, statistics of the ensemble
+  chart.svg       error against wall time
+  stability.json  method x step x condition: stable, resonant or unstable, with predicted and measured limits
+  stability.svg   the same as a map; resonance.svg: a mode in resonance with the step
+  report.html     the same to zoom into, and tables
 
 Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
 
@@ -161,14 +164,17 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
-    /// Speed against accuracy of the simulation over methods, steps and sizes of the model
+    /// Speed against accuracy of the simulation over methods, steps and sizes of the model, and the stability map
     #[command(after_help = CHART_EXAMPLE)]
     Chart {
         /// Case file (TOML)
         case: PathBuf,
-        /// Fewer starts, a shorter span and fewer models
+        /// Fewer starts, a shorter span and fewer models; fewer conditions and steps, and shorter runs
         #[arg(long)]
         quick: bool,
+        /// Make one of the two charts alone
+        #[arg(long, value_name = "PART", value_enum)]
+        only: Option<ChartPart>,
     },
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
@@ -187,6 +193,26 @@ pub enum Command {
         #[arg(long)]
         full: bool,
     },
+}
+
+/// A part of `plummer chart`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ChartPart {
+    /// Speed against accuracy
+    Accuracy,
+    /// Which steps a method can take, under which conditions
+    Stability,
+}
+
+impl ChartPart {
+    /// The word that stands after `--only`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accuracy => "accuracy",
+            Self::Stability => "stability",
+        }
+    }
 }
 
 /// A format of `plummer export`.
@@ -235,6 +261,20 @@ impl Command {
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
         }
+    }
+
+    /// The result files that it writes, which an earlier result is known by.
+    #[must_use]
+    pub fn result_files(&self) -> Vec<String> {
+        let names: &[&str] = match self {
+            Self::Chart { only: None, .. } => &["chart", "stability"],
+            Self::Chart {
+                only: Some(ChartPart::Stability),
+                ..
+            } => &["stability"],
+            other => &[other.name()],
+        };
+        names.iter().map(|name| format!("{name}.json")).collect()
     }
 
     /// How much a chart computes.
@@ -315,7 +355,7 @@ impl Options {
 mod tests {
     use clap::{CommandFactory, Parser, ValueEnum};
 
-    use super::{Arguments, Command, ExportFormat, Visibility};
+    use super::{Arguments, ChartPart, Command, ExportFormat, Visibility};
 
     fn parse(words: &str) -> Result<Arguments, clap::Error> {
         Arguments::try_parse_from(words.split(' '))
@@ -355,6 +395,7 @@ mod tests {
             "plummer inspect a.msh --density -1",
             "plummer export a.toml",
             "plummer export a.toml --to stl",
+            "plummer chart a.toml --only speed",
             "plummer run a.toml --checkpoint-every -1",
             "plummer run a.toml --checkpoint-every NaN",
         ] {
@@ -391,6 +432,20 @@ mod tests {
             let command = parse(&words).unwrap().command;
             assert!(matches!(command, Command::Export { to, .. } if to == *format));
         }
+    }
+
+    #[test]
+    fn parts_of_a_chart_are_called_what_is_typed_and_have_their_files() {
+        let files = |words: &str| parse(words).unwrap().command.result_files();
+        assert_eq!(files("plummer chart a"), ["chart.json", "stability.json"]);
+        for (part, file) in [
+            (ChartPart::Accuracy, "chart.json"),
+            (ChartPart::Stability, "stability.json"),
+        ] {
+            let words = format!("plummer chart a --only {}", part.name());
+            assert_eq!(files(&words), [file]);
+        }
+        assert_eq!(files("plummer run a"), ["run.json"]);
     }
 
     #[test]

@@ -1,55 +1,89 @@
-//! `plummer chart`: speed against accuracy.
+//! `plummer chart`: speed against accuracy, and the stability map.
 
 use super::report_files::ReportFiles;
 use super::results::common;
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::stability::{alone, stability_lines, write_stability};
+use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::chart::{
     Chart, ComparedFigure, Effort, Estimate, Point, StartReference, chart_report, compute_chart,
-    parameter_of, work_precision,
+    compute_stability, parameter_of, stability_section, work_precision,
 };
 use crate::report::significant;
 use crate::stages::{RunModel, StageError};
 use serde_json::{Map, Value, json};
 
-/// Computes the chart of a case and writes `chart.svg`, the report, its tables and, last, `chart.json`.
+/// What of the charts is computed, and how much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Wanted {
+    pub(super) effort: Effort,
+    /// Both parts without it.
+    pub(super) only: Option<ChartPart>,
+}
+
+/// Computes the charts of a case and writes their pictures, the report, its tables and, last, `stability.json` and
+/// `chart.json`; of one part alone what belongs to it.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn chart(
+pub(super) fn chart(
     case: &Case,
-    effort: Effort,
+    wanted: Wanted,
     options: &Options,
     progress: &Progress,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
+    let command = result_command(wanted, &options.command_line("chart", case));
+    if wanted.only == Some(ChartPart::Stability) {
+        return alone(case, wanted.effort, &command, options, progress);
+    }
+    let effort = wanted.effort;
     let result = compute_chart(case, effort, progress)?;
+    let stability = match wanted.only {
+        None => Some(compute_stability(case, &result.scene, effort, progress)?),
+        Some(_) => None,
+    };
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let svg = work_precision(&result).to_svg().map_err(StageError::from)?;
-    let svg = folder.write("chart.svg", svg.as_bytes())?;
-    let command = result_command(effort, &options.command_line("chart", case));
-    let report = chart_report(case, &result, &command);
+    let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
+    let mut report = chart_report(case, &result, &command);
+    if let Some(stability) = &stability {
+        // after the chart itself
+        report.sections.insert(1, stability_section(stability));
+    }
     let files = ReportFiles::write(&folder, "chart", case, report)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("chart", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), json!(files.tables));
     map.extend(fields(case, &result));
+    let mut lines = summary(&result);
+    let mut shown = map.clone();
+    if let Some(stability) = &stability {
+        let head = common("chart", case, progress, wall_s, &files.meshes);
+        let (record, paths) = write_stability(&folder, head, stability)?;
+        written.extend(paths);
+        lines = format!("{lines}\n{}", stability_lines(stability));
+        shown.insert("stability".to_owned(), record);
+    }
     let json = Value::Object(map);
-    let path = folder.write("chart.json", format!("{json:#}\n").as_bytes())?;
+    written.push(folder.write("chart.json", format!("{json:#}\n").as_bytes())?);
     Ok(Outcome {
-        summary: summary(&result),
-        result: json,
-        written: [vec![path, svg], files.paths].concat(),
+        summary: lines,
+        result: Value::Object(shown),
+        written: [written, files.paths].concat(),
         verdict: verdict(&result),
     })
 }
 
 /// The command line with what it computed.
-fn result_command(effort: Effort, line: &str) -> String {
-    match effort {
-        Effort::Full => line.to_owned(),
-        Effort::Quick => format!("{line} --quick"),
+fn result_command(wanted: Wanted, line: &str) -> String {
+    let part = wanted
+        .only
+        .map_or(String::new(), |part| format!(" --only {}", part.name()));
+    match wanted.effort {
+        Effort::Full => format!("{line}{part}"),
+        Effort::Quick => format!("{line}{part} --quick"),
     }
 }
 
@@ -246,7 +280,7 @@ mod tests {
 
     use serde_json::Value;
 
-    use super::{Effort, Options, Progress, chart};
+    use super::{ChartPart, Effort, Options, Progress, Wanted, chart};
     use crate::case::{Case, Source};
     use crate::cli::Visibility;
 
@@ -277,7 +311,11 @@ mod tests {
             ..Options::default()
         };
         let progress = Progress::new(Visibility::Hidden);
-        let outcome = chart(&case, Effort::Quick, &options, &progress).unwrap();
+        let wanted = Wanted {
+            effort: Effort::Quick,
+            only: Some(ChartPart::Accuracy),
+        };
+        let outcome = chart(&case, wanted, &options, &progress).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");
         // nothing grows where all balls stay in contact: the span, in whole windows of ten periods

@@ -19,6 +19,7 @@ mod progress;
 mod report_files;
 mod results;
 mod run;
+mod stability;
 mod verify;
 
 use std::io::{self, Write};
@@ -27,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-pub use arguments::{Arguments, Command, ExportFormat, Options};
+pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
 pub use export::ExportError;
 pub use failure::CliError;
 pub use outcome::{Outcome, Verdict};
@@ -103,7 +104,11 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
     }
     match arguments.command {
         Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
-        _ => folder.claim(arguments.command.name(), options.force)?,
+        _ => {
+            let files = arguments.command.result_files();
+            let names: Vec<&str> = files.iter().map(String::as_str).collect();
+            folder.claim_files(&names, options.force)?;
+        }
     }
     let progress = Progress::new(options.visibility());
     let outcome = match purpose {
@@ -111,7 +116,14 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
         Purpose::Modes => modes::modes(&case, options, &progress),
         Purpose::Condense => condense::condense(&case, arguments, &progress),
         Purpose::Frf => frf::frf(&case, options, &progress),
-        Purpose::Chart => chart::chart(&case, arguments.command.effort(), options, &progress),
+        Purpose::Chart => {
+            let only = match arguments.command {
+                Command::Chart { only, .. } => only,
+                _ => None,
+            };
+            let effort = arguments.command.effort();
+            chart::chart(&case, chart::Wanted { effort, only }, options, &progress)
+        }
     };
     progress.finish();
     outcome

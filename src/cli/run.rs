@@ -144,6 +144,12 @@ fn smaller_steps(blow_up: &BlowUp) -> String {
             .to_owned();
     }
     let by_itself = "or leave it to the program with --set transient.step=auto";
+    if let Some(resonance) = blow_up.resonance {
+        return format!(
+            "the step is in resonance with a mode: stay below half its period with --set transient.step={:.1e}, {by_itself}",
+            0.4 / resonance.mode_hz
+        );
+    }
     match (blow_up.limit, blow_up.beyond_the_limit()) {
         (Some(limit), Some(true)) => format!(
             "the step is beyond the method's limit: stay well below it with --set transient.step={:.1e}, {by_itself}",

@@ -8,7 +8,7 @@ use super::plot::{CurveStyle, Plot};
 use super::shapes::{self, LegendEntry, ModeShapeView, Packed, ShapeFigures, Still, Surface};
 use super::svg_plot::COLOURS;
 use super::table::{Cell, Column, Table};
-use super::{ReportError, bars, csv, embed, matrix, spans, svg_drawing, svg_plot};
+use super::{ReportError, bars, csv, embed, matrix, spans, step_map, svg_drawing, svg_plot};
 
 /// Bytes that the shapes of a report may take for its script, beside still pictures (2 MB at most for a view), plots and
 /// the library: the file stays below 15 MB.
@@ -217,6 +217,14 @@ fn block_view<'a>(block: &'a Block, numbers: &mut Numbers) -> Result<BlockView<'
             title: &chart.title,
             caption: chart.caption.as_deref(),
             svg: spans::draw(chart)?,
+            legend: Vec::new(),
+        },
+        Block::StepMap(map) => BlockView::Picture {
+            number: next(&mut numbers.figure),
+            class: "bars",
+            title: &map.title,
+            caption: map.caption.as_deref(),
+            svg: step_map::draw(map)?,
             legend: Vec::new(),
         },
         Block::Shapes(view) => BlockView::Shapes(Box::new(shapes_view(view, numbers)?)),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, Table};
+use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, StepMap, Table};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -113,6 +113,8 @@ pub enum Block {
     Matrix(Matrix),
     /// Spans of one quantity.
     Spans(Spans),
+    /// States over steps, conditions and methods.
+    StepMap(StepMap),
 }
 
 /// A property of the model: name, value, and where it comes from or what it means.
@@ -206,6 +208,12 @@ impl Section {
     #[must_use]
     pub fn spans(self, spans: Spans) -> Self {
         self.block(Block::Spans(spans))
+    }
+
+    /// The section with a map of steps more.
+    #[must_use]
+    pub fn step_map(self, map: StepMap) -> Self {
+        self.block(Block::StepMap(map))
     }
 
     /// The section with a matrix in colours more.

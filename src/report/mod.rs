@@ -1,7 +1,7 @@
 //! The report: one HTML file that opens without a network, for an engineer to hand on.
 //!
 //! The caller fills plain data ([`Report`] of [`Section`]s of paragraphs, [`Fact`]s, [`Table`]s, [`Plot`]s,
-//! [`Drawing`]s, [`Bars`], [`Spans`], [`Matrix`] and [`ModeShapeView`]s); [`Report::to_html`] checks it at one door and gives the
+//! [`Drawing`]s, [`Bars`], [`Spans`], [`Matrix`], [`StepMap`] and [`ModeShapeView`]s); [`Report::to_html`] checks it at one door and gives the
 //! file as a string. Plots are drawn as SVG, so that they print and show without scripts, and carry their data (thinned
 //! such that spikes survive) for a small script to zoom in. Mode shapes are still pictures in print and without WebGL;
 //! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped.
@@ -26,6 +26,7 @@ mod plot;
 mod shapes;
 mod spans;
 mod standalone;
+mod step_map;
 mod svg;
 mod svg_drawing;
 mod svg_plot;
@@ -47,4 +48,5 @@ pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
 };
 pub use spans::{SpanPoint, SpanRow, Spans};
+pub use step_map::{StepMap, StepPanel, StepState};
 pub use table::{Align, Cell, CellLook, Column, Table};

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::layout::{Layout, WIDTH};
 use super::svg::escape;
 use super::svg_plot::COLOURS;
-use super::{Curve, CurveStyle, Plot, ReportError, Spans, spans, svg_plot};
+use super::{Curve, CurveStyle, Plot, ReportError, Spans, StepMap, spans, step_map, svg_plot};
 
 /// The report's colours, written out: a file of its own has no style sheet to ask.
 const PALETTE: [&str; COLOURS] = [
@@ -42,6 +42,17 @@ impl Spans {
             .nth(1)
             .and_then(|rest| rest.split('"').next()?.split(' ').nth(1)?.parse().ok());
         Ok(file(&self.title, &[], &inner, height.unwrap_or(WIDTH)))
+    }
+}
+
+impl StepMap {
+    /// The map as an SVG file with title and styles.
+    ///
+    /// # Errors
+    /// [`ReportError`] for values that cannot be shown.
+    pub fn to_svg(&self) -> Result<String, ReportError> {
+        let inner = step_map::draw(self)?;
+        Ok(file(&self.title, &[], &inner, self.height()))
     }
 }
 

@@ -2,10 +2,13 @@
 
 use super::*;
 use crate::case::{Case, Source};
-use crate::dynamics::Snapshot;
+use crate::dynamics::{NoRecord, Snapshot};
 use crate::series::{TimeSeries, TimeWindow};
+use crate::stages::ModelChoice;
 use crate::system::{Column, RunRecord};
-use crate::transient::{Schedule, Statistics};
+use crate::transient::{
+    Method, Schedule, Statistics, Stepping as Going, TransientError, integrate,
+};
 use std::f64::consts::TAU;
 
 /// Stops after so many intervals, one number a part of the run.
@@ -304,4 +307,47 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     println!("{difference:.1e} of {most:.1e}");
     // both have ends of their own: 1 / (2 pi^2 200 periods of 5 kHz or more) of the signal there, at the window's edges alone
     assert!(difference < 3e-4 * most, "{difference:e} of {most:e}");
+}
+
+/// The limit that a blow-up names is that of runs: contacts, their damping and modes count together.
+#[test]
+fn a_run_is_stable_up_to_the_limit_that_a_blow_up_names() {
+    let case = case(&[]);
+    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let asked = case.transient.as_ref().unwrap();
+    let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
+    let mut system = scene.system(&model).unwrap();
+    let rest = scene.at_rest(&system);
+    for method in [
+        Method::ExponentialAdams { tolerance: None },
+        Method::Exponential,
+    ] {
+        let mut run = |h: f64| {
+            let schedule = Schedule {
+                interval: 6.0 * h,
+                steps_per_interval: 6,
+                intervals: 300,
+            };
+            let mut state = rest.clone();
+            let on = |_, _| Going::Continue;
+            integrate(
+                &mut system,
+                method,
+                &schedule,
+                &mut state,
+                &mut NoRecord,
+                on,
+            )
+        };
+        let Err(TransientError::BlewUp(blow_up)) = run(1.4e-6) else {
+            panic!("1.4e-6 s is too long for {method:?}");
+        };
+        let limit = blow_up.limit.unwrap().step_s;
+        assert!(limit < 1.4e-6, "{blow_up}");
+        assert_eq!(blow_up.beyond_the_limit(), Some(true));
+        assert_eq!(blow_up.resonance, None);
+        // 1800 steps show growth beyond some percent of the limit: five percent beyond it is a tenth a step and more
+        assert!(run(0.98 * limit).is_ok(), "{method:?} {limit}");
+        assert!(run(1.05 * limit).is_err(), "{method:?} {limit}");
+    }
 }

@@ -130,6 +130,11 @@ impl Method {
         )
     }
 
+    /// Whether a step is solved for: no step is too long for a linear system.
+    pub fn is_implicit(self) -> bool {
+        matches!(self, Self::Newmark | Self::GeneralizedAlpha { .. })
+    }
+
     /// Name in case files and results.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,7 +1,7 @@
 //! What can go wrong in a time integration.
 
 use super::driver::{Method, Statistics};
-use super::limit::StepLimit;
+use super::limit::{Resonance, StepLimit};
 use crate::dynamics::{Divergence, SnapshotError};
 use std::fmt;
 use thiserror::Error;
@@ -54,8 +54,11 @@ pub struct BlowUp {
     pub step_s: f64,
     /// What it took until then.
     pub statistics: Statistics,
-    /// The method's limit at the worst of the last good states.
+    /// The method's limit at the first of the good states that were kept where the step is beyond it; the least of them if it is
+    /// beyond none.
     pub limit: Option<StepLimit>,
+    /// The mode that the step is in resonance with, where it is below the limit.
+    pub resonance: Option<Resonance>,
     /// What was noticed.
     pub cause: Divergence,
 }
@@ -99,6 +102,19 @@ impl fmt::Display for BlowUp {
         } else {
             write!(f, "{hz:.3} Hz")?;
         }
-        write!(f, ", {method} is stable up to {limit:.2e} s")
+        write!(f, ", {method} is stable up to {limit:.2e} s")?;
+        if let Some(Resonance { mode_hz, multiple }) = self.resonance {
+            let turns = match multiple {
+                1 => "half a turn".to_owned(),
+                2 => "a turn".to_owned(),
+                more => format!("{more} half turns"),
+            };
+            write!(
+                f,
+                " but for resonances: in this step a mode of {:.1} kHz makes about {turns}",
+                1e-3 * mode_hz
+            )?;
+        }
+        Ok(())
     }
 }

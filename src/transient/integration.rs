@@ -2,6 +2,7 @@
 
 use super::driver::{Method, Schedule, Statistics, Stepper, stepper};
 use super::error::{BlowUp, TransientError};
+use super::limit::StepLimit;
 use crate::dynamics::{
     Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State,
 };
@@ -11,9 +12,11 @@ use crate::dynamics::{
 /// 11 % of the cheapest step (7 modes, no residual), so that looking takes below 2 % of a run.
 const STEPS_UNCHECKED: u64 = 6;
 
-/// Good states that are kept. The method's limit is told for the worst of them: in a single one the ball that vibrates may be
-/// just off its races.
+/// Good states that are kept of the last looks: in a single one the ball that vibrates may be just off its races.
 const KEPT: usize = 4;
+
+/// Every so many looks one is kept for longer: the last ones before a blow-up may be far from where it began.
+const APART: u64 = 64;
 
 /// An integration under way: the method with what it remembers, the state, and what of the schedule is done.
 pub struct Integration<S> {
@@ -25,6 +28,9 @@ pub struct Integration<S> {
     /// The last ones that were looked at and meant something; `newest` is the place of the last.
     good: [State; KEPT],
     newest: usize,
+    /// From longer ago: the start, and two that are [`APART`], the older one first.
+    earlier: [State; 3],
+    looks: u64,
     start: f64,
     intervals: u64,
     samples: u64,
@@ -52,6 +58,8 @@ impl<S: SecondOrderSystem> Integration<S> {
             stepper,
             good: std::array::from_fn(|_| state.clone()),
             newest: 0,
+            earlier: std::array::from_fn(|_| state.clone()),
+            looks: 0,
             start: state.t,
             state,
             force,
@@ -92,6 +100,8 @@ impl<S: SecondOrderSystem> Integration<S> {
             stepper,
             good: std::array::from_fn(|_| state.clone()),
             newest: 0,
+            earlier: std::array::from_fn(|_| state.clone()),
+            looks: 0,
             start,
             state,
             force,
@@ -171,6 +181,11 @@ impl<S: SecondOrderSystem> Integration<S> {
             good.t = t;
             good.y.copy_from_slice(y);
             good.v.copy_from_slice(v);
+            self.looks += 1;
+            if self.looks.is_multiple_of(APART) {
+                self.earlier.swap(1, 2);
+                self.earlier[2].clone_from(good);
+            }
         }
         Ok(())
     }
@@ -179,20 +194,49 @@ impl<S: SecondOrderSystem> Integration<S> {
     fn blown_up(&mut self, system: &mut S, cause: Divergence) -> TransientError {
         let time = self.state.t;
         self.state.clone_from(&self.good[self.newest]);
-        let limits = self.good.iter();
-        let limits = limits.filter_map(|state| self.method.step_limit(system, state));
-        let limit = limits.min_by(|a, b| a.step_s.total_cmp(&b.step_s));
+        let step_s = self.schedule.step();
+        let limit = self.limit(system, step_s);
+        let below = limit.is_none_or(|limit| step_s <= limit.step_s);
+        let resonance = below
+            .then(|| self.method.resonance(system, &self.earlier[2], step_s))
+            .flatten();
         let blow_up = BlowUp {
             method: self.method,
             time,
             good_until: self.state.t,
             good_intervals: self.intervals,
-            step_s: self.schedule.step(),
+            step_s,
             statistics: self.stepper.statistics(),
             limit,
+            resonance,
             cause,
         };
         blow_up.into()
+    }
+
+    /// The limit that the step was beyond first, or the least one.
+    fn limit(&self, system: &mut S, step_s: f64) -> Option<StepLimit> {
+        let (older, newer) = self.good.split_at(self.newest + 1);
+        let kept = self.earlier.iter().chain(newer).chain(older);
+        let mut least: Option<StepLimit> = None;
+        let mut last: Option<&State> = None;
+        for state in kept {
+            // nothing was kept in its place yet
+            if last.is_some_and(|last| last == state) {
+                continue;
+            }
+            last = Some(state);
+            let Some(limit) = self.method.step_limit(system, state) else {
+                continue;
+            };
+            if step_s > limit.step_s {
+                return Some(limit);
+            }
+            if least.is_none_or(|least| limit.step_s < least.step_s) {
+                least = Some(limit);
+            }
+        }
+        least
     }
 }
 

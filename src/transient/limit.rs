@@ -1,86 +1,187 @@
-//! Largest stable step of a method at a state: the part of the motion that the method meets explicitly, and how fast it is.
+//! Largest stable step of a method at a state, searched upward by what its steps make of small motions there.
 //!
-//! ```text
-//! d g = sum_k left_k (position_k . d y) = -K d y       omega^2 the largest eigenvalue of K, or of diag(omega_i^2) + K
-//! ```
-//!
-//! The coordinates have unit mass, so that eigenvalues are squared frequencies; K is symmetric only in coordinates scaled by
-//! the square roots of the masses, and the general problem is solved. With r terms and n coordinates the eigenvalues of K
-//! that are not zero are those of the [r x r] matrix `-position_k . left_l`. Damping is left out.
+//! Stability need not end at one step: where the phase `h omega` of a mode that is held exactly is near a multiple of pi, the
+//! contacts can drive it (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., XIII.1 and XIII.8). Such a
+//! [`Resonance`] is told apart from the limit by the coordinate that grows.
 
-use super::adams;
+use super::amplification::{Growth, STEPS, growth};
 use super::driver::Method;
-use crate::dynamics::{SecondOrderSystem, State, Tangent};
+use super::linearised::Linearised;
+use crate::dynamics::{LinearCoordinate, SecondOrderSystem, State, Tangent};
 use crate::linalg::{DenseMatrix, general_spectrum};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-/// Phase in a step at which central differences and velocity Verlet have the root -1.
-const VERLET: f64 = 2.0;
+/// Steps that are tried, in units of the fastest motion's time: the first one, the ratio of two, and the last one.
+const FIRST: f64 = 0.2;
+const RATIO: f64 = 1.1;
+const LAST: f64 = 6.0;
+
+/// Halvings of the logarithm between the last stable step and the first unstable one: to 4e-4 of it.
+const HALVINGS: usize = 8;
+
+/// Distance of a phase from a multiple of pi, in units of pi, within which growth in a mode is a resonance.
+const NEAR: f64 = 0.25;
+
+/// Velocity of a mode that counts in what grows, in units of the largest: a race moves a ball, which weighs a hundredth of it,
+/// some ten times as fast as the mode's amplitude, in kg^(1/2) m, changes; a ball that vibrates alone moves a mode by a thousandth.
+const SHARE: f64 = 1e-2;
+
+/// Steps of a growth reach over so many radians of the contacts' fastest motion, with this many at most.
+const RADIANS: f64 = 200.0;
+const MOST_STEPS: f64 = 20_000.0;
 
 /// How long a step may be at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimit {
-    /// Largest step at which no small motion about the state grows, s.
+    /// Largest step below which no small motion about the state grows, resonances left out, s.
     pub step_s: f64,
-    /// The frequency that sets it, Hz.
+    /// Highest frequency of what the method meets explicitly there, Hz.
     pub highest_hz: f64,
 }
 
-/// What of a motion a method meets explicitly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Explicit {
-    /// What the force holds: the linear part is exact.
-    Force,
-    /// All of it.
-    Motion,
+/// A mode that grows because its phase in a step is near a multiple of pi.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Resonance {
+    /// Frequency of the mode, Hz.
+    pub mode_hz: f64,
+    /// Of pi, at least 1.
+    pub multiple: u32,
+}
+
+impl Resonance {
+    /// The resonance that a growth is, if it is one: of a system with this linear part in steps of `h` (s).
+    #[must_use]
+    pub fn of(found: &Growth, linear: &[LinearCoordinate], h: f64) -> Option<Self> {
+        if !found.is_unstable() {
+            return None;
+        }
+        let largest = found
+            .motion
+            .iter()
+            .fold(0.0, |most: f64, v| most.max(v.abs()));
+        let near = linear.iter().zip(&found.motion).filter_map(|(held, v)| {
+            let omega = held.squared_frequency.sqrt();
+            let phase = h * omega / PI;
+            let multiple = phase.round();
+            let near = multiple >= 1.0 && (phase - multiple).abs() < NEAR;
+            let resonance = Self {
+                mode_hz: omega / TAU,
+                multiple: multiple as u32,
+            };
+            (near && v.abs() >= SHARE * largest).then_some((v.abs(), resonance))
+        });
+        let most = near.max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map(|(_, resonance)| resonance)
+    }
 }
 
 impl Method {
-    /// The method's limit at a state of a system: `2 / omega` of what the force holds for `exponential` and `splitting`,
-    /// sqrt(3) / omega for `exponential-adams` with equal steps, `2 / omega` of linear part and force together for `newmark-explicit`.
+    /// The method's limit at a state of a system. None for the implicit methods, for methods that choose their steps, and
+    /// where nothing grows in steps up to some periods of the fastest motion.
     ///
-    /// None for the implicit methods, which have no limit, for methods that choose their steps, and where nothing vibrates.
-    /// A system that does not tell its tangent has the limit of what it tells. Modes with a large `omega h` move the limit of
-    /// the exponential methods by a few percent.
+    /// What the system leaves out of its tangent is not seen.
     pub fn step_limit<S: SecondOrderSystem>(
         self,
         system: &mut S,
         state: &State,
     ) -> Option<StepLimit> {
-        let (phase, explicit) = match self {
-            Self::Exponential | Self::Splitting => (VERLET, Explicit::Force),
-            Self::ExponentialAdams { tolerance: None } => (adams::STABILITY_LIMIT, Explicit::Force),
-            Self::NewmarkExplicit => (VERLET, Explicit::Motion),
-            Self::Newmark
-            | Self::GeneralizedAlpha { .. }
-            | Self::Dop853 { .. }
-            | Self::ExponentialAdams { tolerance: Some(_) } => return None,
+        self.limit_of(&mut Linearised::new(system, state))
+    }
+
+    /// The resonance of a step of length `h` (s) at a state, if small motions there grow by one.
+    pub fn resonance<S: SecondOrderSystem>(
+        self,
+        system: &mut S,
+        state: &State,
+        h: f64,
+    ) -> Option<Resonance> {
+        if self.chooses_its_steps() {
+            return None;
+        }
+        let mut linearised = Linearised::new(system, state);
+        let fastest = fastest(&linearised)?;
+        let found = growth(&mut linearised, self, h, fastest, STEPS);
+        Resonance::of(&found, linearised.linear(), h)
+    }
+
+    /// [`step_limit`](Self::step_limit) of a system that is linear already.
+    pub fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
+        if self.chooses_its_steps() || self.is_implicit() {
+            return None;
+        }
+        let contacts = fastest(system)?;
+        let mut fastest = contacts;
+        if self == Self::NewmarkExplicit {
+            let squares = system.linear().iter().map(|held| held.squared_frequency);
+            fastest = squares.fold(fastest, |most, square| most.max(square.sqrt()));
+        }
+        let unstable = |system: &mut Linearised, h: f64| {
+            let steps = (RADIANS / (contacts * h)).clamp(f64::from(STEPS), MOST_STEPS);
+            let found = growth(system, self, h, fastest, steps as u32);
+            found.is_unstable() && Resonance::of(&found, system.linear(), h).is_none()
         };
-        let mut tangent = Tangent::new(state.y.len());
-        system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
-        let stiffness = match explicit {
-            Explicit::Force => of_terms(&tangent),
-            Explicit::Motion => of_coordinates(system, &tangent),
+        let first = match self {
+            // a mode has a limit that is known, and contacts shorten it little
+            Self::NewmarkExplicit if fastest > contacts => 4.0 * FIRST,
+            _ => FIRST,
         };
-        let highest = largest_eigenvalue(&stiffness)?.sqrt();
-        (highest > 0.0).then(|| StepLimit {
-            step_s: phase / highest,
-            highest_hz: highest / TAU,
+        let mut stable = first / fastest;
+        while unstable(system, stable) {
+            stable /= 2.0;
+            if stable * fastest < 1e-3 {
+                return None;
+            }
+        }
+        let mut grows = stable * RATIO;
+        while !unstable(system, grows) {
+            stable = grows;
+            grows *= RATIO;
+            if grows * fastest > LAST {
+                return None;
+            }
+        }
+        for _ in 0..HALVINGS {
+            let middle = (stable * grows).sqrt();
+            if unstable(system, middle) {
+                grows = middle;
+            } else {
+                stable = middle;
+            }
+        }
+        let explicit = match self {
+            Self::NewmarkExplicit => of_coordinates(system),
+            _ => of_terms(system.tangent(), Tangent::position),
+        };
+        Some(StepLimit {
+            step_s: stable,
+            highest_hz: largest_real_part(&explicit)?.sqrt() / TAU,
         })
     }
 }
 
-/// `-position_k . left_l`, \[terms x terms\].
-fn of_terms(tangent: &Tangent) -> DenseMatrix {
+/// The order of the fastest motion that the force alone makes, 1/s: its frequency, or the rate of its damping where that is
+/// larger. None where it makes none.
+#[must_use]
+pub fn fastest(system: &Linearised) -> Option<f64> {
+    let tangent = system.tangent();
+    let frequency = largest_real_part(&of_terms(tangent, Tangent::position))?.sqrt();
+    let rate = largest_real_part(&of_terms(tangent, Tangent::velocity))?;
+    let fastest = frequency.max(rate);
+    (fastest > 0.0).then_some(fastest)
+}
+
+/// `-row_k . left_l`, \[terms x terms\]: its eigenvalues that are not zero are those of the sum of the terms.
+fn of_terms(tangent: &Tangent, row: impl Fn(&Tangent, usize) -> &[f64]) -> DenseMatrix {
     let terms = tangent.terms();
     DenseMatrix::from_fn(terms, terms, |k, l| {
-        let pairs = tangent.position(k).iter().zip(tangent.left(l));
-        -pairs.map(|(position, left)| position * left).sum::<f64>()
+        let pairs = row(tangent, k).iter().zip(tangent.left(l));
+        -pairs.map(|(row, left)| row * left).sum::<f64>()
     })
 }
 
 /// Linear part and tangent, \[dof x dof\].
-fn of_coordinates(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMatrix {
+fn of_coordinates(system: &Linearised) -> DenseMatrix {
+    let tangent = system.tangent();
     let dof = tangent.dof();
     let mut matrix = DenseMatrix::zeros(dof, dof);
     for (i, linear) in system.linear().iter().enumerate() {
@@ -96,8 +197,8 @@ fn of_coordinates(system: &impl SecondOrderSystem, tangent: &Tangent) -> DenseMa
     matrix
 }
 
-/// Largest real part, at least zero; none of a matrix with a value that is not finite.
-fn largest_eigenvalue(matrix: &DenseMatrix) -> Option<f64> {
+/// At least zero; none of a matrix with a value that is not finite.
+fn largest_real_part(matrix: &DenseMatrix) -> Option<f64> {
     if matrix.nrows() == 0 {
         return Some(0.0);
     }
@@ -107,113 +208,5 @@ fn largest_eigenvalue(matrix: &DenseMatrix) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dynamics::LinearCoordinate;
-
-    const ADAMS: Method = Method::ExponentialAdams { tolerance: None };
-
-    /// A body of 1 kg on a spring, and one of 0.01 kg that hangs on it by a contact of 1 N/m: positions of both.
-    struct Pair([LinearCoordinate; 2]);
-
-    const MASSES: [f64; 2] = [1.0, 0.01];
-
-    impl Pair {
-        fn new(squared_frequency: f64) -> Self {
-            let of = |squared_frequency| LinearCoordinate {
-                squared_frequency,
-                damping: 0.0,
-            };
-            Self([of(squared_frequency), of(0.0)])
-        }
-    }
-
-    impl SecondOrderSystem for Pair {
-        fn linear(&self) -> &[LinearCoordinate] {
-            &self.0
-        }
-
-        fn force_into(&mut self, _t: f64, y: &[f64], _v: &[f64], g: &mut [f64]) {
-            let pull = y[1] - y[0];
-            (g[0], g[1]) = (pull / MASSES[0], -pull / MASSES[1]);
-        }
-
-        fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
-            let term = tangent.add();
-            (term.left[0], term.left[1]) = (1.0 / MASSES[0], -1.0 / MASSES[1]);
-            (term.position[0], term.position[1]) = (-1.0, 1.0);
-        }
-    }
-
-    fn rest() -> State {
-        State {
-            t: 0.0,
-            y: vec![0.0; 2],
-            v: vec![0.0; 2],
-        }
-    }
-
-    #[test]
-    fn frequencies_are_those_of_unequal_masses() {
-        let mut pair = Pair::new(40.0);
-        // by hand: the contact alone has the reduced mass 0.01 / 1.01 kg; with the spring of 40 N/m
-        // w^4 - (40 + 101) w^2 + 4000 = 0
-        let contact = 101.0_f64.sqrt();
-        let both = (0.5 * (141.0 + (141.0_f64 * 141.0 - 16_000.0).sqrt())).sqrt();
-        for (method, phase, highest) in [
-            (Method::Exponential, 2.0, contact),
-            (Method::Splitting, 2.0, contact),
-            (ADAMS, 3.0_f64.sqrt(), contact),
-            (Method::NewmarkExplicit, 2.0, both),
-        ] {
-            let limit = method.step_limit(&mut pair, &rest()).expect("a limit");
-            // round-off of an eigenvalue
-            assert!((limit.step_s * highest / phase - 1.0).abs() < 1e-13);
-            assert!((limit.highest_hz * TAU / highest - 1.0).abs() < 1e-13);
-        }
-        for method in [
-            Method::Newmark,
-            Method::GeneralizedAlpha {
-                spectral_radius: 0.8,
-            },
-            Method::Dop853 {
-                tolerance: 1e-6,
-                events: false,
-            },
-        ] {
-            assert_eq!(method.step_limit(&mut pair, &rest()), None);
-        }
-    }
-
-    #[test]
-    fn what_does_not_vibrate_or_is_no_number_has_no_limit() {
-        struct Free([LinearCoordinate; 1], f64);
-        impl SecondOrderSystem for Free {
-            fn linear(&self) -> &[LinearCoordinate] {
-                &self.0
-            }
-            fn force_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], g: &mut [f64]) {
-                g[0] = 1.0;
-            }
-            fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
-                let term = tangent.add();
-                (term.left[0], term.position[0]) = (1.0, self.1);
-            }
-        }
-        let still = LinearCoordinate {
-            squared_frequency: 0.0,
-            damping: 0.0,
-        };
-        let state = State {
-            t: 0.0,
-            y: vec![0.0],
-            v: vec![0.0],
-        };
-        for slope in [0.0, 4.0, f64::NAN] {
-            let mut free = Free([still], slope);
-            for method in [Method::Exponential, Method::NewmarkExplicit] {
-                assert_eq!(method.step_limit(&mut free, &state), None, "{slope}");
-            }
-        }
-    }
-}
+#[path = "limit_tests.rs"]
+mod tests;

@@ -14,10 +14,14 @@
 //! - [`Method::Dop853`]: explicit Runge-Kutta of order 8 by a tolerance, interpolated at the samples; its steps may end where
 //!   contacts begin and end.
 //!
+//! How long a step may be is asked of the methods themselves: [`growth`] steps a [`Linearised`] system, and
+//! [`Method::step_limit`] searches the step at which a small motion begins to grow.
+//!
 //! [`integrate`] goes through a [`Schedule`]; an [`Integration`] does so interval by interval. A state that means nothing any
 //! more is noticed within a few steps ([`BlowUp`]), with the method's limit there ([`StepLimit`]).
 
 mod adams;
+mod amplification;
 mod dop853;
 mod driver;
 mod error;
@@ -25,16 +29,19 @@ mod exponential;
 mod implicit;
 mod integration;
 mod limit;
+mod linearised;
 mod newmark;
 mod newton;
 mod propagator;
 mod splitting;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
+pub use amplification::{Growth, UNSTABLE, growth};
 pub use driver::{LEAST_TOLERANCE, Method, Schedule, Statistics, Stepping, integrate};
 pub use error::{BlowUp, TransientError};
 pub use integration::Integration;
-pub use limit::StepLimit;
+pub use limit::{Resonance, StepLimit, fastest};
+pub use linearised::Linearised;
 
 #[cfg(test)]
 mod implicit_tests;

@@ -393,7 +393,9 @@ fn the_limit_that_is_named_is_the_one_that_is_found() {
             y: vec![1.0],
             v: vec![0.0],
         };
-        let named = method.step_limit(&mut Oscillator::new(1.0), &state);
+        let mut system = Oscillator::new(1.0);
+        system.linear[0].damping = 0.0;
+        let named = method.step_limit(&mut system, &state);
         let (named, found) = (named.expect("a limit").step_s, measured_limit(method));
         println!("{method:?}: {named} s named, {found} s found");
         // 2000 steps tell growth from none to some 1e-5; the bisection ends at 1e-3
@@ -417,11 +419,26 @@ fn a_blow_up_tells_step_limit_and_frequency() {
             step_s: 1.928e-6,
             highest_hz: 142_980.0,
         }),
+        resonance: None,
         cause: Divergence::NotFinite,
     };
     assert_eq!(
         blow_up.to_string(),
         "the solution blew up at t = 2.300052000 s (step 575013 of 4.000e-6 s; good until 2.300048000 s): a value is infinite or not a number; contacts there vibrate at up to 143.0 kHz, exponential-adams is stable up to 1.93e-6 s"
+    );
+    let resonant = BlowUp {
+        step_s: 1.5e-6,
+        resonance: Some(Resonance {
+            mode_hz: 333_210.0,
+            multiple: 1,
+        }),
+        ..blow_up.clone()
+    };
+    assert!(
+        resonant.to_string().ends_with(
+            "is stable up to 1.93e-6 s but for resonances: in this step a mode of 333.2 kHz makes about half a turn"
+        ),
+        "{resonant}"
     );
     let of_dop853 = BlowUp {
         method: Method::Dop853 {
