@@ -6,8 +6,8 @@ use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::chart::{
-    Chart, ComparedFigure, Effort, Estimate, Point, StartReference, chart_report, compute_chart,
-    compute_stability, parameter_of, stability_section, work_precision,
+    Chart, ComparedFigure, Condition, Effort, Estimate, Point, StartReference, chart_report,
+    compute_chart, compute_stability, parameter_of, stability_section, work_precision,
 };
 use crate::report::significant;
 use crate::stages::{RunModel, StageError};
@@ -40,7 +40,11 @@ pub(super) fn chart(
     let effort = wanted.effort;
     let result = compute_chart(case, effort, progress)?;
     let stability = match wanted.only {
-        None => Some(compute_stability(case, &result.scene, effort, progress)?),
+        None => {
+            let conditions = Condition::all(case, effort);
+            let map = compute_stability(case, &result.scene, conditions, effort, progress)?;
+            Some(map)
+        }
         Some(_) => None,
     };
     progress.stage("write");

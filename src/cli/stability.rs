@@ -5,8 +5,8 @@ use super::results::common;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::chart::{
-    Effort, Stability, compute_stability, resonance_plot, stability_map, stability_record,
-    stability_report,
+    Condition, Effort, Stability, compute_stability, resonance_plot, stability_map,
+    stability_record, stability_report,
 };
 use crate::report::significant;
 use crate::stages::{Scene, StageError};
@@ -26,7 +26,8 @@ pub(super) fn alone(
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let scene = Scene::build(case, progress)?;
-    let stability = compute_stability(case, &scene, effort, progress)?;
+    let conditions = Condition::all(case, effort);
+    let stability = compute_stability(case, &scene, conditions, effort, progress)?;
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let report = stability_report(case, &stability, command);

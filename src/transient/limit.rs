@@ -2,12 +2,12 @@
 //!
 //! Stability need not end at one step: where the phase `h omega` of a mode that is held exactly is near a multiple of pi, the
 //! contacts can drive it (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., XIII.1 and XIII.8). Such a
-//! [`Resonance`] is told apart from the limit by the coordinate that grows.
+//! [`Resonance`] is told apart from the limit by what grows.
 
 use super::amplification::{Growth, STEPS, growth};
 use super::driver::Method;
 use super::linearised::Linearised;
-use crate::dynamics::{LinearCoordinate, SecondOrderSystem, State, Tangent};
+use crate::dynamics::{SecondOrderSystem, State, Tangent};
 use crate::linalg::{DenseMatrix, general_spectrum};
 use std::f64::consts::{PI, TAU};
 
@@ -21,10 +21,6 @@ const HALVINGS: usize = 8;
 
 /// Distance of a phase from a multiple of pi, in units of pi, within which growth in a mode is a resonance.
 const NEAR: f64 = 0.25;
-
-/// Velocity of a mode that counts in what grows, in units of the largest: a race moves a ball, which weighs a hundredth of it,
-/// some ten times as fast as the mode's amplitude, in kg^(1/2) m, changes; a ball that vibrates alone moves a mode by a thousandth.
-const SHARE: f64 = 1e-2;
 
 /// Steps of a growth reach over so many radians of the contacts' fastest motion, with this many at most.
 const RADIANS: f64 = 200.0;
@@ -49,29 +45,24 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// The resonance that a growth is, if it is one: of a system with this linear part in steps of `h` (s).
+    /// The resonance that a growth of a system in steps of `h` (s) is, if it is one: what grows has most of its kinetic energy in
+    /// a mode whose phase is near a multiple of pi.
     #[must_use]
-    pub fn of(found: &Growth, linear: &[LinearCoordinate], h: f64) -> Option<Self> {
+    pub fn of(found: &Growth, system: &Linearised, h: f64) -> Option<Self> {
         if !found.is_unstable() {
             return None;
         }
-        let largest = found
-            .motion
-            .iter()
-            .fold(0.0, |most: f64, v| most.max(v.abs()));
-        let near = linear.iter().zip(&found.motion).filter_map(|(held, v)| {
-            let omega = held.squared_frequency.sqrt();
-            let phase = h * omega / PI;
-            let multiple = phase.round();
-            let near = multiple >= 1.0 && (phase - multiple).abs() < NEAR;
-            let resonance = Self {
-                mode_hz: omega / TAU,
-                multiple: multiple as u32,
-            };
-            (near && v.abs() >= SHARE * largest).then_some((v.abs(), resonance))
-        });
-        let most = near.max_by(|a, b| a.0.total_cmp(&b.0));
-        most.map(|(_, resonance)| resonance)
+        let energies = found.motion.iter().zip(system.masses());
+        let energies = energies.map(|(v, mass)| mass * v * v).enumerate();
+        let (coordinate, _) = energies.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let omega = system.linear()[coordinate].squared_frequency.sqrt();
+        let phase = h * omega / PI;
+        let multiple = phase.round();
+        let near = multiple >= 1.0 && (phase - multiple).abs() < NEAR;
+        near.then_some(Self {
+            mode_hz: omega / TAU,
+            multiple: multiple as u32,
+        })
     }
 }
 
@@ -101,7 +92,7 @@ impl Method {
         let mut linearised = Linearised::new(system, state);
         let fastest = fastest(&linearised)?;
         let found = growth(&mut linearised, self, h, fastest, STEPS);
-        Resonance::of(&found, linearised.linear(), h)
+        Resonance::of(&found, &linearised, h)
     }
 
     /// [`step_limit`](Self::step_limit) of a system that is linear already.
@@ -118,7 +109,7 @@ impl Method {
         let unstable = |system: &mut Linearised, h: f64| {
             let steps = (RADIANS / (contacts * h)).clamp(f64::from(STEPS), MOST_STEPS);
             let found = growth(system, self, h, fastest, steps as u32);
-            found.is_unstable() && Resonance::of(&found, system.linear(), h).is_none()
+            found.is_unstable() && Resonance::of(&found, system, h).is_none()
         };
         let first = match self {
             // a mode has a limit that is known, and contacts shorten it little

@@ -173,8 +173,8 @@ fn damping_in_the_force_shortens_the_step_as_the_matrix_says() {
     assert!(last < 0.1);
 }
 
-/// A mode that is held exactly, with a contact a twentieth as stiff between it and a body of a hundredth of its mass: its phase
-/// reaches pi before the body's reaches 2.
+/// A mode that is held exactly, with a soft contact between it and a body: its phase reaches pi before the body's reaches 2, where
+/// it is 2.5 pi.
 #[test]
 fn a_resonance_is_told_from_the_limit() {
     struct Held([LinearCoordinate; 2]);
@@ -183,12 +183,12 @@ fn a_resonance_is_told_from_the_limit() {
             &self.0
         }
         fn force_into(&mut self, _t: f64, y: &[f64], _v: &[f64], g: &mut [f64]) {
-            let pull = 0.05 * (y[1] - y[0]);
+            let pull = 0.065 * (y[1] - y[0]);
             (g[0], g[1]) = (pull, -pull);
         }
         fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
             let term = tangent.add();
-            (term.left[0], term.left[1]) = (0.05, -0.05);
+            (term.left[0], term.left[1]) = (0.065, -0.065);
             (term.position[0], term.position[1]) = (-1.0, 1.0);
         }
     }
@@ -199,8 +199,8 @@ fn a_resonance_is_told_from_the_limit() {
     let mut system = Held([held, FREE[0]]);
     let method = Method::Exponential;
     let limit = method.step_limit(&mut system, &rest()).expect("a limit");
-    // the body alone: 2 / sqrt(0.05) = 8.9, beyond which both move together
-    assert!((4.0..9.5).contains(&limit.step_s), "{limit:?}");
+    // of the body alone 2 / sqrt(0.065) = 7.84; the mode moves it a little
+    assert!((7.2..8.5).contains(&limit.step_s), "{limit:?}");
     let found = method
         .resonance(&mut system, &rest(), 3.1)
         .expect("near pi");

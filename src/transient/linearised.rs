@@ -16,6 +16,7 @@ pub struct Linearised {
     tangent: Tangent,
     /// Where the rows of each term are not zero: left, position, velocity.
     filled: Vec<[Range<usize>; 3]>,
+    masses: Vec<f64>,
 }
 
 impl Linearised {
@@ -31,11 +32,19 @@ impl Linearised {
             ];
             rows.map(filled)
         });
+        let linear = system.linear().to_vec();
         Self {
-            linear: system.linear().to_vec(),
             filled: filled.collect(),
+            masses: masses(&linear, &tangent),
+            linear,
             tangent,
         }
+    }
+
+    /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
+    /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
+    pub fn masses(&self) -> &[f64] {
+        &self.masses
     }
 
     /// What the force is by the tangent.
@@ -64,6 +73,26 @@ impl SecondOrderSystem for Linearised {
     fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
         tangent.clone_from(&self.tangent);
     }
+}
+
+fn masses(linear: &[LinearCoordinate], tangent: &Tangent) -> Vec<f64> {
+    let mut masses = vec![1.0; linear.len()];
+    for term in 0..tangent.terms() {
+        let (left, position) = (tangent.left(term), tangent.position(term));
+        let modes = (0..linear.len()).filter(|&i| linear[i].squared_frequency > 0.0);
+        // the mode that the force moves most
+        let most = modes.max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()));
+        let Some(stiffness) = most.map(|mode| position[mode] / left[mode]) else {
+            continue;
+        };
+        for (i, mass) in masses.iter_mut().enumerate() {
+            let found = position[i] / left[i] / stiffness;
+            if linear[i].squared_frequency <= 0.0 && found > 0.0 && found.is_finite() {
+                *mass = found;
+            }
+        }
+    }
+    masses
 }
 
 /// From the first value that is not zero to the last.

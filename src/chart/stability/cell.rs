@@ -108,7 +108,7 @@ pub(super) fn on_grid(
     let scale = fastest(linearised).unwrap_or(1.0);
     let predict = |linearised: &mut Linearised, h: f64| {
         let found = growth(linearised, method, h, scale, LINEAR_STEPS);
-        match Resonance::of(&found, linearised.linear(), h) {
+        match Resonance::of(&found, linearised, h) {
             Some(_) => StepState::Resonant,
             None if found.is_unstable() => StepState::Unstable,
             None => StepState::Stable,
@@ -192,7 +192,7 @@ fn windows(
     for &centre in phases.iter().take(most) {
         let at = |linearised: &mut Linearised, h: f64| {
             let found = growth(linearised, method, h, scale, RESONANT_STEPS);
-            Resonance::of(&found, linearised.linear(), h).map(|of| (of, found.per_step))
+            Resonance::of(&found, linearised, h).map(|of| (of, found.per_step))
         };
         let mut found = BESIDE.iter().filter_map(|beside| {
             let h = centre * (1.0 + beside);

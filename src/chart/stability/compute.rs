@@ -90,13 +90,14 @@ struct Prepared {
     reference: Reference,
 }
 
-/// Computes the map of a case, whose scene is `scene`.
+/// Computes the map of a case, whose scene is `scene`, over conditions, such as [all](Condition::all).
 ///
 /// # Errors
 /// [`ChartError`]; a condition that the bearing cannot be in is no error.
 pub fn compute_stability(
     case: &Case,
     scene: &Scene,
+    conditions: Vec<Condition>,
     effort: Effort,
     watch: &(impl Watch + Sync),
 ) -> Result<Stability, ChartError> {
@@ -104,7 +105,6 @@ pub fn compute_stability(
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
     let choice = ModelChoice::of_case(case, &automatic(asked, case::Method::Auto), scene)?;
     let (model, grid) = (choice.model, grid(effort));
-    let conditions = Condition::all(case, effort);
     watch.stage("conditions");
     let progress = Counter::new(watch, conditions.len());
     let prepared: Vec<Result<Prepared, String>> = conditions
