@@ -207,7 +207,7 @@ fn a_resonance_is_told_from_the_limit() {
     assert_eq!(found.multiple, 1);
     assert!((found.mode_hz * TAU - 1.0).abs() < 1e-12);
     // at 2 pi the force has no hold on the mode
-    for h in [1.0, 2.0, 6.28] {
+    for h in [1.0, 2.0, TAU] {
         assert_eq!(method.resonance(&mut system, &rest(), h), None, "{h}");
     }
 }

@@ -11,7 +11,7 @@ const CONTACT: f64 = 0.05;
 
 /// Phases shown, in units of pi, and how many.
 const PHASES: [f64; 2] = [0.1, 3.2];
-const POINTS: usize = 249;
+const POINTS: usize = 250;
 
 /// Steps from which each growth is taken.
 const STEPS: u32 = 400;
@@ -80,7 +80,7 @@ pub fn resonance_plot() -> Plot {
     Plot::new(
         "Resonance of the step with a mode",
         Axis::new("Phase of the mode in a step, in units of π", ""),
-        Axis::new("Growth a step, natural logarithm", "").range(0.0, 1.0),
+        Axis::new("Growth a step, natural logarithm", "").range(0.0, 0.5),
     )
     .caption(format!(
         "An undamped oscillator, stepped exactly, with a contact {} times as stiff on it: near odd multiples of π (exponential) and just below every one (splitting) the contact drives it, whatever its damping takes out.",
