@@ -12,7 +12,7 @@ use super::linearised::Linearised;
 use crate::dynamics::SecondOrderSystem;
 
 /// Growth a step, `ln rho`, above which a method is unstable: a motion then becomes e times as large in 2000 steps. What beats
-/// without growing was found below half of it over [`STEPS`].
+/// without growing was found below half of it over a thousand steps.
 pub const UNSTABLE: f64 = 5e-4;
 
 /// Steps from which the growth is taken.
