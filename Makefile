@@ -3,7 +3,7 @@
 CASE := examples/tadina2011/outer-dent.toml
 REPORT := out/outer-dent/report.html
 
-.PHONY: help setup demo test meshes docs bench clean
+.PHONY: help setup demo test meshes docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
@@ -12,6 +12,7 @@ help:
 	@echo "make meshes  make the example meshes again (needs gmsh)"
 	@echo "make docs    documentation of the library"
 	@echo "make bench   benchmarks"
+	@echo "make bench-peers  other integrators on the same equations (needs numpy, scipy, scikit-sundae)"
 	@echo "make clean   remove what was built and computed"
 
 setup:
@@ -44,6 +45,10 @@ docs:
 bench: setup
 	cargo bench
 
+bench-peers: setup
+	python3 benches/peers.py
+
 clean:
 	cargo clean
+	rm -rf benches/peers/target
 	rm -rf out

@@ -37,7 +37,7 @@ fn stepping_four_times_as_long_takes_the_same_memory() {
         let mut unfinished = UnfinishedRun::begin(&folder.path().join("partial"), identity);
         let before = ALLOCATOR.current_usage();
         ALLOCATOR.reset_peak_usage();
-        let run = Simulation::kept_from_rest(&scene, &model, span, &mut unfinished, |_| {});
+        let run = Simulation::kept_from_rest(&scene, &model, span, false, &mut unfinished, |_| {});
         let rows = run.unwrap().record.rows();
         assert_eq!(rows, (duration * 400e3_f64).round() as usize + 1);
         ALLOCATOR.peak_usage().saturating_sub(before)

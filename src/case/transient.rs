@@ -210,6 +210,10 @@ pub struct Analysis {
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
     pub envelope: Vec<Window>,
+    /// Whether the balance of the run's energy is taken, which costs up to a third of a fast run's time; `None`:
+    /// of runs of up to 100 000 samples.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<bool>,
 }
 
 /// A stretch of time within the simulation.

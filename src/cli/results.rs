@@ -83,6 +83,18 @@ pub(super) fn run_json<R: Recording>(
             "why": choice_json(&result.choice)["parts"],
         },
         "estimated_error": result.choice.estimated_error,
+        "energy": result.simulation.energy.map(|energy| json!({
+            "input": energy.input_j(),
+            "loads": energy.loads_j,
+            "rotation": energy.rotation_j,
+            "blending": energy.blending_j,
+            "dissipated": energy.dissipated_j(),
+            "modal_damping": energy.modal_damping_j,
+            "contact_damping": energy.contact_damping_j,
+            "stored": energy.stored_j,
+            "exchanged": energy.exchanged_j,
+            "balance_error": energy.error(),
+        })),
         "equilibrium": {
             "shaft_m": equilibrium.shaft,
             "ball_angle_rad": balls(|ball| ball.angle),

@@ -244,7 +244,19 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
-    vec![
+    let energy = result.simulation.energy.map(|energy| {
+        let [input, taken, stored, error] = [
+            energy.input_j(),
+            energy.dissipated_j(),
+            energy.stored_j,
+            energy.error().abs(),
+        ]
+        .map(|value| significant(value, 2));
+        Fact::new("Energy that does not add up", error).note(format!(
+            "of all that was exchanged: {input} J came in, {taken} J were damped, {stored} J more are stored"
+        ))
+    });
+    let mut facts = vec![
         Fact::new("Method", result.simulation.method.name()),
         Fact::new(
             "Step",
@@ -284,5 +296,7 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
                 )
             ),
         ),
-    ]
+    ];
+    facts.extend(energy);
+    facts
 }

@@ -2,9 +2,9 @@
 
 use super::keeper::fingerprint;
 use super::{InMemory, Keeper, Recording, RunModel, Scene, StageError, UnfinishedError, Wish};
-use crate::dynamics::{Snapshot, State};
+use crate::dynamics::{Instant as Now, Observer, Snapshot, State};
 use crate::series::{SeriesError, TimeSeries, TimeWindow};
-use crate::system::{Column, CoupledSystem, Recorder, RunRecord};
+use crate::system::{Column, CoupledSystem, EnergyBalance, EnergyMeter, Recorder, RunRecord};
 use crate::transient::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
 use std::time::Instant;
 
@@ -53,6 +53,9 @@ pub struct Simulation<R = RunRecord> {
     pub stepping_s: f64,
     /// Signals.
     pub record: R,
+    /// The energy balance from the start to the last step; `None` where it was not asked for, where the equations have none
+    /// ([`EnergyMeter::new`]) and after a blow-up.
+    pub energy: Option<EnergyBalance>,
     /// How it ended.
     pub end: RunEnd,
 }
@@ -68,7 +71,7 @@ impl Simulation {
         span: Span,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
-        Self::kept_from_rest(scene, model, span, &mut InMemory, fraction)
+        Self::kept_from_rest(scene, model, span, false, &mut InMemory, fraction)
     }
 
     /// Steps a system of a model through `span` from a state.
@@ -82,7 +85,7 @@ impl Simulation {
         span: Span,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
-        Self::kept(system, state, model, span, &mut InMemory, fraction)
+        Self::kept(system, state, model, span, false, &mut InMemory, fraction)
     }
 
     /// A sensor's acceleration as a series, m/s^2.
@@ -100,7 +103,8 @@ impl Simulation {
 const UNIT: &str = "m/s^2";
 
 impl<R: Recording> Simulation<R> {
-    /// Steps a scene through `span` from rest, or goes on where `keeper` says. What it takes does not grow with time.
+    /// Steps a scene through `span` from rest, or goes on where `keeper` says, and with `energy` takes the balance of its energy.
+    /// What it takes does not grow with time.
     ///
     /// # Errors
     /// [`StageError`], [`StageError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
@@ -109,12 +113,13 @@ impl<R: Recording> Simulation<R> {
         scene: &Scene,
         model: &RunModel,
         span: Span,
+        energy: bool,
         keeper: &mut impl Keeper<Record = R>,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
         let system = scene.system(model)?;
         let state = scene.at_rest(&system);
-        Self::kept(system, state, model, span, keeper, fraction)
+        Self::kept(system, state, model, span, energy, keeper, fraction)
     }
 
     /// The same from any state.
@@ -123,6 +128,7 @@ impl<R: Recording> Simulation<R> {
         state: State,
         model: &RunModel,
         span: Span,
+        energy: bool,
         keeper: &mut impl Keeper<Record = R>,
         fraction: impl Fn(f64),
     ) -> Result<Self, StageError> {
@@ -137,6 +143,7 @@ impl<R: Recording> Simulation<R> {
         let (record, snapshot) = keeper.open(system.sensor_names(), system.setup().balls())?;
         let mut stepping = Stepping {
             fingerprint: fingerprint(&mut system, &state),
+            energy: energy.then(|| EnergyMeter::new(&system, step)).flatten(),
             recorder,
             record,
             end_s: start_s + span.duration,
@@ -145,13 +152,18 @@ impl<R: Recording> Simulation<R> {
         };
         let mut integration = match snapshot {
             None => {
-                let recorder = &mut stepping.recorder;
-                Integration::begin(&mut system, model.method, schedule, state, recorder)?
+                let observers = &mut stepping.observers();
+                Integration::begin(&mut system, model.method, schedule, state, observers)?
             }
             Some(snapshot) => stepping.recalled(&system, model.method, schedule, &snapshot)?,
         };
         let end = stepping.go(&mut system, &mut integration, schedule, keeper, fraction)?;
         keeper.close();
+        let energy = match end {
+            RunEnd::Complete => stepping.energy.as_ref(),
+            RunEnd::BlewUp(_) => None,
+        };
+        let energy = energy.and_then(|meter| meter.balance(&mut system, integration.state()));
         Ok(Self {
             method: model.method,
             schedule,
@@ -162,6 +174,7 @@ impl<R: Recording> Simulation<R> {
             simulated_s: integration.state().t - start_s,
             stepping_s: stepping.wall_s(),
             record: stepping.record,
+            energy,
             end,
         })
     }
@@ -214,6 +227,7 @@ impl<R: Recording> Simulation<R> {
 struct Stepping<R> {
     fingerprint: [u64; 4],
     recorder: Recorder,
+    energy: Option<EnergyMeter>,
     record: R,
     end_s: f64,
     /// Wall time of the parts before this one, s.
@@ -221,7 +235,23 @@ struct Stepping<R> {
     clock: Instant,
 }
 
+/// All that see the steps.
+struct Observers<'a>(&'a mut Recorder, Option<&'a mut EnergyMeter>);
+
+impl Observer<CoupledSystem> for Observers<'_> {
+    fn observe(&mut self, system: &CoupledSystem, now: Now<'_>) {
+        self.0.observe(system, now);
+        if let Some(energy) = &mut self.1 {
+            energy.observe(system, now);
+        }
+    }
+}
+
 impl<R: Recording> Stepping<R> {
+    fn observers(&mut self) -> Observers<'_> {
+        Observers(&mut self.recorder, self.energy.as_mut())
+    }
+
     fn wall_s(&self) -> f64 {
         self.before_s + self.clock.elapsed().as_secs_f64()
     }
@@ -240,7 +270,7 @@ impl<R: Recording> Stepping<R> {
         tell(integration.intervals());
         self.keep(integration, keeper)?;
         while !integration.is_complete() {
-            if let Err(error) = integration.advance(system, &mut self.recorder) {
+            if let Err(error) = integration.advance(system, &mut self.observers()) {
                 self.hand_on()?;
                 return match error {
                     TransientError::BlewUp(blow_up) => Ok(RunEnd::BlewUp(blow_up)),
@@ -290,6 +320,10 @@ impl<R: Recording> Stepping<R> {
         }
         snapshot.number(self.wall_s());
         self.recorder.remember(&mut snapshot);
+        snapshot.flag(self.energy.is_some());
+        if let Some(energy) = &self.energy {
+            energy.remember(&mut snapshot);
+        }
         integration.remember(&mut snapshot);
         keeper.keep(&self.record, integration.state().t, &snapshot)
     }
@@ -313,6 +347,12 @@ impl<R: Recording> Stepping<R> {
         self.before_s = reader.number().map_err(TransientError::from)?;
         let recalled = self.recorder.recall(&mut reader);
         recalled.map_err(TransientError::from)?;
+        if reader.flag().map_err(TransientError::from)? != self.energy.is_some() {
+            return Err(UnfinishedError::Model.into());
+        }
+        if let Some(energy) = &mut self.energy {
+            energy.recall(&mut reader).map_err(TransientError::from)?;
+        }
         let integration = Integration::resume(system, method, schedule, &mut reader)?;
         reader.end().map_err(TransientError::from)?;
         Ok(integration)

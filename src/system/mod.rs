@@ -8,6 +8,7 @@
 mod balls;
 mod bearing_setup;
 mod coupled;
+mod energy;
 mod equilibrium;
 mod error;
 mod force;
@@ -25,6 +26,7 @@ mod turning;
 
 pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, Shaft};
 pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
+pub use energy::{EnergyBalance, EnergyMeter};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use load::LoadProfile;

@@ -1,10 +1,14 @@
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 
+mod energy;
+
 use super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use crate::lanes::{Lanes, each};
 use std::f64::consts::PI;
+
+pub(super) use energy::RaceEnergy;
 
 /// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential
 /// counter-clockwise).
@@ -218,14 +222,8 @@ impl RaceContact {
             return self.force_on_circle(damage, at);
         }
         let radius = self.radius(at.penetration);
-        let [height, slope, bend] = self.waviness.at(at.angle).map(|part| self.sign * part);
-        let moving = at.along / radius - at.turning;
-        let on_wave = RacePlace {
-            penetration: at.penetration - height,
-            rate: at.rate - slope * moving,
-            ..*at
-        };
-        let mut force = self.force_on_circle(damage, &on_wave);
+        let [_, slope, bend] = self.waviness.at(at.angle).map(|part| self.sign * part);
+        let mut force = self.force_on_circle(damage, &self.on_waves(at));
         let (lean, normal) = (self.sign * slope / radius, force.radial);
         force.tangential -= lean * normal;
         let [rr, rt, tt] = force.tangent;
@@ -237,12 +235,36 @@ impl RaceContact {
         force
     }
 
+    /// The place on a race without waves that has the same contacts.
+    #[inline]
+    fn on_waves(&self, at: &RacePlace) -> RacePlace {
+        if self.waviness.is_empty() {
+            return *at;
+        }
+        let [height, slope, _] = self.waviness.at(at.angle).map(|part| self.sign * part);
+        let moving = at.along / self.radius(at.penetration) - at.turning;
+        RacePlace {
+            penetration: at.penetration - height,
+            rate: at.rate - slope * moving,
+            ..*at
+        }
+    }
+
     /// The same without waves.
     #[inline]
     fn force_on_circle(&self, damage: Damage, at: &RacePlace) -> RaceForce {
+        match self.contacts(damage, at) {
+            None => self.plain_force(at.penetration, at.rate),
+            Some((contacts, along)) => self.sum(&contacts, at.rate, along),
+        }
+    }
+
+    /// Contacts on damage, and how fast (m/s) the ball's centre moves along what carries it.
+    #[inline]
+    fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
         let radius = self.radius(at.penetration);
         match damage {
-            Damage::None => self.plain_force(at.penetration, at.rate),
+            Damage::None => None,
             Damage::Race(defect) => {
                 let place = PolarPosition {
                     radius,
@@ -251,13 +273,13 @@ impl RaceContact {
                 let mut contacts = DefectContacts::none();
                 let defect = &self.defects[defect].defect;
                 defect.contacts_into(place, &mut contacts);
-                self.sum(&contacts, at.rate, at.along - radius * at.turning)
+                Some((contacts, at.along - radius * at.turning))
             }
             Damage::Flat(flat) => {
                 let mut contacts = DefectContacts::none();
                 let flat = &self.flats[flat];
                 flat.contacts_into(self.race, at.spin[0], radius, &mut contacts);
-                self.sum(&contacts, at.rate, at.along - radius * at.spin[1])
+                Some((contacts, at.along - radius * at.spin[1]))
             }
         }
     }

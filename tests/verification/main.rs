@@ -3,6 +3,7 @@
 mod assembly;
 mod craig_bampton;
 mod element_convergence;
+mod energy;
 mod equilibrium;
 mod faults;
 mod frf;

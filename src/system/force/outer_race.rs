@@ -148,7 +148,7 @@ impl CoupledSystem {
 
     /// Distance of a ball's centre from the bearing's, m.
     #[inline(always)]
-    pub(super) fn radius(&self, j: usize) -> f64 {
+    pub(in super::super) fn radius(&self, j: usize) -> f64 {
         self.inner_race.touching_radius + self.balls.get(j, |ball| &ball.displacement)
     }
 
@@ -211,7 +211,7 @@ impl CoupledSystem {
 
     /// Where ball `j` is in the table of tangential displacements.
     #[inline]
-    pub(super) fn tangential_place(&self, j: usize) -> Place {
+    pub(in super::super) fn tangential_place(&self, j: usize) -> Place {
         let turns = &self.balls.groups[j / LANES].turn;
         self.tangential.locate(turns).get(j % LANES)
     }

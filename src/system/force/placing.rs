@@ -39,7 +39,7 @@ impl CoupledSystem {
 
     /// Angle of a ball, rad, not reduced.
     #[inline]
-    pub(super) fn ball_angle(&self, j: usize) -> f64 {
+    pub(in super::super) fn ball_angle(&self, j: usize) -> f64 {
         self.setup.cage.ball_angle(self.work.cage_angle, j as u32)
     }
 

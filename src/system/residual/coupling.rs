@@ -105,10 +105,8 @@ impl Coupling {
         if with_slopes {
             let scale = 2.0 * self.stretches as f64 / TAU;
             let slopes = first_mut::<B, _>(&mut self.slopes[range]);
-            for (slope, [a, b, c, d, e, _]) in slopes.iter_mut().zip(quintics) {
-                let slopes = each(|l| {
-                    (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l]
-                });
+            for (slope, quintic) in slopes.iter_mut().zip(quintics) {
+                let slopes = slope_of(quintic, x);
                 *slope = together(each(|l| scale * slopes[l]));
             }
         }
@@ -142,6 +140,34 @@ impl Coupling {
     #[inline(always)]
     pub fn sensor_row(&self, sensor: usize) -> &[Lanes] {
         self.column::<0>(self.balls + 1 + sensor)
+    }
+
+    /// Rate by the cage angle (N m/rad) of the work of radial forces F at the balls, `F . w + F . G F / 2` with the flexibility
+    /// between them G and their displacement under the weight w.
+    pub fn work_by_turning(&self, force: impl Fn(usize) -> f64) -> f64 {
+        let (slot, x) = self.at;
+        let column = |k: usize| {
+            let quintics = &self.made[slot].quintics[k * self.groups..(k + 1) * self.groups];
+            let mut sum = 0.0;
+            for (group, quintic) in quintics.iter().enumerate() {
+                let slopes = slope_of(quintic, x);
+                for (lane, slope) in slopes.into_iter().enumerate() {
+                    let ball = group * LANES + lane;
+                    if ball < self.balls {
+                        sum += slope * force(ball);
+                    }
+                }
+            }
+            sum
+        };
+        let mut sum = column(self.balls);
+        for k in 0..self.balls {
+            let force = force(k);
+            if force != 0.0 {
+                sum += 0.5 * force * column(k);
+            }
+        }
+        2.0 * self.stretches as f64 / TAU * sum
     }
 
     /// A bound of the displacement under the weight along the raceway, m.
@@ -250,6 +276,11 @@ impl Coupling {
 #[inline(always)]
 fn value_of([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
     each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
+}
+
+#[inline(always)]
+fn slope_of([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
+    each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
 }
 
 fn least_common_multiple(a: usize, b: usize) -> usize {

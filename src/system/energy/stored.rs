@@ -1,0 +1,47 @@
+//! What a state stores.
+
+use super::super::bearing_setup::{BallsInertia, Formulation};
+use super::super::coupled::CoupledSystem;
+use crate::dynamics::Instant;
+use crate::lanes;
+
+impl CoupledSystem {
+    /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.
+    pub(in crate::system) fn has_energy(&self) -> bool {
+        self.setup.formulation == Formulation::Consistent
+            && self.setup.balls_inertia == BallsInertia::Dynamic
+    }
+
+    /// Kinetic and elastic energy of a state at which the force was evaluated last, J.
+    pub(in crate::system) fn stored_energy(&self, &Instant { t, y, v, .. }: &Instant<'_>) -> f64 {
+        let modes = self.modes;
+        let of_modes: f64 = (0..modes)
+            .map(|i| v[i] * v[i] + self.linear[i].squared_frequency * y[i] * y[i])
+            .sum();
+        let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
+        let kinetic = self.setup.shaft.mass * squares(&v[modes..modes + 2])
+            + self.setup.geometry.ball_mass() * squares(&v[modes + 2..]);
+        let contacts: f64 = (0..self.balls.count)
+            .map(|j| self.contact_energy(t, j))
+            .sum();
+        0.5 * (of_modes + kinetic) + contacts
+    }
+
+    /// Elastic energy of a ball's contacts and of its share in the static residual, J.
+    fn contact_energy(&self, t: f64, j: usize) -> f64 {
+        let mut energy = 0.0;
+        if self.balls.get(j, |ball| &ball.penetration) > -self.inner.rise() {
+            let shaft = self.setup.cage.shaft().motion(t);
+            let (damage, place) = self.inner_place(j, [0.0; 2], &shaft);
+            energy += self.inner.energy(damage, &place, [0.0; 2]).elastic;
+        }
+        let displaced = self.race_displacement(j);
+        if self.balls.get(j, |ball| &ball.gap) - displaced > -self.outer.rise() {
+            let mut row = lanes::column(self.modes, 0.0);
+            let (damage, place) = self.outer_place(j, displaced, &mut row);
+            energy += self.outer.energy(damage, &place, [0.0; 2]).elastic;
+            energy += 0.5 * displaced * self.balls.get(j, |ball| &ball.outer_radial);
+        }
+        energy
+    }
+}
