@@ -257,6 +257,7 @@ fn with_signal(values: Vec<f64>) -> Simulation {
         simulated_s: 1.0,
         stepping_s: 1.0,
         record,
+        energy: None,
         end: RunEnd::Complete,
     }
 }
