@@ -24,7 +24,7 @@ const SOURCE_STEPS: [f64; 4] = [4.0, 3.0, 2.0, 1.0];
 const TOLERANCES: [f64; 6] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8];
 
 /// Those of exponential-adams, which bounds another quantity.
-const BENDS: [f64; 6] = [0.1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4];
+const FORCE_TOLERANCES: [f64; 6] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 
 /// Kept modes, in units of the band's highest frequency.
 const BANDS: [f64; 4] = [1.0, 2.0, 3.0, 6.0];
@@ -84,7 +84,7 @@ pub(super) fn families(
             .to_vec(),
     };
     let halved = |(modes, residual)| Family {
-        models: BENDS
+        models: FORCE_TOLERANCES
             .map(|tolerance| RunModel {
                 modes,
                 residual,

@@ -7,9 +7,9 @@ use crate::lanes::{LANES, Lanes, each, first_mut, positive};
 /// Sweeps over the balls that share the residual flexibility, far more than it takes.
 pub(super) const MAX_SWEEPS: usize = 40;
 
-/// Relative change of a contact force at which the sweeps end: the forces are then right to some percent of it, far below
-/// any integration error.
-pub(super) const SWEEP_TOLERANCE: f64 = 1e-8;
+/// Relative change of a contact force at which the sweeps end: the forces are then right to about a percent of it, 1e-8, far
+/// below any integration error.
+pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
 
 /// Relative change of a displacement over which the force on waves or damage is continued by its tangent; the error is its
 /// square.

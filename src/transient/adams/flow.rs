@@ -162,6 +162,7 @@ mod tests {
     fn what_turns_too_far_in_a_step_stays_in_the_force() {
         let (flow, kept) = GroupFlow::on_springs(2.0, &[100.0, 0.5, 1.0, 0.0]);
         assert!((kept[0] - 1.0).abs() < 1e-15 && (kept[1] - 0.5).abs() < 1e-15);
-        assert!((flow.velocity_velocity[0] - 2.0_f64.cos()).abs() < 1e-12);
+        // 4^8 / 16!, the first term that the series leaves out
+        assert!((flow.velocity_velocity[0] - 2.0_f64.cos()).abs() < 4e-9);
     }
 }

@@ -66,6 +66,8 @@ pub struct Track {
 /// Newton's form of the curves through the force, by the lengths of the steps.
 #[derive(Debug, Clone, Copy, Default)]
 struct Weights {
+    /// Length of the step, of the two before (s), and whether the prediction is a parabola.
+    of: (f64, [f64; 2], bool),
     /// Change over the step by that over the last one.
     line: f64,
     /// The quadratic part over the step by the changes over the last one and the one before.
@@ -77,14 +79,15 @@ struct Weights {
     correction: [f64; 3],
     /// Of the defect in the error.
     share: f64,
-    quadratic: bool,
 }
 
 impl Weights {
-    fn new(step: f64, [last, before]: [f64; 2], quadratic: bool) -> Self {
+    fn new(of: (f64, [f64; 2], bool)) -> Self {
+        let (step, [last, before], quadratic) = of;
         if last <= 0.0 {
             // no slope is known before the first step: it is of the second order
             return Self {
+                of,
                 correction: [1.0, 0.0, 0.0],
                 ..Self::default()
             };
@@ -92,12 +95,12 @@ impl Weights {
         let (ratio, lean) = (step / last, last / step);
         let share = ratio / (1.0 + ratio);
         let mut weights = Self {
+            of,
             line: ratio,
             bow: [0.0; 2],
             lean,
             correction: [share * lean, 2.0 * share, 0.0],
             share,
-            quadratic,
         };
         if before > 0.0 {
             let square = step * step / (last + before);
@@ -150,7 +153,10 @@ impl Track {
 
     /// Goes over a step from there under the line of the force, or the parabola.
     pub fn predict(&mut self, flow: &Flow) {
-        self.weights = Weights::new(flow.step, self.past, self.quadratic);
+        let now = (flow.step, self.past, self.quadratic);
+        if self.weights.of != now {
+            self.weights = Weights::new(now);
+        }
         predict(self, flow);
     }
 
@@ -302,7 +308,7 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     group.line = line;
     group.parabola = each(|l| lean[l] + bow[l]);
     group.over = flow.over;
-    let curve = if weights.quadratic {
+    let curve = if weights.of.2 {
         [lean, bow]
     } else {
         [line, [0.0; LANES]]
@@ -339,7 +345,7 @@ fn compare(track: &mut Track) -> [f64; 2] {
         let from_parabola = each(|l| rise[l] - parabola[l]);
         by_line = each(|l| larger(by_line[l], from_line[l].abs() * share[l]));
         by_parabola = each(|l| larger(by_parabola[l], from_parabola[l].abs() * share[l]));
-        group.defect = if weights.quadratic {
+        group.defect = if weights.of.2 {
             from_parabola
         } else {
             from_line
