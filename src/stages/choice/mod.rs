@@ -12,7 +12,7 @@ use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation, ModeSelection};
 use crate::transient::Method;
-use mode_errors::ModeErrors;
+use mode_errors::{ModeErrors, undamped_ball_hz};
 use std::f64::consts::TAU;
 
 /// Part of the target that the modes left out may take: their estimate was found within a factor of three of the error on the
@@ -24,6 +24,10 @@ const PAIR: f64 = 1e-3;
 
 /// Band without `[accuracy]`, Hz.
 const USUAL_BAND: f64 = 40e3;
+
+/// Largest ball force to prepare for, in units of the largest static one: impacts in a dent of the source's size reach five to
+/// ten times.
+const IMPACT: f64 = 10.0;
 
 /// A model, and why it is this one.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,11 +112,17 @@ fn modes(
         ModesKept::Auto => {
             let share = MODES_SHARE * target;
             let fewest = with_pairs(scene, errors.fewest(share, asked.residual));
-            let why = format!(
+            let mut why = format!(
                 "the fewest with an estimate of at most {} of the target in the band up to {} kHz",
                 significant(MODES_SHARE, 2),
                 significant(band_hz / 1e3, 4)
             );
+            if let Some(ball_hz) = undamped_ball_hz(scene) {
+                why += &format!(
+                    ", and at contacts that nothing damps up to {} kHz, where balls vibrate",
+                    significant(ball_hz / 1e3, 3)
+                );
+            }
             (ModeSelection::Count(fewest), why)
         }
     };

@@ -1,7 +1,7 @@
 //! Method and step.
 
 use super::super::{RunModel, Scene, StageError};
-use super::{ChosenPart, dynamic};
+use super::{ChosenPart, IMPACT, dynamic};
 use crate::case::{self, StepLength};
 use crate::report::significant;
 use crate::system::{CoupledSystem, ModeSelection};
@@ -27,10 +27,6 @@ const LEAST_SAMPLES: f64 = 4.0;
 
 /// Step of the other methods: phase of the stiffest ball vibration, rad.
 const PHASE: f64 = 0.1;
-
-/// Largest ball force that they prepare for, in units of the largest static one: impacts in a dent of the source's size reach
-/// five to ten times.
-const IMPACT: f64 = 10.0;
 
 /// The source's step for explicit Newmark, s (section 4.1).
 const NEWMARK_STEP: f64 = 1.5e-8;

@@ -300,3 +300,22 @@ fn with_what_is_left_out_it_is_near_the_derivative() {
         0.02,
     );
 }
+
+#[test]
+fn a_state_that_is_no_number_gives_a_force_that_is_none() {
+    let structure = structure();
+    let modes = structure.modes().unwrap();
+    let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
+    for balls_inertia in [BallsInertia::Dynamic, BallsInertia::QuasiStatic] {
+        let setup = BearingSetup {
+            balls_inertia,
+            ..damped(preloaded())
+        };
+        let mut system =
+            CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
+        let none = vec![f64::NAN; system.linear().len()];
+        let mut force = vec![0.0; none.len()];
+        system.force_into(0.0, &none, &none, &mut force);
+        assert!(force.iter().any(|force| force.is_nan()));
+    }
+}

@@ -61,8 +61,9 @@ impl Coupling {
             groups,
             made: [blank.clone(), blank],
             at: (0, 0.0),
-            values: vec![[0.0; LANES]; columns * groups],
-            slopes: vec![[0.0; LANES]; balls * groups],
+            // a state that is not a number reaches what fills up the last lanes: they have columns too
+            values: vec![[0.0; LANES]; columns.max(groups * LANES) * groups],
+            slopes: vec![[0.0; LANES]; groups * LANES * groups],
         };
         let between_elements = coupling.stretches;
         let mut cuts = 1;
