@@ -306,11 +306,11 @@ fn a_state_that_is_no_number_gives_a_force_that_is_none() {
     let structure = structure();
     let modes = structure.modes().unwrap();
     let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
-    for balls_inertia in [BallsInertia::Dynamic, BallsInertia::QuasiStatic] {
-        let setup = BearingSetup {
-            balls_inertia,
-            ..damped(preloaded())
-        };
+    let light = BearingSetup {
+        balls_inertia: BallsInertia::QuasiStatic,
+        ..preloaded()
+    };
+    for setup in [damped(preloaded()), light] {
         let mut system =
             CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
         let none = vec![f64::NAN; system.linear().len()];
