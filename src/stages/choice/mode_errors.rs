@@ -200,6 +200,10 @@ mod tests {
     use crate::stages::Unwatched;
 
     fn dented() -> Scene {
+        dented_with(&[])
+    }
+
+    fn dented_with(keys: &[&str]) -> Scene {
         let path = concat!(
             env!("CARGO_MANIFEST_DIR"),
             "/examples/tadina2011/outer-dent.toml"
@@ -207,7 +211,11 @@ mod tests {
         let case = Case::from_source(Source {
             text: std::fs::read_to_string(path).unwrap(),
             path: path.into(),
-            set: vec!["transient.start=2.3".to_owned()],
+            set: ["transient.start=2.3"]
+                .iter()
+                .chain(keys)
+                .map(|&key| key.to_owned())
+                .collect(),
         });
         Scene::build(&case.unwrap(), &Unwatched).unwrap()
     }
@@ -241,5 +249,19 @@ mod tests {
             assert!(errors.fewest(target, true) < errors.fewest(target, false));
         }
         assert!(errors.with(scene.stage.modes.count(), false) < f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn contacts_that_nothing_damps_ask_for_the_balls_own_frequency() {
+        let (damped, undamped) = (dented(), dented_with(&["bearing.contact_damping=0"]));
+        assert!(undamped_ball_hz(&damped).is_none());
+        let hz = undamped_ball_hz(&undamped).unwrap();
+        // the 80 to 117 kHz of a ball under the weight, times ten to the power 1/6
+        assert!((117e3..175e3).contains(&hz), "{hz}");
+        let fewest = |scene: &Scene| ModeErrors::of(scene, 40e3).fewest(2e-3, true);
+        let kept = fewest(&undamped);
+        assert!(kept > fewest(&damped) + 4, "{kept}");
+        // all that a ball can be in resonance with
+        assert!(undamped.stage.modes.frequency_hz(kept - 1) > hz);
     }
 }
