@@ -63,11 +63,21 @@ pub struct Track {
     sizes: Vec<f64>,
 }
 
+/// What the curves through the force depend on.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Stencil {
+    /// Length of the step, s.
+    step: f64,
+    /// And of the two before; zero where there was none.
+    past: [f64; 2],
+    /// Whether the prediction is a parabola.
+    quadratic: bool,
+}
+
 /// Newton's form of the curves through the force, by the lengths of the steps.
 #[derive(Debug, Clone, Copy, Default)]
 struct Weights {
-    /// Length of the step, of the two before (s), and whether the prediction is a parabola.
-    of: (f64, [f64; 2], bool),
+    of: Stencil,
     /// Change over the step by that over the last one.
     line: f64,
     /// The quadratic part over the step by the changes over the last one and the one before.
@@ -82,8 +92,8 @@ struct Weights {
 }
 
 impl Weights {
-    fn new(of: (f64, [f64; 2], bool)) -> Self {
-        let (step, [last, before], quadratic) = of;
+    fn new(of: Stencil) -> Self {
+        let (step, [last, before]) = (of.step, of.past);
         if last <= 0.0 {
             // no slope is known before the first step: it is of the second order
             return Self {
@@ -106,7 +116,7 @@ impl Weights {
             let square = step * step / (last + before);
             weights.bow = [square / last, square / before];
         }
-        if quadratic {
+        if of.quadratic {
             let two = (last + before) / step;
             let cubic = share / (1.0 + two);
             weights.correction = [lean * two, 2.0 * (lean + two), 3.0].map(|part| cubic * part);
@@ -153,7 +163,11 @@ impl Track {
 
     /// Goes over a step from there under the line of the force, or the parabola.
     pub fn predict(&mut self, flow: &Flow) {
-        let now = (flow.step, self.past, self.quadratic);
+        let now = Stencil {
+            step: flow.step,
+            past: self.past,
+            quadratic: self.quadratic,
+        };
         if self.weights.of != now {
             self.weights = Weights::new(now);
         }
@@ -308,7 +322,7 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     group.line = line;
     group.parabola = each(|l| lean[l] + bow[l]);
     group.over = flow.over;
-    let curve = if weights.of.2 {
+    let curve = if weights.of.quadratic {
         [lean, bow]
     } else {
         [line, [0.0; LANES]]
@@ -345,7 +359,7 @@ fn compare(track: &mut Track) -> [f64; 2] {
         let from_parabola = each(|l| rise[l] - parabola[l]);
         by_line = each(|l| larger(by_line[l], from_line[l].abs() * share[l]));
         by_parabola = each(|l| larger(by_parabola[l], from_parabola[l].abs() * share[l]));
-        group.defect = if weights.of.2 {
+        group.defect = if weights.of.quadratic {
             from_parabola
         } else {
             from_line
