@@ -39,6 +39,8 @@ mod motion;
 mod nearest;
 mod path;
 mod ring;
+#[cfg(test)]
+mod samples;
 mod sensor;
 mod set;
 mod slip;

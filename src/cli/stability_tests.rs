@@ -5,19 +5,13 @@ use std::fs;
 use serde_json::{Map, Value};
 
 use super::{Effort, OutputFolder, compute_stability, stability_lines, write_stability};
-use crate::case::{Case, Source};
+use crate::case::Case;
 use crate::chart::{Condition, stability_report};
 use crate::stages::{Scene, Unwatched};
 
 /// The smooth scene made small: a ring of 12 nodes.
 fn small() -> Case {
-    let path = format!("{}/examples/scenes/smooth.toml", env!("CARGO_MANIFEST_DIR"));
-    let case = Case::from_source(Source {
-        text: fs::read_to_string(&path).unwrap(),
-        path: path.into(),
-        set: vec!["ring.nodes=12".to_owned()],
-    });
-    case.unwrap()
+    Case::example("scenes/smooth", &["ring.nodes=12"])
 }
 
 fn limit(of: &Value, which: &str) -> f64 {

@@ -1,7 +1,7 @@
 //! Simulations that stop and go on, and what is read back of them.
 
 use super::*;
-use crate::case::{Case, Source};
+use crate::case::Case;
 use crate::dynamics::{NoRecord, Snapshot};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::stages::ModelChoice;
@@ -58,14 +58,7 @@ impl Keeper for Stops {
 }
 
 fn case(set: &[&str]) -> Case {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let path = format!("{root}/examples/scenes/smooth.toml");
-    Case::from_source(Source {
-        text: std::fs::read_to_string(&path).unwrap(),
-        path: path.into(),
-        set: set.iter().map(|set| (*set).to_owned()).collect(),
-    })
-    .unwrap()
+    Case::example("scenes/smooth", set)
 }
 
 /// Bits of all columns.
@@ -286,10 +279,8 @@ fn a_stretch_is_a_part_of_the_signal_with_its_instants() {
 
 #[test]
 fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let path = format!("{root}/examples/tadina2011/outer-dent.toml");
-    let set = ["analysis.envelope=[{from=2.4,to=2.6}]".to_owned()];
-    let case = Case::load(&path, &set).unwrap();
+    let set = ["analysis.envelope=[{from=2.4,to=2.6}]"];
+    let case = Case::example("tadina2011/outer-dent", &set);
     let setup = bearing_setup(&case).unwrap().unwrap();
     // bursts of 8.2 kHz 55 times a second over a slow vibration that does not end where it begins
     let values = (0..100_000).map(|k| {
