@@ -107,6 +107,12 @@ impl Cage {
         }
     }
 
+    /// The first time (s) after `time` at which the motion of shaft or cage changes its law; infinity if there is none.
+    #[must_use]
+    pub fn next_knot(&self, time: f64) -> f64 {
+        self.rotation.next_knot(time)
+    }
+
     /// Angle between neighbouring balls, rad.
     #[must_use]
     #[inline]

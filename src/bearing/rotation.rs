@@ -110,6 +110,14 @@ impl Rotation {
         self.pieces.iter().map(|piece| piece.time)
     }
 
+    /// The first knot after `time` (s), s; infinity if there is none. O(log n).
+    pub fn next_knot(&self, time: f64) -> f64 {
+        let started = self.pieces.partition_point(|piece| piece.time <= time);
+        self.pieces
+            .get(started)
+            .map_or(f64::INFINITY, |piece| piece.time)
+    }
+
     /// State at `time` (s); O(log n).
     #[inline]
     pub fn at(&self, time: f64) -> RotationState {

@@ -125,6 +125,14 @@ impl SpeedProfile {
         self.motion(time).speed
     }
 
+    /// Largest magnitude of the angular speed from `start` to `end` (s), rad/s.
+    #[must_use]
+    pub fn fastest(&self, start: f64, end: f64) -> f64 {
+        let knots = self.knot_times().filter(|&time| start < time && time < end);
+        let times = knots.chain([start, end]);
+        times.map(|time| self.speed(time).abs()).fold(0.0, f64::max)
+    }
+
     /// Angular acceleration at `time` (s), rad/s²; at a knot that of the interval to its right.
     #[must_use]
     #[inline]

@@ -57,6 +57,21 @@ fn knots_belong_to_the_interval_on_their_right() {
     assert_eq!(profile.knot_times().count(), 5);
 }
 
+#[test]
+fn the_fastest_is_at_a_knot_or_an_end() {
+    let profile = varied();
+    // up to 12 Hz, down through zero to -8 Hz at 20 Hz/s, and back to rest within a millisecond
+    for (start, end, hz) in [
+        (-1.0, 3.0, 12.0),
+        (1.3, 3.0, 8.0),
+        (1.8, 1.9, 6.0),
+        (2.5, 3.0, 0.0),
+    ] {
+        let fastest = profile.fastest(start, end);
+        assert_relative_eq!(fastest, TAU * hz, max_relative = 1e-12, epsilon = 1e-9);
+    }
+}
+
 proptest! {
     /// Angle and speed are continuous, and each is the integral of the next (central differences).
     #[test]

@@ -26,6 +26,14 @@ impl LoadProfile {
         Self { points: kept }
     }
 
+    /// The first time (s) after `time` at which the slope jumps; infinity if there is none.
+    pub fn next_knot(&self, time: f64) -> f64 {
+        let after = self.points.partition_point(|point| point.0 <= time);
+        self.points
+            .get(after)
+            .map_or(f64::INFINITY, |point| point.0)
+    }
+
     /// Force at `time` (s), N.
     #[inline]
     pub fn at(&self, time: f64) -> [f64; 2] {
@@ -63,5 +71,9 @@ mod tests {
         }
         assert_relative_eq!(LoadProfile::constant([1.0, 2.0]).at(-7.0)[1], 2.0);
         assert_relative_eq!(LoadProfile::default().at(0.0)[0], 0.0);
+        for (time, knot) in [(0.0, 1.0), (1.0, 3.0), (2.9, 3.0)] {
+            assert_relative_eq!(load.next_knot(time), knot);
+        }
+        assert!(load.next_knot(3.0).is_infinite());
     }
 }

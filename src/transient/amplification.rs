@@ -6,6 +6,7 @@
 //! `rho` is taken from n steps of the method itself on the [`Linearised`] system, from a start that holds all its motions: no
 //! formula of a method is needed, and damping, modes and what a method remembers count as they do in a run.
 
+use super::adams::Adams;
 use super::driver::{Method, Schedule, stepper};
 use super::error::TransientError;
 use super::linearised::Linearised;
@@ -77,7 +78,7 @@ impl PartsOfRun {
 }
 
 /// How the largest small motion of `system` grows in a step of length `h` (s), from so many `steps`; `fastest` (1/s) is the
-/// order of its fastest motion.
+/// order of its fastest motion. `ExponentialAdams` with a tolerance takes steps of that length too: what is small is below it.
 #[must_use]
 pub fn growth(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u32) -> Growth {
     let infinite = Growth {
@@ -99,7 +100,12 @@ fn take(
         steps_per_interval: 1,
         intervals: u64::from(steps),
     };
-    let mut stepper = stepper(&*system, method, &schedule, 0.0)?;
+    let mut stepper = match method {
+        Method::ExponentialAdams { tolerance: Some(_) } => {
+            Box::new(Adams::new(&*system, h, Some(f64::INFINITY)))
+        }
+        _ => stepper(&*system, method, &schedule, 0.0)?,
+    };
     let dof = system.linear().len();
     let [mut y, mut v] = start(dof, fastest);
     let (mut g, mut before) = (vec![0.0; dof], v.clone());

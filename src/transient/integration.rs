@@ -216,6 +216,9 @@ impl<S: SecondOrderSystem> Integration<S> {
 
     /// The limit that the step was beyond first, or the least one.
     fn limit(&self, system: &mut S, step_s: f64) -> Option<StepLimit> {
+        if self.method.chooses_its_steps() {
+            return None;
+        }
         let (older, newer) = self.good.split_at(self.newest + 1);
         let kept = self.earlier.iter().chain(newer).chain(older);
         let mut least: Option<StepLimit> = None;

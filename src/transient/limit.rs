@@ -67,8 +67,11 @@ impl Resonance {
 }
 
 impl Method {
-    /// The method's limit at a state of a system. None for the implicit methods, for methods that choose their steps, and
+    /// The method's limit at a state of a system. None for the implicit methods, for `dop853`, whose tolerance is its limit, and
     /// where nothing grows in steps up to some periods of the fastest motion.
+    ///
+    /// `ExponentialAdams` with a tolerance refers that to the largest force: in longer steps than this motions that are small beside it
+    /// grow until they are of the tolerance's size, and stay there.
     ///
     /// What the system leaves out of its tangent is not seen.
     pub fn step_limit<S: SecondOrderSystem>(
@@ -97,7 +100,7 @@ impl Method {
 
     /// [`step_limit`](Self::step_limit) of a system that is linear already.
     pub fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
-        if self.chooses_its_steps() || self.is_implicit() {
+        if self.is_implicit() || matches!(self, Self::Dop853 { .. }) {
             return None;
         }
         let contacts = fastest(system)?;

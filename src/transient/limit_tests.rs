@@ -1,5 +1,6 @@
 use super::*;
-use crate::dynamics::LinearCoordinate;
+use crate::dynamics::{LinearCoordinate, NoRecord};
+use crate::transient::{Schedule, Stepping, integrate};
 
 /// Largest `h omega` of the exponential Adams method under `-omega^2 y`.
 const ADAMS_LIMIT: f64 = crate::transient::ADAMS_STABILITY_LIMIT;
@@ -209,5 +210,63 @@ fn a_resonance_is_told_from_the_limit() {
     // at 2 pi the force has no hold on the mode
     for h in [1.0, 2.0, TAU] {
         assert_eq!(method.resonance(&mut system, &rest(), h), None, "{h}");
+    }
+}
+
+/// Two bodies on contacts of which the method knows no spring, beside a force so large that a tolerance sees nothing of them.
+struct BesideLarge;
+
+impl BesideLarge {
+    const STIFFNESS: [f64; 2] = [1.0, 0.4];
+}
+
+impl SecondOrderSystem for BesideLarge {
+    fn linear(&self) -> &[LinearCoordinate] {
+        const TWO: [LinearCoordinate; 2] = [FREE[0]; 2];
+        &TWO
+    }
+    fn force_into(&mut self, _t: f64, y: &[f64], _v: &[f64], g: &mut [f64]) {
+        for ((g, y), stiffness) in g.iter_mut().zip(y).zip(Self::STIFFNESS) {
+            *g = -stiffness * y;
+        }
+    }
+    fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
+        for (place, stiffness) in Self::STIFFNESS.into_iter().enumerate() {
+            let term = tangent.add();
+            (term.left[place], term.position[place]) = (stiffness, -1.0);
+        }
+    }
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
+        springs.fill(0.0);
+        sizes.fill(1e9);
+    }
+}
+
+/// A tolerance refers to the largest force: what is small beside it grows in steps beyond the limit, unseen.
+#[test]
+fn steps_by_tolerance_have_a_limit_for_what_is_small() {
+    let method = Method::ExponentialAdams {
+        tolerance: Some(1e-2),
+    };
+    let start = || State {
+        t: 0.0,
+        y: vec![1.0, 0.5],
+        v: vec![0.0; 2],
+    };
+    let limit = method.step_limit(&mut BesideLarge, &start());
+    let limit = limit.expect("a limit").step_s;
+    for (part, grows) in [(0.95, false), (1.05, true)] {
+        let step = part * limit;
+        let mut state = start();
+        let went = integrate(
+            &mut BesideLarge,
+            method,
+            &Schedule::covering(400.0 * step, step, step).unwrap(),
+            &mut state,
+            &mut NoRecord,
+            |_, _| Stepping::Continue,
+        );
+        let size = state.y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+        assert_eq!(went.is_err() || size > 10.0, grows, "{part}: {size}");
     }
 }

@@ -17,6 +17,8 @@ pub struct Linearised {
     /// Where the rows of each term are not zero: left, position, velocity.
     filled: Vec<[Range<usize>; 3]>,
     masses: Vec<f64>,
+    /// What each coordinate meets of the force as a spring of its own.
+    springs: Vec<f64>,
 }
 
 impl Linearised {
@@ -33,7 +35,10 @@ impl Linearised {
             rows.map(filled)
         });
         let linear = system.linear().to_vec();
+        let [mut springs, mut sizes] = [0, 1].map(|_| vec![0.0; linear.len()]);
+        system.own_springs_into(&mut springs, &mut sizes);
         Self {
+            springs,
             filled: filled.collect(),
             masses: masses(&linear, &tangent),
             linear,
@@ -72,6 +77,11 @@ impl SecondOrderSystem for Linearised {
 
     fn tangent_into(&mut self, _t: f64, _y: &[f64], _v: &[f64], tangent: &mut Tangent) {
         tangent.clone_from(&self.tangent);
+    }
+
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
+        springs.copy_from_slice(&self.springs);
+        sizes.fill(0.0);
     }
 }
 

@@ -52,7 +52,8 @@ pub struct Window {
 pub struct MethodStability {
     /// The method.
     pub method: Method,
-    /// By the amplification of small motions, resonances left out, s; none if nothing grows.
+    /// By the amplification of small motions, resonances left out, s; none if nothing grows. Of a method that chooses its steps the
+    /// longest in which none does.
     pub predicted_limit_s: Option<f64>,
     /// By short runs, to half a percent, s; none if all steps of the grid are stable, or none is.
     pub measured_limit_s: Option<f64>,
@@ -71,6 +72,7 @@ pub struct MethodStability {
 /// A method that chooses its steps: what it chose.
 pub(super) fn by_tolerance(
     measurement: &Measurement,
+    linearised: &mut Linearised,
     method: Method,
     [sample, samples]: [f64; 2],
 ) -> MethodStability {
@@ -81,19 +83,20 @@ pub(super) fn by_tolerance(
         samples as u32,
         |_, _| true,
     );
+    let predicted_limit_s = method.limit_of(linearised).map(|limit| limit.step_s);
+    let note = match predicted_limit_s {
+        Some(_) => "in longer steps small motions grow up to the tolerance",
+        None => "steps follow from the tolerance, which is the limit",
+    };
     MethodStability {
         method,
-        predicted_limit_s: None,
+        predicted_limit_s,
         measured_limit_s: None,
         chosen_step_s: seen.failure.is_none().then_some(seen.mean_step_s),
         windows: Vec::new(),
         phases: [0, 0],
         steps: Vec::new(),
-        note: Some(
-            seen.failure.unwrap_or_else(|| {
-                "steps follow from the tolerance, which is the limit".to_owned()
-            }),
-        ),
+        note: Some(seen.failure.unwrap_or_else(|| note.to_owned())),
     }
 }
 

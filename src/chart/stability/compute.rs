@@ -186,9 +186,11 @@ fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<Me
         steps,
         reference: &of.reference,
     };
+    let mut linearised = Linearised::new(&mut of.variant.system.clone(), &of.variant.state);
     let Some(&equal) = EQUAL.get(method) else {
         let chosen = BY_TOLERANCE.get(method - EQUAL.len())?;
-        return (!of.all_modes).then(|| by_tolerance(&measurement(0), *chosen, SAMPLES));
+        let cell = || by_tolerance(&measurement(0), &mut linearised, *chosen, SAMPLES);
+        return (!of.all_modes).then(cell);
     };
     if equal.is_implicit() && of.all_modes {
         return None;
@@ -198,7 +200,6 @@ fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<Me
     } else {
         of.steps
     };
-    let mut linearised = Linearised::new(&mut of.variant.system.clone(), &of.variant.state);
     let phases = of_effort(PHASES, effort);
     Some(on_grid(
         &measurement(steps),

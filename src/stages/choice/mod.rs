@@ -6,6 +6,7 @@ mod balls;
 mod mode_errors;
 mod stepping;
 mod table;
+mod travel;
 
 use super::{RunModel, Scene, StageError};
 use crate::case::{self, Case, ModesKept};

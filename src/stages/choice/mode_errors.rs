@@ -197,7 +197,7 @@ fn in_series(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, Source};
+    use crate::case::Case;
     use crate::stages::Unwatched;
 
     fn dented() -> Scene {
@@ -205,20 +205,9 @@ mod tests {
     }
 
     fn dented_with(keys: &[&str]) -> Scene {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/examples/tadina2011/outer-dent.toml"
-        );
-        let case = Case::from_source(Source {
-            text: std::fs::read_to_string(path).unwrap(),
-            path: path.into(),
-            set: ["transient.start=2.3"]
-                .iter()
-                .chain(keys)
-                .map(|&key| key.to_owned())
-                .collect(),
-        });
-        Scene::build(&case.unwrap(), &Unwatched).unwrap()
+        let set = [&["transient.start=2.3"], keys].concat();
+        let case = Case::example("tadina2011/outer-dent", &set);
+        Scene::build(&case, &Unwatched).unwrap()
     }
 
     /// Measured with dop853 against all 216 modes over 5 ms from 2.3 s: 4.4e-3 (5 modes and residual), 6.4e-4 (7), 2.4e-4 (13);

@@ -1,7 +1,7 @@
 //! Method and step.
 
 use super::super::{RunModel, Scene, StageError};
-use super::{ChosenPart, IMPACT, dynamic};
+use super::{ChosenPart, IMPACT, dynamic, travel};
 use crate::case::{self, StepLength};
 use crate::report::significant;
 use crate::system::{CoupledSystem, ModeSelection};
@@ -24,6 +24,9 @@ const MODE_PHASE: f64 = 2.0;
 /// Least number of steps in an output interval: the displacement of a sensor is differentiated from them, with an error of 3e-4 for
 /// four.
 const LEAST_SAMPLES: f64 = 4.0;
+
+/// Part of the stable step that is used: contacts at other angles of the balls are a little stiffer.
+const STABLE: f64 = 0.9;
 
 /// Step of the other methods: phase of the stiffest ball vibration, rad.
 const PHASE: f64 = 0.1;
@@ -128,6 +131,20 @@ pub(super) fn step(
             "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
         ),
     };
+    let (step, why) = match (asked.step, stable_step(model, scene, system)) {
+        (StepLength::Auto, Some(stable)) if stable < step => (
+            stable,
+            "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
+        ),
+        _ => (step, why),
+    };
+    let (step, why) = match (asked.step, travel::longest_step(asked, scene)) {
+        (StepLength::Auto, Some(passing)) if passing < step => (
+            passing,
+            "eight while a ball passes the shortest defect or wave at the highest speed; halved where a tolerance asks for it",
+        ),
+        _ => (step, why),
+    };
     let part = ChosenPart {
         what: "largest step",
         chosen: format!("{} s", significant(step, 3)),
@@ -135,6 +152,17 @@ pub(super) fn step(
         estimated_error: Some(0.0),
     };
     Ok((step, part))
+}
+
+/// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers
+/// to the largest force, and would let them. None for other methods.
+fn stable_step(model: &RunModel, scene: &Scene, mut system: CoupledSystem) -> Option<f64> {
+    let Method::ExponentialAdams { tolerance: Some(_) } = model.method else {
+        return None;
+    };
+    let rest = scene.at_rest(&system);
+    let limit = model.method.step_limit(&mut system, &rest)?;
+    Some(STABLE * limit.step_s)
 }
 
 /// Step that resolves the fastest motion on the contacts, with `k' = 3/2 k^(2/3) F^(1/3)`: that of a ball between both,

@@ -58,6 +58,12 @@ impl SecondOrderSystem for CoupledSystem {
         find_own_springs(self, springs, sizes);
     }
 
+    fn next_change(&self, t: f64) -> f64 {
+        let loads = self.setup.shaft.loads.iter();
+        let knots = loads.map(|load| load.next_knot(t));
+        knots.fold(self.setup.cage.next_knot(t), f64::min)
+    }
+
     fn events(&self) -> usize {
         self.contact_events()
     }

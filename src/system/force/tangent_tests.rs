@@ -3,11 +3,12 @@
 use super::super::bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, Shaft};
 use super::super::coupled::{CoupledSystem, ModeDamping, ModeSelection};
 use super::super::equilibrium::{Equilibrium, StaticCondition};
+use super::super::load::LoadProfile;
 use super::super::structure::Structure;
 use crate::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect};
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, Race, RaceContacts, SlipProfile,
-    SpeedProfile, Wave,
+    SpeedKnot, SpeedProfile, Wave,
 };
 use crate::dynamics::{SecondOrderSystem, State, Tangent};
 use crate::element::curved_beam::RingInterpolation;
@@ -318,4 +319,30 @@ fn a_state_that_is_no_number_gives_a_force_that_is_none() {
         system.force_into(0.0, &none, &none, &mut force);
         assert!(force.iter().any(|force| force.is_nan()));
     }
+}
+
+#[test]
+fn what_is_prescribed_changes_at_the_knots_of_speed_slip_and_loads() {
+    let mut setup = preloaded();
+    let knots =
+        [(0.2, 10.0), (0.7, 30.0)].map(|(time, frequency_hz)| SpeedKnot { time, frequency_hz });
+    let slip = SlipProfile::over_time(&[(0.0, 0.0), (0.5, 0.02)]);
+    let speed = SpeedProfile::new(&knots);
+    setup.cage = Cage::new(&setup.geometry, speed.unwrap(), slip.unwrap(), FIRST).unwrap();
+    setup.shaft.loads = vec![
+        LoadProfile::constant([1.0, 0.0]),
+        LoadProfile::through(&[(0.3, [0.0; 2]), (0.9, [2.0, 0.0])]),
+    ];
+    let structure = structure();
+    let modes = structure.modes().unwrap();
+    let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
+    let system = CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
+    let mut found = Vec::new();
+    let mut time = 0.05;
+    while found.len() < 9 && time.is_finite() {
+        time = system.next_change(time);
+        found.push(time);
+    }
+    let expected = [0.2, 0.3, 0.5, 0.7, 0.9, f64::INFINITY];
+    assert_eq!(format!("{found:?}"), format!("{expected:?}"));
 }
