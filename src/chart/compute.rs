@@ -1,7 +1,7 @@
 //! The chart of a scene, from its case.
 
 use super::candidates::families;
-use super::points::{Point, evaluate, measure, point};
+use super::points::{self, Point, PointError, evaluate, measure, point};
 use super::reference::models;
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
 use super::systems::{Ready, Systems};
@@ -31,6 +31,8 @@ pub struct Chart {
     pub chosen: usize,
     /// Place of the source paper's method.
     pub source: usize,
+    /// Errors of these two over every start, where points take [some of them](Settings::point_stride).
+    pub over_all_starts: [Result<PointError, Failure>; 2],
     /// Statistics beyond the horizon.
     pub statistics: Vec<ModelStatistics>,
 }
@@ -92,6 +94,16 @@ pub fn compute_chart(
         });
     }
     let front = front(&points, reference.disagreement);
+    watch.stage("all starts");
+    let over_all_starts = [chosen, source].map(|place| {
+        let Point { model, error, .. } = &points[place];
+        match error {
+            Ok(_) if settings.point_stride() > 1 => {
+                points::over_all_starts(&scene, model, &reference, &settings)
+            }
+            known => known.clone(),
+        }
+    });
     watch.stage("statistics");
     let statistics = statistics(
         case,
@@ -111,6 +123,7 @@ pub fn compute_chart(
         front,
         chosen,
         source,
+        over_all_starts,
         statistics,
     })
 }

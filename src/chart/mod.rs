@@ -37,7 +37,7 @@ pub use front::pareto_front;
 pub use growth::Growth;
 pub use perturbation::perturb;
 pub use plots::{between_methods, growth, work_precision};
-pub use points::{Point, PointError};
+pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
 pub use report::chart_report;
 pub use stability::{

@@ -31,6 +31,23 @@ pub struct PointError {
     pub deviation: f64,
     /// Largest.
     pub largest: f64,
+    /// Over the earlier part of the horizons, growths ascending.
+    pub by_growth: [GrowthError; GROWTHS.len()],
+}
+
+/// Growths of the distance of nearby solutions up to which errors are given beside that over the horizon: what a model leaves
+/// out grows as they do.
+pub const GROWTHS: [f64; 3] = [3.0, 10.0, 30.0];
+
+/// Error while nearby solutions have parted by no more than a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GrowthError {
+    /// The factor.
+    pub growth: f64,
+    /// How long that takes, mean over the starts, s.
+    pub span_s: f64,
+    /// Relative difference from the reference over that time, mean over the starts.
+    pub mean: f64,
 }
 
 /// A candidate and what came of it.
@@ -120,7 +137,8 @@ pub(super) fn point(
     reference: &Reference,
     settings: &Settings,
 ) -> Point {
-    let error = system.and_then(|system| error(system, model, reference, settings));
+    let stride = settings.point_stride();
+    let error = system.and_then(|system| error(system, model, reference, settings, stride));
     Point {
         model: *model,
         wall_s: None,
@@ -128,21 +146,29 @@ pub(super) fn point(
     }
 }
 
-/// Mean error over the starts.
+/// Error of a model over every start, where a point takes some of them.
+pub(super) fn over_all_starts(
+    scene: &Scene,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+) -> Result<PointError, Failure> {
+    let mut systems = Systems::new(scene);
+    error(systems.of(model)?, model, reference, settings, 1)
+}
+
+/// Mean error over every so many of the starts.
 fn error(
     system: &Ready,
     model: &RunModel,
     reference: &Reference,
     settings: &Settings,
+    stride: usize,
 ) -> Result<PointError, Failure> {
     // the first start that fails tells enough; which one does not depend on the number of threads
     let failed = AtomicBool::new(false);
-    let starts: Vec<&StartReference> = reference
-        .starts
-        .iter()
-        .step_by(settings.point_stride())
-        .collect();
-    let errors: Vec<Option<Result<f64, Failure>>> = starts
+    let starts: Vec<&StartReference> = reference.starts.iter().step_by(stride).collect();
+    let errors: Vec<Option<Result<StartErrors, Failure>>> = starts
         .par_iter()
         .map(|start| {
             if failed.load(Ordering::Relaxed) {
@@ -158,8 +184,15 @@ fn error(
     if failed.into_inner() {
         return Err(first_failure(system, model, &starts, settings, errors));
     }
-    let values: Vec<f64> = errors.into_iter().flatten().flatten().collect();
+    let values: Vec<StartErrors> = errors.into_iter().flatten().flatten().collect();
     judged(&values)
+}
+
+/// Errors from one start.
+#[derive(Debug, Clone, Copy)]
+struct StartErrors {
+    over_horizon: f64,
+    by_growth: [GrowthError; GROWTHS.len()],
 }
 
 /// The failure of the first start that fails, computed where it was left out.
@@ -168,7 +201,7 @@ fn first_failure(
     model: &RunModel,
     starts: &[&StartReference],
     settings: &Settings,
-    errors: Vec<Option<Result<f64, Failure>>>,
+    errors: Vec<Option<Result<StartErrors, Failure>>>,
 ) -> Failure {
     let starts = starts.iter().zip(errors);
     let failures = starts.filter_map(|(start, known)| {
@@ -179,31 +212,57 @@ fn first_failure(
     first.unwrap_or_else(|| Failure::new(FailureKind::Refused, String::new()))
 }
 
-/// Relative difference from the reference over a start's horizon.
+/// Relative differences from the reference over a start's horizon and parts of it.
 fn error_of(
     system: &Ready,
     model: &RunModel,
     start: &StartReference,
     settings: &Settings,
-) -> Result<f64, Failure> {
+) -> Result<StartErrors, Failure> {
     let (system, state) = system.at(&start.start);
     let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
-    let error = trace.error(&start.trace, 0.0, start.horizon_s);
-    error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
+    let over = |span_s: f64| {
+        let error = trace.error(&start.trace, 0.0, span_s);
+        error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
+    };
+    let mut by_growth = [GrowthError::default(); GROWTHS.len()];
+    for (part, growth) in by_growth.iter_mut().zip(GROWTHS) {
+        let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
+        let mean = over(span_s)?;
+        *part = GrowthError {
+            growth,
+            span_s,
+            mean,
+        };
+    }
+    Ok(StartErrors {
+        over_horizon: over(start.horizon_s)?,
+        by_growth,
+    })
 }
 
 /// Mean and scatter, or that they show nothing.
-fn judged(errors: &[f64]) -> Result<PointError, Failure> {
-    let count = errors.len() as f64;
+fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
+    let count = starts.len() as f64;
+    let errors: Vec<f64> = starts.iter().map(|start| start.over_horizon).collect();
     let mean = errors.iter().sum::<f64>() / count;
     let squares = errors.iter().map(|error| (error - mean).powi(2));
     let deviation = (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
     let largest = errors.iter().copied().fold(0.0, f64::max);
     if mean < TOO_INACCURATE {
+        let mut by_growth = [GrowthError::default(); GROWTHS.len()];
+        for (place, part) in by_growth.iter_mut().enumerate() {
+            part.growth = GROWTHS[place];
+            for start in starts {
+                part.span_s += start.by_growth[place].span_s / count;
+                part.mean += start.by_growth[place].mean / count;
+            }
+        }
         Ok(PointError {
             mean,
             deviation,
             largest,
+            by_growth,
         })
     } else {
         Err(Failure {
@@ -269,11 +328,26 @@ mod tests {
 
     #[test]
     fn errors_have_a_mean_and_a_scatter_or_show_nothing() {
-        let error = judged(&[0.1, 0.3]).unwrap();
+        let starts = |errors: [f64; 2]| {
+            errors.map(|over_horizon| StartErrors {
+                over_horizon,
+                by_growth: GROWTHS.map(|growth| GrowthError {
+                    growth,
+                    span_s: 1e-3 * growth * over_horizon,
+                    mean: 0.01 * growth * over_horizon,
+                }),
+            })
+        };
+        let error = judged(&starts([0.1, 0.3])).unwrap();
+        for (part, growth) in error.by_growth.iter().zip(GROWTHS) {
+            assert!((part.growth - growth).abs() < 1e-15);
+            assert!((part.span_s - 0.2e-3 * growth).abs() < 1e-15);
+            assert!((part.mean - 2e-3 * growth).abs() < 1e-15);
+        }
         assert!((error.mean - 0.2).abs() < 1e-15 && (error.largest - 0.3).abs() < 1e-15);
         // the sample's: sqrt(2) 0.1
         assert!((error.deviation - 0.02_f64.sqrt()).abs() < 1e-15);
-        let failure = judged(&[0.5, 2.5]).unwrap_err();
+        let failure = judged(&starts([0.5, 2.5])).unwrap_err();
         assert_eq!(failure.kind, FailureKind::TooInaccurate);
         assert!(
             failure.reason.contains("by 1.50e0 of its"),

@@ -1,27 +1,21 @@
 //! Candidates on a small scene: the same whatever the number of threads, and what fails is told.
 
 use super::candidates::Family;
-use super::points::{Point, evaluate};
+use super::points::{Point, evaluate, over_all_starts};
 use super::{Effort, FailureKind, Reference, Settings, Starts};
-use crate::case::{Case, Source};
+use crate::case::Case;
 use crate::stages::{RunModel, Scene, Unwatched};
 use crate::system::{BallsInertia, ModeSelection};
 use crate::transient::Method;
 
 /// The smooth scene with a ring of 12 nodes, 0.5 ms from two starts.
 fn small() -> (Scene, Settings) {
-    let path = format!("{}/examples/scenes/smooth.toml", env!("CARGO_MANIFEST_DIR"));
     let set = [
         "ring.nodes=12",
         "transient.end=0.5e-3",
         "transient.ensemble.runs=2",
     ];
-    let case = Case::from_source(Source {
-        text: std::fs::read_to_string(&path).unwrap(),
-        path: path.into(),
-        set: set.map(str::to_owned).to_vec(),
-    });
-    let case = case.unwrap();
+    let case = Case::example("scenes/smooth", &set);
     let asked = case.transient.as_ref().unwrap();
     let settings = Settings::of(&case, asked, Effort::Quick).unwrap();
     (Scene::build(&case, &Unwatched).unwrap(), settings)
@@ -92,4 +86,37 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
     assert!(reason.contains("beyond the stability limit"), "{reason}");
     // refused: nothing finer of that family is tried
     assert_eq!((failure(4).kind, points.len()), (FailureKind::Refused, 5));
+}
+
+#[test]
+fn marked_points_take_every_start_and_others_some() {
+    let set = [
+        "ring.nodes=12",
+        "transient.end=0.2e-3",
+        "accuracy.band_hz=[0,160000]",
+        "transient.ensemble.runs=9",
+    ];
+    let case = Case::example("scenes/smooth", &set);
+    let asked = case.transient.as_ref().unwrap();
+    let settings = Settings::of(&case, asked, Effort::Full).unwrap();
+    assert_eq!(settings.point_stride(), 2);
+    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
+    let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
+    let family = all_modes(Method::Exponential, &[2e-7]);
+    let some = evaluate(&scene, &family, &reference, &settings)[0].clone();
+    let all = over_all_starts(&scene, &some.model, &reference, &settings).unwrap();
+    // those of every second start, and the others
+    let some = some.error.unwrap();
+    assert!(all.largest >= some.largest && all.mean.to_bits() != some.mean.to_bits());
+    let halves = [0, 1].map(|first| {
+        let mut half = reference.clone();
+        half.starts = half.starts.into_iter().skip(first).step_by(2).collect();
+        over_all_starts(&scene, &family.models[0], &half, &settings)
+            .unwrap()
+            .mean
+    });
+    assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
+    let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;
+    assert!((all.mean / together - 1.0).abs() < 1e-12);
 }

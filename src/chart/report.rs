@@ -2,7 +2,7 @@
 
 use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
-use super::{Chart, ModelStatistics, Point};
+use super::{Chart, GROWTHS, ModelStatistics, Point};
 use crate::case::Case;
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
 use crate::stages::{assumptions, bearing_table, model_facts};
@@ -26,7 +26,9 @@ pub fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report {
         .section(
             Section::new("Speed against accuracy")
                 .plot(work_precision(chart))
-                .table(marked_table(chart)),
+                .table(marked_table(chart))
+                .paragraph("What a model leaves out grows as nearby solutions part, and so does its error: the marked points' over the earlier part of the horizon.")
+                .table(growth_table(chart)),
         )
         .section(reference_section(chart))
         .section(statistics_section(chart))
@@ -68,11 +70,11 @@ fn headlines(report: Report, chart: &Chart) -> Report {
             Verdict::None,
         );
     let chosen = &chart.points[chart.chosen];
-    if let Some((wall, error)) = chosen.measured() {
+    if let (Some((wall, _)), [Ok(error), _]) = (chosen.measured(), &chart.over_all_starts) {
         report = report.headline(
-            "Error of the program's choice",
-            significant(error, 2),
-            Verdict::of(error <= chart.settings.target),
+            "Error of the program's choice, all starts",
+            significant(error.mean, 2),
+            Verdict::of(error.mean <= chart.settings.target),
         );
         if let Some((source, _)) = chart.points[chart.source].measured() {
             report = report.headline(
@@ -124,12 +126,8 @@ fn point_row(first: Cell, point: &Point) -> Vec<Cell> {
     ]
 }
 
-/// The front, the program's choice, and the source's method.
-fn marked_table(chart: &Chart) -> Table {
-    let mut table = point_table(
-        "Points that none beats, and those to compare with",
-        Column::text("What"),
-    );
+/// The front, the program's choice and the source's method, by wall time, and what each of them is.
+fn marked(chart: &Chart) -> Vec<(&Point, String)> {
     let mut places: Vec<usize> = chart.front.clone();
     for place in [chart.chosen, chart.source] {
         if !places.contains(&place) {
@@ -138,7 +136,7 @@ fn marked_table(chart: &Chart) -> Table {
     }
     let wall = |place: &usize| chart.points[*place].wall_s.unwrap_or(f64::INFINITY);
     places.sort_by(|a, b| wall(a).total_cmp(&wall(b)));
-    for place in places {
+    let named = places.into_iter().map(|place| {
         let mut what = Vec::new();
         if chart.front.contains(&place) {
             what.push("front");
@@ -149,9 +147,70 @@ fn marked_table(chart: &Chart) -> Table {
         if place == chart.source {
             what.push("source's method");
         }
-        table = table.row(point_row(Cell::text(what.join(", ")), &chart.points[place]));
+        (&chart.points[place], what.join(", "))
+    });
+    named.collect()
+}
+
+fn marked_table(chart: &Chart) -> Table {
+    let mut table = point_table(
+        "Points that none beats, and those to compare with",
+        Column::text("What"),
+    );
+    for (point, what) in marked(chart) {
+        table = table.row(point_row(Cell::text(what), point));
+    }
+    if chart.settings.point_stride() > 1 {
+        let [chosen, source] = &chart.over_all_starts;
+        for (what, place, error) in [
+            ("program's choice, all starts", chart.chosen, chosen),
+            ("source's method, all starts", chart.source, source),
+        ] {
+            let point = Point {
+                error: error.clone(),
+                ..chart.points[place].clone()
+            };
+            table = table.row(point_row(Cell::text(what), &point));
+        }
     }
     table
+}
+
+/// Errors of the same points while nearby solutions have parted by less than over the horizon.
+fn growth_table(chart: &Chart) -> Table {
+    let mut columns = vec![
+        Column::text("What"),
+        Column::text("Method"),
+        Column::text("Model"),
+    ];
+    let chosen = chart.points[chart.chosen].error.as_ref().ok();
+    for (place, growth) in GROWTHS.into_iter().enumerate() {
+        let span = chosen.map_or_else(String::new, |error| {
+            format!(
+                " ({} ms)",
+                significant(1e3 * error.by_growth[place].span_s, 2)
+            )
+        });
+        let name = format!("Growth {}{span}", significant(growth, 2));
+        columns.push(Column::number(name, ""));
+    }
+    columns.push(Column::number("Over the horizon", ""));
+    let table = Table::new("Error while nearby solutions part", columns);
+    let rows = marked(chart).into_iter();
+    rows.fold(table, |table, (point, what)| {
+        let Ok(error) = &point.error else {
+            return table;
+        };
+        let means = error.by_growth.iter().map(|part| part.mean);
+        let means = means.chain([error.mean]);
+        let mut cells = vec![
+            Cell::text(what),
+            Cell::text(point.method()),
+            Cell::text(point.model_name()),
+        ];
+        cells.extend(means.map(|mean| Cell::number(mean, 2)));
+        table.row(cells)
+    })
 }
 
 fn reference_section(chart: &Chart) -> Section {

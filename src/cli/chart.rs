@@ -6,8 +6,9 @@ use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::chart::{
-    Chart, ComparedFigure, Condition, Effort, Estimate, Point, StartReference, chart_report,
-    compute_chart, compute_stability, parameter_of, stability_section, work_precision,
+    Chart, ComparedFigure, Condition, Effort, Estimate, Failure, GrowthError, Point, PointError,
+    StartReference, chart_report, compute_chart, compute_stability, parameter_of,
+    stability_section, work_precision,
 };
 use crate::report::significant;
 use crate::stages::{RunModel, StageError};
@@ -138,10 +139,18 @@ fn summary(result: &Chart) -> String {
             .iter()
             .map(|&place| line(&result.points[place])),
     );
-    lines.push("the program's choice:".to_owned());
-    lines.push(line(&result.points[result.chosen]));
-    lines.push("the source's method:".to_owned());
-    lines.push(line(&result.points[result.source]));
+    let [chosen, source] = &result.over_all_starts;
+    let starts = reference.starts.len();
+    for (name, place, error) in [
+        ("the program's choice", result.chosen, chosen),
+        ("the source's method", result.source, source),
+    ] {
+        lines.push(format!("{name}, error over all {starts} starts:"));
+        lines.push(line(&Point {
+            error: error.clone(),
+            ..result.points[place].clone()
+        }));
+    }
     lines.join("\n")
 }
 
@@ -204,6 +213,10 @@ fn fields(case: &Case, result: &Chart) -> Map<String, Value> {
         })).collect::<Vec<_>>(),
         "chosen": result.chosen,
         "source": result.source,
+        "over_all_starts": {
+            "chosen": of_error(&result.over_all_starts[0]),
+            "source": of_error(&result.over_all_starts[1]),
+        },
         "statistics": {
             "seconds": result.settings.statistics_s,
             "models": result.statistics.iter().map(|of| json!({
@@ -244,19 +257,37 @@ fn parameter(point: &Point) -> Value {
 }
 
 fn of_point(result: &Chart, point: &Point) -> Value {
-    let error = point.error.as_ref();
-    json!({
+    let mut fields = json!({
         "method": point.method(),
         "model": point.model_name(),
         "parameter": parameter(point),
         "wall_s": point.wall_s,
-        "error": error.ok().map(|error| error.mean),
-        "deviation": error.ok().map(|error| error.deviation),
-        "largest_error": error.ok().map(|error| error.largest),
-        "ok": error.is_ok(),
         "below_floor": result.below_floor(point),
-        "reason": error.err().map(|failure| &failure.reason),
+    });
+    if let (Value::Object(fields), Value::Object(error)) = (&mut fields, of_error(&point.error)) {
+        fields.extend(error);
+    }
+    fields
+}
+
+fn of_error(error: &Result<PointError, Failure>) -> Value {
+    let (error, failure) = (error.as_ref().ok(), error.as_ref().err());
+    json!({
+        "error": error.map(|error| error.mean),
+        "deviation": error.map(|error| error.deviation),
+        "largest_error": error.map(|error| error.largest),
+        "by_growth": error.map(|error| by_growth(&error.by_growth)),
+        "ok": failure.is_none(),
+        "reason": failure.map(|failure| &failure.reason),
     })
+}
+
+/// Errors while nearby solutions have parted by less than over the horizon.
+fn by_growth(parts: &[GrowthError]) -> Value {
+    let parts = parts
+        .iter()
+        .map(|part| json!({ "growth": part.growth, "span_s": part.span_s, "error": part.mean }));
+    parts.collect()
 }
 
 fn of_figure(result: &Chart, figure: &ComparedFigure) -> Value {
@@ -285,24 +316,18 @@ mod tests {
     use serde_json::Value;
 
     use super::{ChartPart, Effort, Options, Progress, Wanted, chart};
-    use crate::case::{Case, Source};
+    use crate::case::Case;
     use crate::cli::Visibility;
 
     /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
     fn small() -> Case {
-        let path = format!("{}/examples/scenes/smooth.toml", env!("CARGO_MANIFEST_DIR"));
         let set = [
             "ring.nodes=12",
             "accuracy.band_hz=[0,160000]",
             "transient.end=0.13e-3",
             "transient.ensemble.runs=2",
         ];
-        let case = Case::from_source(Source {
-            text: fs::read_to_string(&path).unwrap(),
-            path: path.into(),
-            set: set.map(str::to_owned).to_vec(),
-        });
-        case.unwrap()
+        Case::example("scenes/smooth", &set)
     }
 
     #[test]
@@ -336,9 +361,17 @@ mod tests {
                 assert_eq!(point[key].as_f64().is_some(), ok, "{point}");
             }
             assert_eq!(point["reason"].is_null(), ok, "{point}");
+            for part in point["by_growth"].as_array().into_iter().flatten() {
+                // nothing grows: all of them are the error over the span
+                assert_eq!(part["error"], point["error"], "{point}");
+                assert_eq!(part["span_s"], json["horizon_s"], "{point}");
+            }
         }
         let at = |place: &Value| &points[place.as_u64().unwrap() as usize];
         assert_eq!(at(&json["chosen"])["method"], "exponential-adams");
+        // two starts: points take all of them
+        let all = &json["over_all_starts"]["chosen"]["error"];
+        assert_eq!(all, &at(&json["chosen"])["error"]);
         assert_eq!(at(&json["source"])["method"], "newmark-explicit");
         assert_eq!(at(&json["source"])["model"], "all modes");
         let front = json["front"].as_array().unwrap();
