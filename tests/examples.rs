@@ -42,6 +42,25 @@ fn the_dent_is_all_that_distinguishes_the_faulty_bearing() {
 }
 
 #[test]
+fn the_three_housings_hold_the_same_bearing_and_fault() {
+    let stripped = |name: &str| {
+        let case = load(&format!("housings/{name}.toml"));
+        case.ready_for(Purpose::Run).unwrap();
+        let mut value = serde_json::to_value(&case).unwrap();
+        let fields = value.as_object_mut().unwrap();
+        for of_its_own in ["title", "housing", "sensors"] {
+            assert!(fields.remove(of_its_own).is_some(), "{name}: {of_its_own}");
+        }
+        fields["ring"].as_object_mut().unwrap().remove("tie");
+        value
+    };
+    let ring = stripped("ring");
+    for other in ["pillow_block", "end_shield"] {
+        assert_eq!(stripped(other), ring, "{other}");
+    }
+}
+
+#[test]
 fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
     let case = load("tadina2011/outer-dent.toml");
     let bearing = case.bearing.as_ref().unwrap();

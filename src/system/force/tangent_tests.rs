@@ -338,7 +338,7 @@ fn what_is_prescribed_changes_at_the_knots_of_speed_slip_and_loads() {
     let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
     let system = CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
     let mut found = Vec::new();
-    let mut time = 0.05;
+    let mut time = 0.05_f64;
     while found.len() < 9 && time.is_finite() {
         time = system.next_change(time);
         found.push(time);
