@@ -276,7 +276,7 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
         number,
         title: &plot.title,
         caption: plot.caption.as_deref(),
-        svg: svg_plot::draw(plot, &layout, &format!("figure-{number}")),
+        svg: svg_plot::draw(plot, &layout, &format!("figure-{number}"))?,
         data: embed::json(plot, &layout, numbers.curve_share)?,
         legend: legend.collect(),
     })

@@ -33,6 +33,16 @@ struct PlotData<'a> {
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
     levels: Vec<LevelData<'a>>,
+    /// Edges of the picture, whose address the script takes from the SVG.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    raster: Option<RasterData>,
+}
+
+/// In shown units.
+#[derive(Debug, Serialize)]
+struct RasterData {
+    x: [f64; 2],
+    y: [f64; 2],
 }
 
 #[derive(Debug, Serialize)]
@@ -152,6 +162,10 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
                 label: &level.label,
             })
             .collect(),
+        raster: plot.raster.as_ref().map(|raster| RasterData {
+            x: raster.x.map(|x| x / layout.x.factor),
+            y: raster.y.map(|y| y / layout.y.factor),
+        }),
     };
     let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
         plot: plot.title.clone(),

@@ -5,6 +5,26 @@ use thiserror::Error;
 /// Why a report cannot be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
+    /// A picture whose values do not fill whole rows.
+    #[error(
+        "plot \"{plot}\": {values} values do not fill rows of {columns}, which must be at least one"
+    )]
+    Raster {
+        /// Title of the plot.
+        plot: String,
+        /// Values found.
+        values: usize,
+        /// Values a row should have.
+        columns: usize,
+    },
+    /// A picture that cannot be made.
+    #[error("plot \"{plot}\": its picture cannot be made")]
+    Picture {
+        /// Title of the plot.
+        plot: String,
+        /// Why.
+        source: png::EncodingError,
+    },
     /// A table row with more or fewer cells than the table has columns.
     #[error("table \"{table}\": row {row} has {found} cells, the table has {expected} columns")]
     RowLength {

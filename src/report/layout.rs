@@ -3,6 +3,7 @@
 use super::ReportError;
 use super::number::{DisplayUnit, display_unit};
 use super::plot::{Axis, Curve, CurveStyle, Level, Marker, Plot, Scale};
+use super::raster::{BAR_ROOM, Raster};
 use super::ticks;
 
 /// Size of a plot, in pixels of its own coordinates; the page scales it.
@@ -71,6 +72,11 @@ impl AxisView {
         }
     }
 
+    /// The view of a range given by the caller.
+    pub(super) fn checked(plot: &Plot, axis: &Axis, range: [f64; 2]) -> Result<Self, ReportError> {
+        Ok(Self::new(axis, checked(plot, axis, range)?))
+    }
+
     fn new(axis: &Axis, [low, high]: [f64; 2]) -> Self {
         let log = axis.scale == Scale::Log;
         let largest = if log { 1.0 } else { low.abs().max(high.abs()) };
@@ -96,7 +102,8 @@ impl<'a> Layout<'a> {
         for curve in &plot.curves {
             check_length(plot, curve)?;
         }
-        let x_range = match plot.x.range {
+        let of_raster = |of: fn(&Raster) -> [f64; 2]| plot.raster.as_ref().map(of);
+        let x_range = match plot.x.range.or(of_raster(|raster| raster.x)) {
             Some(range) => checked(plot, &plot.x, range)?,
             None => {
                 let found = extent(plot, &plot.x, [f64::NEG_INFINITY, f64::INFINITY], |p| p.0)?;
@@ -113,7 +120,7 @@ impl<'a> Layout<'a> {
             extent(plot, &plot.y, x_range, |p| p.1)?,
             |[low, high], at| [low.min(at), high.max(at)],
         );
-        let y_range = match plot.y.range {
+        let y_range = match plot.y.range.or(of_raster(|raster| raster.y)) {
             Some(range) => checked(plot, &plot.y, range)?,
             None => widened(&plot.y, found, HEADROOM),
         };
@@ -130,7 +137,7 @@ impl<'a> Layout<'a> {
             x,
             y,
             left: LEFT,
-            right: WIDTH - RIGHT,
+            right: WIDTH - RIGHT - plot.raster.as_ref().map_or(0.0, |_| BAR_ROOM),
             top,
             bottom: top + area,
             height: top + area + BOTTOM,
@@ -196,7 +203,8 @@ fn extent(
             [low.min(v), high.max(v)]
         });
     // A range set by the caller needs no data of its own, but a plot of nothing is a mistake.
-    if found[0] <= found[1] || axis.range.is_some() && plot.curves.is_empty() {
+    let fixed = axis.range.is_some() || plot.raster.is_some();
+    if found[0] <= found[1] || fixed && plot.curves.is_empty() {
         Ok(found)
     } else {
         Err(ReportError::EmptyPlot {

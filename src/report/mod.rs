@@ -23,6 +23,7 @@ mod matrix;
 mod number;
 mod plain;
 mod plot;
+mod raster;
 mod shapes;
 mod spans;
 mod standalone;
@@ -44,6 +45,7 @@ pub use error::ReportError;
 pub use matrix::Matrix;
 pub use number::{fixed, pretty_unit, significant};
 pub use plot::{Abscissa, Axis, Curve, CurveStyle, Level, Marker, Plot, Scale, Symbol};
+pub use raster::Raster;
 pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
 };

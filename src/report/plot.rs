@@ -1,6 +1,7 @@
 //! Plots as plain data: curves on two axes, with vertical lines.
 
 use super::decimate::Thinner;
+use super::raster::Raster;
 use crate::series::TimeSeries;
 use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
 
@@ -127,6 +128,8 @@ pub struct Plot {
     pub levels: Vec<Level>,
     /// Whether it is taller than usual, for clouds of points.
     pub tall: bool,
+    /// A picture under the curves; axes without a range show all of it.
+    pub raster: Option<Raster>,
 }
 
 impl Axis {
@@ -145,6 +148,13 @@ impl Axis {
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
+    }
+
+    /// A logarithmic axis over so many decades below `largest`, in its unit.
+    #[must_use]
+    pub fn decades_below(self, largest: f64, decades: f64) -> Self {
+        let least = largest * 10_f64.powf(-decades);
+        self.log().range(least, largest)
     }
 
     /// The axis from `from` to `to`, in its unit.
@@ -299,6 +309,7 @@ impl Plot {
             markers: Vec::new(),
             levels: Vec::new(),
             tall: false,
+            raster: None,
         }
     }
 
@@ -328,6 +339,13 @@ impl Plot {
     #[must_use]
     pub fn tall(mut self) -> Self {
         self.tall = true;
+        self
+    }
+
+    /// The plot with a picture under its curves.
+    #[must_use]
+    pub fn raster(mut self, raster: Raster) -> Self {
+        self.raster = Some(raster);
         self
     }
 

@@ -22,7 +22,7 @@ impl Plot {
     /// [`ReportError`] for curves that do not fit together.
     pub fn to_svg(&self) -> Result<String, ReportError> {
         let layout = Layout::of(self)?;
-        let inner = svg_plot::draw(self, &layout, "plot");
+        let inner = svg_plot::draw(self, &layout, "plot")?;
         let named = self.curves.iter().enumerate();
         let named = named.filter(|(_, curve)| !curve.name.is_empty());
         let entries: Vec<Entry> = named.map(|(k, curve)| Entry::of(curve, k)).collect();

@@ -7,6 +7,7 @@ use super::layout::{Layout, MARKER_ROW, PlacedMarker, TICKS, WIDTH};
 use super::plot::{Curve, CurveStyle, Plot};
 use super::svg::{Path, escape};
 use super::ticks::{self, Tick};
+use super::{ReportError, raster};
 
 /// Colours in the style sheet; the next curve begins again.
 pub(super) const COLOURS: usize = 6;
@@ -15,7 +16,10 @@ pub(super) const COLOURS: usize = 6;
 const MOST_POINTS: usize = 2 * WIDTH as usize;
 
 /// The SVG element of a plot; `id` must be unique on the page.
-pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
+///
+/// # Errors
+/// [`ReportError`] for a picture that cannot be shown.
+pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, ReportError> {
     let mut out = format!(
         "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {}\" role=\"img\" tabindex=\"0\" aria-label=\"{}\">",
         layout.height,
@@ -27,6 +31,9 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
     // Writing to a string cannot fail.
     let _ = write!(out, "<clipPath id=\"{id}-clip\"><rect {area}/></clipPath>");
     let _ = write!(out, "<rect class=\"area\" {area}/><g class=\"view\">");
+    if let Some(raster) = &plot.raster {
+        out.push_str(&raster::picture(raster, plot, layout, id)?);
+    }
     grid(&mut out, layout);
     markers(&mut out, layout);
     levels(&mut out, plot, layout);
@@ -36,6 +43,9 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
     }
     out.push_str("</g></g>");
     let _ = write!(out, "<rect class=\"frame\" {area}/>");
+    if let Some(raster) = &plot.raster {
+        out.push_str(&raster::bar(raster, plot, layout, id)?);
+    }
     let _ = write!(
         out,
         "<text class=\"title\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
@@ -50,7 +60,7 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> String {
         escape(&layout.y.title)
     );
     out.push_str("</svg>");
-    out
+    Ok(out)
 }
 
 fn grid(out: &mut String, layout: &Layout) {
@@ -245,7 +255,7 @@ mod tests {
     use super::*;
 
     fn svg(plot: &Plot) -> String {
-        draw(plot, &Layout::of(plot).expect("a valid plot"), "p1")
+        draw(plot, &Layout::of(plot).expect("a valid plot"), "p1").expect("a picture")
     }
 
     fn plot(y: Vec<f64>) -> Plot {

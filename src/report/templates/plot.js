@@ -58,6 +58,7 @@
       this.whole = this.view.innerHTML;
       this.clip = this.svg.querySelector("clipPath").id;
       this.output = figure.querySelector("output");
+      this.picture = this.view.querySelector("image.raster")?.getAttribute("href");
       for (const curve of this.data.curves) {
         curve.y = new Float32Array(bytes(curve.y));
         if (curve.x !== undefined) curve.x = new Float64Array(bytes(curve.x));
@@ -113,6 +114,7 @@
 
     // The vertical range that the curves in view need, as the first picture has it.
     fitY() {
+      if (this.data.raster) return;
       const log = this.data.y.log;
       let low = Infinity, high = -Infinity;
       for (const curve of this.data.curves.filter((c) => c.visible)) {
@@ -139,6 +141,10 @@
 
     draw() {
       const d = this.data, out = [];
+      if (d.raster) {
+        const [left, right] = d.raster.x.map((v) => this.xPixel(v)), [bottom, top] = d.raster.y.map((v) => this.yPixel(v));
+        out.push(`<g clip-path="url(#${this.clip})"><image class="raster" x="${tenth(left)}" y="${tenth(top)}" width="${tenth(right - left)}" height="${tenth(bottom - top)}" preserveAspectRatio="none" href="${this.picture}"/></g>`);
+      }
       const line = (tick, x1, y1, x2, y2) => out.push(`<line class="${tick.label === null ? "fine" : "grid"}" x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}"/>`);
       for (const tick of (this.x.log ? logTicks : linearTicks)(this.x.low, this.x.high, d.ticks[0])) {
         const x = tenth(this.xPixel(tick.at));

@@ -1,0 +1,259 @@
+//! Values over the area of a plot as a picture, such as a scalogram, with a bar that says what its colours are.
+
+use std::fmt::Write;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::ReportError;
+use super::layout::{AxisView, Layout};
+use super::plot::{Axis, Plot};
+use super::svg::escape;
+use super::ticks;
+
+/// Room for the bar, right of the area, its distance from the area and its width, pixels.
+pub(super) const BAR_ROOM: f64 = 88.0;
+const BAR: [f64; 2] = [14.0, 14.0];
+
+/// Ticks wanted on the bar.
+const BAR_TICKS: usize = 5;
+
+/// Colours from the least to the largest value, dark to light, evenly spaced: as bright in grey as in colour (viridis, by S. van der
+/// Walt and N. Smith, in the public domain).
+const COLOURS: [[u8; 3]; 9] = [
+    [68, 1, 84],
+    [71, 45, 123],
+    [59, 82, 139],
+    [44, 114, 142],
+    [33, 145, 140],
+    [40, 174, 128],
+    [94, 201, 98],
+    [173, 220, 48],
+    [253, 231, 37],
+];
+
+/// Values on a grid, even on both axes of the plot: on a logarithmic one in the logarithm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Raster {
+    /// Left and right edge of the grid, in the x axis' unit.
+    pub x: [f64; 2],
+    /// Lower and upper edge, in the y axis' unit.
+    pub y: [f64; 2],
+    /// Cells in a row.
+    pub columns: usize,
+    /// \[rows x columns\], from the lowest row on. What is not finite, or not positive on a logarithmic scale of colours, is as the least.
+    pub values: Vec<f64>,
+    /// What the values are, their unit and scale, and with its `range` what the first and the last colour stand for.
+    pub colours: Axis,
+}
+
+impl Raster {
+    /// A view of the colours, with checked range and shape.
+    ///
+    /// # Errors
+    /// [`ReportError::Raster`], [`ReportError::Range`].
+    fn view(&self, plot: &Plot) -> Result<AxisView, ReportError> {
+        let fits = self.columns > 0 && !self.values.is_empty();
+        if !fits || !self.values.len().is_multiple_of(self.columns) {
+            return Err(ReportError::Raster {
+                plot: plot.title.clone(),
+                values: self.values.len(),
+                columns: self.columns,
+            });
+        }
+        let range = self.colours.range.unwrap_or([f64::NAN; 2]);
+        AxisView::checked(plot, &self.colours, range)
+    }
+
+    /// The picture as a PNG in a data address, its highest row first.
+    fn address(&self, plot: &Plot, view: &AxisView) -> Result<String, ReportError> {
+        let rows = self.values.chunks(self.columns).rev().flatten();
+        let pixels: Vec<u8> = rows
+            .map(|value| {
+                let part = view.part(value / view.factor);
+                // what is not a number becomes zero
+                (255.0 * part).round().clamp(0.0, 255.0) as u8
+            })
+            .collect();
+        let height = self.values.len() / self.columns;
+        let png = png(&pixels, [self.columns, height]).map_err(|source| ReportError::Picture {
+            plot: plot.title.clone(),
+            source,
+        })?;
+        Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
+    }
+}
+
+/// A picture of 256 colours.
+fn png(pixels: &[u8], [width, height]: [usize; 2]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut out = Vec::new();
+    let size = |pixels: usize| u32::try_from(pixels).map_err(std::io::Error::other);
+    let mut encoder = png::Encoder::new(&mut out, size(width)?, size(height)?);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    let palette: Vec<u8> = (0..=255)
+        .flat_map(|k| colour(f64::from(k) / 255.0))
+        .collect();
+    encoder.set_palette(palette);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(out)
+}
+
+/// The colour of a part of the range, 0 to 1.
+fn colour(part: f64) -> [u8; 3] {
+    let place = part * (COLOURS.len() - 1) as f64;
+    let before = (place.floor() as usize).min(COLOURS.len() - 2);
+    let share = place - before as f64;
+    [0, 1, 2].map(|k| {
+        let [a, b] = [before, before + 1].map(|at| f64::from(COLOURS[at][k]));
+        (a + share * (b - a)).round() as u8
+    })
+}
+
+/// The picture of a plot that has one, inside its clip path.
+pub(super) fn picture(
+    raster: &Raster,
+    plot: &Plot,
+    layout: &Layout,
+    id: &str,
+) -> Result<String, ReportError> {
+    let view = raster.view(plot)?;
+    let [left, right] = raster.x.map(|x| layout.x_px(x / layout.x.factor));
+    let [bottom, top] = raster.y.map(|y| layout.y_px(y / layout.y.factor));
+    Ok(format!(
+        "<g clip-path=\"url(#{id}-clip)\"><image class=\"raster\" x=\"{left:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" preserveAspectRatio=\"none\" href=\"{}\"/></g>",
+        right - left,
+        bottom - top,
+        raster.address(plot, &view)?
+    ))
+}
+
+/// The bar of its colours, right of the area.
+pub(super) fn bar(
+    raster: &Raster,
+    plot: &Plot,
+    layout: &Layout,
+    id: &str,
+) -> Result<String, ReportError> {
+    let view = raster.view(plot)?;
+    let [gap, width] = BAR;
+    let (left, top, height) = (layout.right + gap, layout.top, layout.bottom - layout.top);
+    let mut out = format!("<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
+    for (k, [r, g, b]) in COLOURS.into_iter().enumerate() {
+        let offset = k as f64 / (COLOURS.len() - 1) as f64;
+        // Writing to a string cannot fail, here and below.
+        let _ = write!(
+            out,
+            "<stop offset=\"{offset}\" stop-color=\"rgb({r},{g},{b})\"/>"
+        );
+    }
+    let _ = write!(
+        out,
+        "</linearGradient><rect class=\"frame\" x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" style=\"fill:url(#{id}-bar)\"/>"
+    );
+    let ticks = if view.log {
+        ticks::log(view.low, view.high, BAR_TICKS)
+    } else {
+        ticks::linear(view.low, view.high, BAR_TICKS)
+    };
+    for tick in ticks {
+        if let Some(label) = tick.label {
+            let y = layout.bottom - view.part(tick.at) * height;
+            let _ = write!(
+                out,
+                "<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\">{label}</text>",
+                left + width + 4.0,
+                y + 4.0
+            );
+        }
+    }
+    let middle = top + 0.5 * height;
+    let _ = write!(
+        out,
+        "<text class=\"title\" transform=\"translate({:.1} {middle:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        layout.right + BAR_ROOM + 8.0,
+        escape(&view.title)
+    );
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Abscissa;
+    use super::super::plot::{Curve, Marker};
+    use super::*;
+
+    /// Two rows of three, from 1 to 100 on a logarithmic scale.
+    fn plot() -> Plot {
+        let colours = Axis::new("Level", "m/s^2").decades_below(100.0, 2.0);
+        Plot::new(
+            "s",
+            Axis::new("Time", "s"),
+            Axis::new("Frequency", "Hz").log(),
+        )
+        .raster(Raster {
+            x: [2.0, 2.3],
+            y: [500.0, 40e3],
+            columns: 3,
+            values: vec![1.0, 10.0, 100.0, 0.0, f64::NAN, 1e9],
+            colours,
+        })
+    }
+
+    fn decoded(address: &str) -> (png::OutputInfo, Vec<u8>) {
+        let data = address.strip_prefix("data:image/png;base64,").unwrap();
+        let bytes = STANDARD.decode(data).unwrap();
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        (info, pixels)
+    }
+
+    #[test]
+    fn the_highest_row_is_on_top_and_values_have_their_colours() {
+        let plot = plot();
+        let raster = plot.raster.as_ref().unwrap();
+        let view = raster.view(&plot).unwrap();
+        let (info, pixels) = decoded(&raster.address(&plot, &view).unwrap());
+        assert_eq!((info.width, info.height), (3, 2));
+        let [least, middle, most] = [COLOURS[0], COLOURS[4], COLOURS[8]];
+        // what is beyond the range, or no number, has the colour of its end
+        let expected = [least, least, most, least, middle, most].concat();
+        // 127.5 of 255 parts is rounded: the colour of half the range within one
+        let near = |(a, b): (&u8, &u8)| a.abs_diff(*b) <= 1;
+        assert!(pixels.iter().zip(&expected).all(near), "{pixels:?}");
+    }
+
+    #[test]
+    fn a_picture_fills_the_area_and_has_its_bar() {
+        let ridge = Curve::new("ridge", Abscissa::Points(vec![2.0, 2.3]), vec![1e3, 2e3]);
+        let plot = plot().curve(ridge).marker(Marker::new(2.1, "burst"));
+        let layout = Layout::of(&plot).unwrap();
+        assert!((layout.x.low - 2.0).abs() < 1e-12 && (layout.y.low - 0.5).abs() < 1e-12);
+        let svg = plot.to_svg().unwrap();
+        let (width, height) = (layout.right - layout.left, layout.bottom - layout.top);
+        let size = format!("width=\"{width:.1}\" height=\"{height:.1}\"");
+        assert!(svg.contains("<image ") && svg.contains(&size), "{size}");
+        assert!(svg.contains("url(#plot-bar)") && svg.contains(">Level [m/s²]</text>"));
+        // the curve lies over the picture
+        assert!(svg.find("<image ").unwrap() < svg.find("class=\"curve").unwrap());
+    }
+
+    #[test]
+    fn a_picture_that_does_not_fit_is_an_error() {
+        let message = |change: fn(&mut Raster)| {
+            let mut plot = plot();
+            plot.raster.as_mut().map(change).unwrap();
+            plot.to_svg().unwrap_err().to_string()
+        };
+        let expected = "plot \"s\": 6 values do not fill rows of 4, which must be at least one";
+        assert_eq!(message(|raster| raster.columns = 4), expected);
+        assert!(message(|raster| raster.values.clear()).contains("0 values"));
+        assert!(message(|raster| raster.columns = 0).contains("rows of 0"));
+        assert!(message(|raster| raster.colours.range = None).contains("Level"));
+    }
+}
