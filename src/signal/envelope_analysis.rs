@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::SignalError;
-use super::butterworth::{DEFAULT_ORDER, high_pass_of_order};
+use super::butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 use super::envelope::envelope;
 use super::peaks::{Peak, peak_near};
 use super::spectrum::{DEFAULT_RESOLUTION_HZ, amplitude_spectrum};
@@ -81,10 +81,16 @@ impl EnvelopeAnalysis {
     /// Envelope of the high-passed series, over all of it.
     ///
     /// # Errors
-    /// As [`high_pass_of_order`] and [`envelope`].
+    /// As [`Butterworth::zero_phase`] and [`envelope`].
     pub fn envelope(&self, series: &TimeSeries) -> Result<TimeSeries, SignalError> {
         match self.high_pass_hz {
-            Some(cut_off_hz) => envelope(&high_pass_of_order(series, cut_off_hz, self.order)?),
+            Some(cut_off_hz) => {
+                let filter = Butterworth {
+                    band: FilterBand::HighPass { cut_off_hz },
+                    order: self.order,
+                };
+                envelope(&filter.zero_phase(series)?)
+            }
             None => envelope(series),
         }
     }

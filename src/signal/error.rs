@@ -28,15 +28,38 @@ pub enum SignalError {
         /// Largest order offered.
         largest: usize,
     },
-    /// The filter library did not give second-order sections.
+    /// A band whose edges are not 0 < from < to < half the sampling rate.
     #[error(
-        "Butterworth design of order {order} at {cut_off_hz} Hz did not give second-order sections"
+        "band must satisfy 0 < from < to < {nyquist_hz} Hz (half the sampling rate), found {from_hz} Hz to {to_hz} Hz"
     )]
+    Band {
+        /// Lower edge as given, Hz.
+        from_hz: f64,
+        /// Upper edge as given, Hz.
+        to_hz: f64,
+        /// Half the sampling rate, Hz.
+        nyquist_hz: f64,
+    },
+    /// A filter so low or so narrow for the sampling rate that rounding would decide its shape.
+    #[error(
+        "filter edges from {lowest_hz} Hz, {width_hz} Hz wide, leave no digits at this sampling rate: lowest edge {least_hz} Hz, \
+         narrowest band {narrowest_hz} Hz; decimate first"
+    )]
+    FilterDigits {
+        /// Lowest edge as given, Hz.
+        lowest_hz: f64,
+        /// Width of the band as given, Hz.
+        width_hz: f64,
+        /// Lowest edge offered, Hz.
+        least_hz: f64,
+        /// Narrowest band offered, Hz.
+        narrowest_hz: f64,
+    },
+    /// The filter library did not give second-order sections.
+    #[error("Butterworth design of order {order} did not give second-order sections")]
     Design {
         /// Order of the filter.
         order: usize,
-        /// Its cut-off, Hz.
-        cut_off_hz: f64,
     },
     /// Too few samples for the edge extension of the filter, or for a spectrum.
     #[error("series has {samples} samples, the filter or transform needs at least {needed}")]

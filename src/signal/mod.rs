@@ -1,6 +1,6 @@
 //! Diagnosis of a vibration signal: high-pass, envelope, spectrum, peaks and the defect lines they lie on.
 //!
-//! The way of a signal: [`high_pass`] takes the low-frequency vibration off, [`envelope`] follows the amplitude of
+//! The way of a signal: a [`Butterworth`] high-pass takes the low-frequency vibration off, [`envelope`] follows the amplitude of
 //! what is left, [`envelope_spectrum`] shows how often that amplitude comes back, and [`envelope_peaks`] names the
 //! lines. [`EnvelopeAnalysis`] does all of it over one window. [`band_limit`] and [`relative_difference`] compare the
 //! signals of two methods in the band that matters.
@@ -16,11 +16,13 @@ mod error;
 mod fourier;
 mod lines;
 mod peaks;
+#[cfg(test)]
+mod reference;
 mod spectrum;
 mod third_octave;
 
 pub use band_limit::{band_limit, band_limit_edge_s};
-pub use butterworth::{DEFAULT_ORDER, high_pass, high_pass_of_order};
+pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
 pub use envelope::envelope;
 pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};

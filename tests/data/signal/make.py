@@ -1,0 +1,65 @@
+"""Reference values for the tests of `src/signal`: python3 make.py [SUBJECT ...] writes SUBJECT.json beside this file.
+
+NumPy 2.4.6, SciPy 1.17.1. Inputs are rounded to 1e-4, so that a file holds exactly what was filtered.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy import signal
+
+HERE = Path(__file__).parent
+
+
+def write(name, content):
+    text = json.dumps(content, separators=(",", ":"))
+    (HERE / f"{name}.json").write_text(text.replace('},{"', '},\n{"') + "\n")
+
+
+def noisy(samples, seed):
+    """Offset, slope, two tones, clicks and noise."""
+    k = np.arange(samples)
+    x = 1.5 + 2e-3 * k + np.sin(0.46 * k + 0.3) + 0.8 * np.cos(0.057 * k)
+    x += 0.5 * np.random.default_rng(seed).standard_normal(samples)
+    x[13::97] += 2.0
+    return np.round(x, 4)
+
+
+def butterworth():
+    """sosfilt and sosfiltfilt with their defaults, at a rate of 1 Hz."""
+    x = noisy(400, 1)
+    at = list(range(0, 400, 40)) + [1, 7, 398, 399]
+    bands = [("lowpass", [f]) for f in (0.01, 0.1, 0.45)]
+    bands += [("highpass", [f]) for f in (0.01, 0.1, 0.45)]
+    bands += [("bandpass", list(b)) for b in ((0.02, 0.4), (0.1, 0.15), (0.2, 0.202), (0.02, 0.0202))]
+    cases = []
+    for kind, edges in bands:
+        for order in (1, 2, 3, 4, 5, 8, 11, 12):
+            if order > 4 and edges in ([0.01], [0.02, 0.0202]):
+                continue
+            sos = signal.butter(order, edges if len(edges) > 1 else edges[0], kind, fs=1.0, output="sos")
+            cases.append({
+                "kind": kind, "edges": edges, "order": order,
+                "zero_phase": [float(v) for v in signal.sosfiltfilt(sos, x)[at]],
+                "causal": [float(v) for v in signal.sosfilt(sos, x)[at]],
+            })
+    write("butterworth", {"x": x.tolist(), "at": at, "cases": cases})
+
+
+def envelope():
+    """abs(hilbert(x)) for an even and an odd number of samples."""
+    cases = []
+    for samples in (240, 241):
+        x = noisy(samples, 2)
+        cases.append({"x": x.tolist(), "envelope": np.abs(signal.hilbert(x)).tolist()})
+    write("envelope", {"cases": cases})
+
+
+SUBJECTS = [butterworth, envelope]
+
+if __name__ == "__main__":
+    for subject in SUBJECTS:
+        if len(sys.argv) == 1 or subject.__name__ in sys.argv[1:]:
+            subject()
