@@ -396,7 +396,9 @@ mod tests {
                 step: 0.25
             }
         );
-        let spectrum = crate::signal::amplitude_spectrum(&series, 0.25).expect("spectrum");
+        let spectrum =
+            crate::signal::amplitude_spectrum(&series, crate::signal::WindowFunction::Boxcar, 0.25)
+                .expect("spectrum");
         let curve = Curve::of_spectrum("P1", &spectrum);
         assert!((curve.x_at(3) - spectrum.frequency_hz[3]).abs() < 1e-15);
         assert_eq!(curve.y, spectrum.amplitude);

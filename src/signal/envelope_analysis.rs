@@ -6,7 +6,8 @@ use super::SignalError;
 use super::butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 use super::envelope::envelope;
 use super::peaks::{Peak, peak_near};
-use super::spectrum::{DEFAULT_RESOLUTION_HZ, amplitude_spectrum};
+use super::spectrum::{DEFAULT_BIN_HZ, amplitude_spectrum};
+use super::window_function::WindowFunction;
 use crate::series::{TimeSeries, TimeWindow};
 
 /// Amplitude spectrum of the mean-removed envelope of a window of signal.
@@ -22,8 +23,14 @@ pub struct EnvelopeSpectrum {
     pub window: TimeWindow,
     /// Cut-off of the high-pass before the envelope, Hz; `None`: not filtered.
     pub high_pass_hz: Option<f64>,
-    /// Transform length over window length, >= 4.
+    /// Window function over that window of time.
+    pub window_function: WindowFunction,
+    /// Transform length over window length, >= 4. It makes the bins finer, not the resolution.
     pub zero_padding: f64,
+    /// Distance of the bins, Hz.
+    pub bin_hz: f64,
+    /// What the spectrum separates, main lobe of the window function over the window's length, Hz.
+    pub resolution_hz: f64,
 }
 
 impl EnvelopeSpectrum {
@@ -33,7 +40,7 @@ impl EnvelopeSpectrum {
     }
 }
 
-/// Spectrum of an envelope, with its mean removed, in bins of at most `resolution_hz`; `high_pass_hz` is only
+/// Spectrum of an envelope, with its mean removed, in bins of at most `widest_bin_hz`; `high_pass_hz` is only
 /// written down.
 ///
 /// # Errors
@@ -41,16 +48,20 @@ impl EnvelopeSpectrum {
 pub fn envelope_spectrum(
     envelope: &TimeSeries,
     high_pass_hz: Option<f64>,
-    resolution_hz: f64,
+    window_function: WindowFunction,
+    widest_bin_hz: f64,
 ) -> Result<EnvelopeSpectrum, SignalError> {
-    let spectrum = amplitude_spectrum(envelope, resolution_hz)?;
+    let spectrum = amplitude_spectrum(envelope, window_function, widest_bin_hz)?;
     Ok(EnvelopeSpectrum {
         frequency_hz: spectrum.frequency_hz,
         amplitude: spectrum.amplitude,
         unit: spectrum.unit,
         window: spectrum.window,
         high_pass_hz,
+        window_function,
         zero_padding: spectrum.zero_padding,
+        bin_hz: spectrum.bin_hz,
+        resolution_hz: spectrum.resolution_hz,
     })
 }
 
@@ -62,17 +73,20 @@ pub struct EnvelopeAnalysis {
     pub high_pass_hz: Option<f64>,
     /// Order of the high-pass, 1 to 12.
     pub order: usize,
-    /// Largest bin width of the spectrum, Hz.
-    pub resolution_hz: f64,
+    /// Window function of the spectrum.
+    pub window_function: WindowFunction,
+    /// Largest bin width of the spectrum, Hz; zero padding makes the bins that fine, the resolution stays.
+    pub widest_bin_hz: f64,
 }
 
 impl Default for EnvelopeAnalysis {
-    /// 5 kHz, as in Tadina & Boltezar 2011, section 5; fourth order; bins of 0.25 Hz.
+    /// 5 kHz, as in Tadina & Boltezar 2011, section 5; fourth order; boxcar; bins of 0.25 Hz.
     fn default() -> Self {
         Self {
             high_pass_hz: Some(5e3),
             order: DEFAULT_ORDER,
-            resolution_hz: DEFAULT_RESOLUTION_HZ,
+            window_function: WindowFunction::Boxcar,
+            widest_bin_hz: DEFAULT_BIN_HZ,
         }
     }
 }
@@ -107,7 +121,12 @@ impl EnvelopeAnalysis {
         to_s: f64,
     ) -> Result<EnvelopeSpectrum, SignalError> {
         let window = envelope.window(from_s, to_s)?;
-        envelope_spectrum(&window, self.high_pass_hz, self.resolution_hz)
+        envelope_spectrum(
+            &window,
+            self.high_pass_hz,
+            self.window_function,
+            self.widest_bin_hz,
+        )
     }
 
     /// Envelope spectrum of `from_s` <= t < `to_s` of a signal.
@@ -166,6 +185,22 @@ mod tests {
             assert!(line.deviation.abs() < 5e-3, "{peak:?}");
         }
         assert!(spectrum.peak_near(55.0, 0.03).is_some());
+    }
+
+    #[test]
+    fn json_states_bins_and_resolution() {
+        let analysis = EnvelopeAnalysis {
+            window_function: WindowFunction::FlatTop,
+            ..EnvelopeAnalysis::default()
+        };
+        let spectrum = analysis.spectrum(&dented(), 2.2, 2.4).expect("spectrum");
+        let json = serde_json::to_value(&spectrum).expect("serialises");
+        assert_eq!(json["window_function"], "flat-top");
+        let number = |key: &str| json[key].as_f64().expect("a number");
+        // five bins of 1 / 0.2 s, whatever the padding
+        assert!((number("resolution_hz") - 25.0).abs() < 1e-9);
+        assert!((number("bin_hz") * number("zero_padding") - 5.0).abs() < 1e-9);
+        assert!(number("bin_hz") <= 0.25);
     }
 
     #[test]

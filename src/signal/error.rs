@@ -69,15 +69,27 @@ pub enum SignalError {
         /// Samples needed.
         needed: usize,
     },
-    /// A frequency resolution that is not positive, or needs more than 2^28 points.
+    /// A bin width that is not positive, or needs more than 2^28 points.
     #[error(
-        "frequency resolution must be positive and at least {finest_hz} Hz for this sampling rate, found {resolution_hz} Hz"
+        "bin width must be positive and at least {finest_hz} Hz for this sampling rate, found {bin_hz} Hz"
     )]
-    Resolution {
-        /// Resolution as given, Hz.
-        resolution_hz: f64,
-        /// Finest resolution offered, Hz.
+    BinWidth {
+        /// Bin width as given, Hz.
+        bin_hz: f64,
+        /// Finest bin width offered, Hz.
         finest_hz: f64,
+    },
+    /// Segments that do not fit into the series, or overlap whole.
+    #[error(
+        "segments must have 2 to {samples} samples (the series) and overlap by less, found {segment} samples and {overlap} of overlap"
+    )]
+    Segments {
+        /// Samples of a segment as given.
+        segment: usize,
+        /// Overlap as given, samples.
+        overlap: usize,
+        /// Samples of the series.
+        samples: usize,
     },
     /// The Fourier transform refused its buffers.
     #[error("Fourier transform over {points} points failed: {source}")]

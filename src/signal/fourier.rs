@@ -1,25 +1,46 @@
 //! Real Fourier transforms of any length with typed errors; the one place that talks to the library.
 
-use realfft::RealFftPlanner;
+use std::sync::Arc;
+
 use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
 
 use super::SignalError;
 
 /// Most points that a transform may have: 2^28, 2 GiB of samples.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
-/// Spectrum X_m = sum_n x_n exp(-2 pi i m n / N), m = 0 ..= N/2, of x padded with zeros to N = `points` (cut if
-/// longer). Not scaled.
-pub(super) fn forward(values: &[f64], points: usize) -> Result<Vec<Complex<f64>>, SignalError> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
-    let mut input = plan.make_input_vec();
-    for (slot, value) in input.iter_mut().zip(values) {
-        *slot = *value;
+/// A transform of one length, planned once for many signals.
+pub(super) struct Forward(Arc<dyn RealToComplex<f64>>);
+
+impl Forward {
+    /// Transform over `points` N.
+    pub(super) fn new(points: usize) -> Self {
+        Self(RealFftPlanner::new().plan_fft_forward(points))
     }
-    let mut output = plan.make_output_vec();
-    plan.process(&mut input, &mut output)
-        .map_err(|source| SignalError::Transform { points, source })?;
-    Ok(output)
+
+    /// Spectrum X_m = sum_n x_n exp(-2 pi i m n / N), m = 0 ..= N/2, of x padded with zeros to N (cut if longer). Not
+    /// scaled.
+    pub(super) fn transform(
+        &self,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<Vec<Complex<f64>>, SignalError> {
+        let mut input = self.0.make_input_vec();
+        for (slot, value) in input.iter_mut().zip(values) {
+            *slot = value;
+        }
+        let mut output = self.0.make_output_vec();
+        let points = self.0.len();
+        self.0
+            .process(&mut input, &mut output)
+            .map_err(|source| SignalError::Transform { points, source })?;
+        Ok(output)
+    }
+}
+
+/// [`Forward`] for one signal.
+pub(super) fn forward(values: &[f64], points: usize) -> Result<Vec<Complex<f64>>, SignalError> {
+    Forward::new(points).transform(values.iter().copied())
 }
 
 /// Inverse of [`forward`], scaled by 1/N: N real values from N/2 + 1 bins. The imaginary parts of the bins at zero

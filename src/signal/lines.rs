@@ -1,12 +1,11 @@
 //! Peaks of an envelope spectrum and the lines they belong to: shaft, races, balls and their harmonics.
 
-use std::f64::consts::PI;
-
 use serde::Serialize;
 
 use super::SignalError;
 use super::envelope_analysis::EnvelopeSpectrum;
 use super::peaks::{Peak, local_maxima};
+use super::window_function::WindowFunction;
 
 /// A peak that a stronger one's leakage could make, with this margin, is not listed: leakages of several lines add
 /// up with signs, and the bound 1 / (pi d T) is an envelope.
@@ -95,7 +94,7 @@ pub struct EnvelopePeak {
 pub struct PeakSearch {
     /// How many, the strongest first.
     pub count: usize,
-    /// Lowest frequency, Hz; `None`: 1 / duration of the window, below which the spectrum holds the window itself.
+    /// Lowest frequency, Hz; `None`: the resolution, below which the spectrum holds the window itself.
     pub from_hz: Option<f64>,
     /// Highest frequency, Hz; `None`: the end of the spectrum.
     pub to_hz: Option<f64>,
@@ -114,9 +113,10 @@ impl Default for PeakSearch {
 
 /// The strongest peaks of an envelope spectrum, strongest first, each with the nearest of `lines`.
 ///
-/// A peak that could be leakage alone is left out: one not higher than 1.2 sum_i A_i / (pi d_i T) over the stronger
-/// peaks i at distance d_i Hz and their images at -f_i (T the window's length, s), the bound of the untapered window's
-/// side lobes; or closer than 1 / T to a stronger peak; or below 1 % of the strongest. So a weak line close beside a
+/// A peak that could be leakage alone is left out: one not higher than 1.2 sum_i A_i l(d_i T) over the stronger
+/// peaks i at distance d_i Hz and their images at -f_i (T the window's length, s, l the bound of the window function's
+/// side lobes, [`WindowFunction::leakage`], 1 / (pi d T) for a boxcar); or closer than the resolution to a stronger peak;
+/// or below 1 % of the strongest. So a weak line close beside a
 /// strong one is not listed either: the window cannot tell them apart; look with [`EnvelopeSpectrum::peak_near`] and
 /// take a longer window.
 pub fn envelope_peaks(
@@ -125,7 +125,7 @@ pub fn envelope_peaks(
     search: &PeakSearch,
 ) -> Vec<EnvelopePeak> {
     let duration_s = spectrum.window.to - spectrum.window.from;
-    let from_hz = search.from_hz.unwrap_or(1.0 / duration_s);
+    let from_hz = search.from_hz.unwrap_or(spectrum.resolution_hz);
     let mut candidates = local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
     candidates.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     let mut peaks: Vec<Peak> = Vec::new();
@@ -135,7 +135,7 @@ pub fn envelope_peaks(
         if peaks.len() == search.count {
             break;
         }
-        if in_band && stands_out(&candidate, &peaks, duration_s) {
+        if in_band && stands_out(&candidate, &peaks, spectrum.window_function, duration_s) {
             peaks.push(candidate);
         }
     }
@@ -171,17 +171,25 @@ pub fn match_line(frequency_hz: f64, lines: &[NamedLine]) -> Option<LineMatch> {
 }
 
 /// Whether a peak is more than the leakage of the stronger ones.
-fn stands_out(candidate: &Peak, stronger: &[Peak], duration_s: f64) -> bool {
+fn stands_out(
+    candidate: &Peak,
+    stronger: &[Peak],
+    window_function: WindowFunction,
+    duration_s: f64,
+) -> bool {
     let widths = |peak: &Peak| (candidate.frequency_hz - peak.frequency_hz).abs() * duration_s;
     let leakage: f64 = stronger
         .iter()
         .map(|peak| {
             let image = (candidate.frequency_hz + peak.frequency_hz) * duration_s;
-            peak.amplitude / PI * (1.0 / widths(peak) + 1.0 / image)
+            peak.amplitude
+                * (window_function.leakage(widths(peak)) + window_function.leakage(image))
         })
         .sum();
     let floor = stronger.first().map_or(0.0, |peak| FLOOR * peak.amplitude);
-    stronger.iter().all(|peak| widths(peak) >= 1.0)
+    stronger
+        .iter()
+        .all(|peak| widths(peak) >= window_function.main_lobe_bins())
         && candidate.amplitude >= floor
         && candidate.amplitude > LEAKAGE_MARGIN * leakage
 }
@@ -191,9 +199,10 @@ mod tests {
     use super::*;
     use crate::series::TimeSeries;
     use crate::signal::envelope_spectrum;
+    use std::f64::consts::PI;
 
     /// "Envelope" with lines at 21 Hz (2), 55 Hz (5) and 110.5 Hz (3) over 0.5 s at 10 kHz.
-    fn spectrum() -> EnvelopeSpectrum {
+    fn spectrum(window_function: WindowFunction) -> EnvelopeSpectrum {
         let values = (0..5000).map(|k| {
             let t = f64::from(k) * 1e-4;
             [(21.0, 2.0), (55.0, 5.0), (110.5, 3.0)]
@@ -202,7 +211,7 @@ mod tests {
                 .sum::<f64>()
         });
         let series = TimeSeries::new(0.0, 1e-4, "m/s^2", values.collect()).expect("a valid series");
-        envelope_spectrum(&series, None, 0.25).expect("spectrum")
+        envelope_spectrum(&series, None, window_function, 0.25).expect("spectrum")
     }
 
     fn lines() -> Vec<NamedLine> {
@@ -213,7 +222,11 @@ mod tests {
 
     #[test]
     fn three_lines_give_three_peaks_with_their_names() {
-        let peaks = envelope_peaks(&spectrum(), &lines(), &PeakSearch::default());
+        let peaks = envelope_peaks(
+            &spectrum(WindowFunction::Boxcar),
+            &lines(),
+            &PeakSearch::default(),
+        );
         // Side lobes of the 55 Hz line are a fifth of it, as high as half the 21 Hz line; none is listed.
         assert_eq!(peaks.len(), 3, "{peaks:?}");
         let expected = [
@@ -232,8 +245,25 @@ mod tests {
     }
 
     #[test]
+    fn every_window_function_lists_the_three_lines_alone() {
+        for window_function in [
+            WindowFunction::Hann,
+            WindowFunction::Hamming,
+            WindowFunction::Blackman,
+            WindowFunction::FlatTop,
+        ] {
+            let found = envelope_peaks(&spectrum(window_function), &[], &PeakSearch::default());
+            let mut found: Vec<f64> = found.iter().map(|p| p.frequency_hz.round()).collect();
+            found.sort_by(f64::total_cmp);
+            // 110.5 Hz may round either way
+            assert_eq!(found.len(), 3, "{window_function:?}: {found:?}");
+            assert_eq!(&found[..2], [21.0, 55.0]);
+        }
+    }
+
+    #[test]
     fn search_obeys_count_and_band() {
-        let search = |search| envelope_peaks(&spectrum(), &[], &search);
+        let search = |search| envelope_peaks(&spectrum(WindowFunction::Boxcar), &[], &search);
         let one = search(PeakSearch {
             count: 1,
             ..Default::default()

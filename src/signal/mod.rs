@@ -20,6 +20,8 @@ mod peaks;
 mod reference;
 mod spectrum;
 mod third_octave;
+mod welch;
+mod window_function;
 
 pub use band_limit::{band_limit, band_limit_edge_s};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
@@ -29,5 +31,7 @@ pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectru
 pub use error::SignalError;
 pub use lines::{EnvelopePeak, LineMatch, NamedLine, PeakSearch, envelope_peaks, match_line};
 pub use peaks::{Peak, local_maxima, peak_near};
-pub use spectrum::{AmplitudeSpectrum, DEFAULT_RESOLUTION_HZ, amplitude_spectrum};
+pub use spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
 pub use third_octave::{BandLevel, third_octaves};
+pub use welch::{PowerScaling, PowerSpectrum, Welch};
+pub use window_function::WindowFunction;

@@ -1,14 +1,14 @@
-//! Amplitude spectrum of a stretch of signal, interpolated by zero-padding.
+//! Amplitude spectrum of a stretch of signal, windowed and interpolated by zero-padding.
 
 use serde::Serialize;
 
-use super::SignalError;
-use super::fourier::{MOST_POINTS, fast_length, forward};
+use super::fourier::{Forward, MOST_POINTS, fast_length};
 use super::peaks::{Peak, peak_near};
+use super::{SignalError, WindowFunction};
 use crate::series::{TimeSeries, TimeWindow};
 
 /// Bin width unless another is asked for, Hz: 1 % of a 25 Hz line before interpolation.
-pub const DEFAULT_RESOLUTION_HZ: f64 = 0.25;
+pub const DEFAULT_BIN_HZ: f64 = 0.25;
 
 /// Least ratio of transform to signal length: with four points a natural bin the parabola through the three highest
 /// finds a line to 1 % of a natural bin.
@@ -25,54 +25,74 @@ pub struct AmplitudeSpectrum {
     pub unit: String,
     /// Stretch of time that was transformed.
     pub window: TimeWindow,
-    /// Transform length over signal length, N / n >= 4. The bins are that much finer than what the window can
-    /// separate, 1 / (to - from).
+    /// Window function over that stretch.
+    pub window_function: WindowFunction,
+    /// Transform length over signal length, N / n >= 4. It makes the bins finer, not the resolution.
     pub zero_padding: f64,
+    /// Distance of the bins, 1 / (N step), Hz.
+    pub bin_hz: f64,
+    /// What the spectrum separates: main lobe of the window function over the length of the stretch, Hz.
+    pub resolution_hz: f64,
 }
 
 /// Amplitude spectrum of the series with its mean removed,
 ///
-/// A_m = (2 / n) |sum_k (x_k - mean) exp(-2 pi i m k / N)|, half of that at zero and at half the rate,
+/// A_m = (2 / sum w) |sum_k w_k (x_k - mean) exp(-2 pi i m k / N)|, half of that at zero and at half the rate,
 ///
-/// padded with zeros to N >= 4 n points such that the bins are at most `resolution_hz` apart
-/// ([`DEFAULT_RESOLUTION_HZ`]). No taper: two lines closer than 1 / duration are not separated, and a line leaks
-/// sin(pi d T) / (pi d T) of its amplitude to distance d.
+/// padded with zeros to N >= 4 n points such that the bins are at most `widest_bin_hz` apart
+/// ([`DEFAULT_BIN_HZ`]). Two lines closer than [`resolution_hz`](AmplitudeSpectrum::resolution_hz) are not separated, and
+/// a line leaks [`WindowFunction::leakage`] of its amplitude to the others.
 ///
 /// # Errors
-/// [`SignalError::Resolution`] if it is not positive or asks for more than 2^28 points, [`SignalError::TooShort`]
+/// [`SignalError::BinWidth`] if it is not positive or asks for more than 2^28 points, [`SignalError::TooShort`]
 /// below two samples.
 pub fn amplitude_spectrum(
     series: &TimeSeries,
-    resolution_hz: f64,
+    window_function: WindowFunction,
+    widest_bin_hz: f64,
 ) -> Result<AmplitudeSpectrum, SignalError> {
     let samples = series.values().len();
     if samples < 2 {
         return Err(SignalError::TooShort { samples, needed: 2 });
     }
-    let wanted = (1.0 / (series.step_s() * resolution_hz)).ceil();
-    if !(resolution_hz > 0.0 && wanted <= MOST_POINTS as f64) {
-        return Err(SignalError::Resolution {
-            resolution_hz,
+    let wanted = (1.0 / (series.step_s() * widest_bin_hz)).ceil();
+    if !(widest_bin_hz > 0.0 && wanted <= MOST_POINTS as f64) {
+        return Err(SignalError::BinWidth {
+            bin_hz: widest_bin_hz,
             finest_hz: 1.0 / (series.step_s() * MOST_POINTS as f64),
         });
     }
     let points = fast_length((wanted as usize).max(LEAST_PADDING * samples));
-    let mean = series.mean();
-    let centred: Vec<f64> = series.values().iter().map(|v| v - mean).collect();
-    let bins = forward(&centred, points)?;
+    let bin_hz = 1.0 / (points as f64 * series.step_s());
+    Ok(AmplitudeSpectrum {
+        amplitude: amplitudes(series.values(), series.mean(), window_function, points)?,
+        frequency_hz: (0..=points / 2).map(|m| m as f64 * bin_hz).collect(),
+        unit: series.unit().to_owned(),
+        window: series.span(),
+        window_function,
+        zero_padding: points as f64 / samples as f64,
+        bin_hz,
+        resolution_hz: window_function.main_lobe_bins() / series.duration_s(),
+    })
+}
+
+/// One-sided amplitudes of values with their mean removed, windowed and padded to an even number of points.
+pub(super) fn amplitudes(
+    values: &[f64],
+    mean: f64,
+    window_function: WindowFunction,
+    points: usize,
+) -> Result<Vec<f64>, SignalError> {
+    let window = window_function.samples(values.len());
+    let sum: f64 = window.iter().sum();
+    let tapered = values.iter().zip(&window).map(|(v, w)| (v - mean) * w);
+    let bins = Forward::new(points).transform(tapered)?;
     let last = bins.len() - 1;
     let amplitude = bins.iter().enumerate().map(|(m, bin)| {
         let sides = if m == 0 || m == last { 1.0 } else { 2.0 };
-        sides * bin.norm() / samples as f64
+        sides * bin.norm() / sum
     });
-    let bin_hz = 1.0 / (points as f64 * series.step_s());
-    Ok(AmplitudeSpectrum {
-        amplitude: amplitude.collect(),
-        frequency_hz: (0..=last).map(|m| m as f64 * bin_hz).collect(),
-        unit: series.unit().to_owned(),
-        window: series.span(),
-        zero_padding: points as f64 / samples as f64,
-    })
+    Ok(amplitude.collect())
 }
 
 impl AmplitudeSpectrum {
@@ -98,7 +118,8 @@ mod tests {
     fn a_sinusoid_of_amplitude_a_reads_a() {
         // 1 s, lines on and between natural bins. The image at -f leaks 1 / (2 pi f T) at most: 1e-3 at 150 Hz.
         for f in [150.0, 333.3, 1234.56] {
-            let spectrum = amplitude_spectrum(&tone(7.0, f, 10_000), 0.25).expect("spectrum");
+            let spectrum = amplitude_spectrum(&tone(7.0, f, 10_000), WindowFunction::Boxcar, 0.25)
+                .expect("spectrum");
             let peak = spectrum.peak_near(f, 0.01).expect("a peak");
             assert!(
                 (peak.amplitude / 7.0 - 1.0).abs() < 1.1e-3,
@@ -115,10 +136,12 @@ mod tests {
 
     #[test]
     fn bins_are_as_fine_as_asked_and_the_mean_is_gone() {
-        let short = amplitude_spectrum(&tone(1.0, 100.0, 1000), 0.25).expect("spectrum");
+        let short = amplitude_spectrum(&tone(1.0, 100.0, 1000), WindowFunction::Boxcar, 0.25)
+            .expect("spectrum");
         assert!(short.frequency_hz[1] <= 0.25);
         assert!(short.zero_padding >= 40.0);
-        let long = amplitude_spectrum(&tone(1.0, 100.0, 200_000), 0.25).expect("spectrum");
+        let long = amplitude_spectrum(&tone(1.0, 100.0, 200_000), WindowFunction::Boxcar, 0.25)
+            .expect("spectrum");
         assert!(long.frequency_hz[1] <= 0.25 / 20.0);
         assert!(long.zero_padding >= 4.0);
         assert!(long.amplitude[0] < 1e-10);
@@ -135,7 +158,8 @@ mod tests {
             .map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k))
             .collect();
         let series = TimeSeries::new(0.0, 1.0, "m", values).expect("a valid series");
-        let spectrum = amplitude_spectrum(&series, 1.0 / 64.0).expect("spectrum");
+        let spectrum =
+            amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / 64.0).expect("spectrum");
         for (bin, expected) in [
             (1, 0.46074397057919403),
             (9, 0.9148740075462658),
@@ -149,20 +173,61 @@ mod tests {
     }
 
     #[test]
+    fn a_window_agrees_with_scipy_and_states_what_it_separates() {
+        // x_k = sin(0.9 k) + 0.02 k^2, k = 0 .. 11, step 1 s: w = scipy.signal.get_window("hann", 12),
+        // 2 / w.sum() * abs(numpy.fft.rfft((x - x.mean()) * w, 64))[[1, 9]]
+        let values = (0..12)
+            .map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k))
+            .collect();
+        let series = TimeSeries::new(0.0, 1.0, "m", values).expect("a valid series");
+        let hann = WindowFunction::Hann;
+        let spectrum = amplitude_spectrum(&series, hann, 1.0 / 64.0).expect("spectrum");
+        for (bin, expected) in [(1, 0.5656296276571483), (9, 1.3530887128800948)] {
+            assert!(
+                (spectrum.amplitude[bin] - expected).abs() < 1e-14,
+                "bin {bin}"
+            );
+        }
+        assert!((spectrum.bin_hz - 1.0 / 64.0).abs() < 1e-15);
+        assert!((spectrum.resolution_hz - 2.0 / 12.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn padding_adds_no_resolution() {
+        // lines in quadrature, 0.8 and 1.05 of 1 / T apart: one maximum, then two, however fine the bins
+        let maxima = |apart: f64, bin_hz| {
+            let line = |f: f64, t: f64| 2.0 * PI * f * t;
+            let values = (0..1000).map(|k| {
+                let t = f64::from(k) * 1e-3 - 0.5;
+                line(100.0, t).cos() + line(100.0 + apart, t).sin()
+            });
+            let series = TimeSeries::new(0.0, 1e-3, "m", values.collect()).expect("a valid series");
+            let spectrum =
+                amplitude_spectrum(&series, WindowFunction::Boxcar, bin_hz).expect("spectrum");
+            assert!((spectrum.resolution_hz - 1.0).abs() < 1e-12);
+            let peaks = crate::signal::local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
+            peaks.iter().filter(|p| p.amplitude > 0.5).count()
+        };
+        for bin_hz in [0.25, 0.01] {
+            assert_eq!((maxima(0.8, bin_hz), maxima(1.05, bin_hz)), (1, 2));
+        }
+    }
+
+    #[test]
     fn errors_fire_with_their_exact_messages() {
-        let message = |series: &TimeSeries, resolution| {
-            amplitude_spectrum(series, resolution)
+        let message = |series: &TimeSeries, bin_hz| {
+            amplitude_spectrum(series, WindowFunction::Boxcar, bin_hz)
                 .expect_err("must fail")
                 .to_string()
         };
         let series = TimeSeries::new(0.0, 0.25, "m", vec![1.0; 4]).expect("a valid series");
         assert_eq!(
             message(&series, 0.0),
-            "frequency resolution must be positive and at least 0.000000014901161193847656 Hz for this \
+            "bin width must be positive and at least 0.000000014901161193847656 Hz for this \
              sampling rate, found 0 Hz"
         );
-        assert!(message(&series, 1e-9).starts_with("frequency resolution"));
-        assert!(message(&series, f64::NAN).starts_with("frequency resolution"));
+        assert!(message(&series, 1e-9).starts_with("bin width"));
+        assert!(message(&series, f64::NAN).starts_with("bin width"));
         let one = TimeSeries::new(0.0, 0.25, "m", vec![1.0]).expect("a valid series");
         assert_eq!(
             message(&one, 0.25),

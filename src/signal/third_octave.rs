@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{SignalError, amplitude_spectrum};
+use super::{SignalError, WindowFunction, amplitude_spectrum};
 use crate::series::TimeSeries;
 
 /// Bands a decade (IEC 61260-1, base ten).
@@ -36,7 +36,7 @@ pub fn third_octaves(
     to_hz: f64,
 ) -> Result<Vec<BandLevel>, SignalError> {
     let natural_hz = 1.0 / series.duration_s();
-    let spectrum = amplitude_spectrum(series, natural_hz)?;
+    let spectrum = amplitude_spectrum(series, WindowFunction::Boxcar, natural_hz)?;
     let half = 10_f64.powf(0.5 / BANDS_A_DECADE);
     // the least frequency at which a band is wide enough
     let narrowest = LEAST_BINS * natural_hz / (half - 1.0 / half);

@@ -57,7 +57,22 @@ def envelope():
     write("envelope", {"cases": cases})
 
 
-SUBJECTS = [butterworth, envelope]
+def welch():
+    """welch with all windows, even and odd segments, both scalings, at a rate of 1 kHz."""
+    x = noisy(300, 3)
+    cases = []
+    for window in ("boxcar", "hann", "hamming", "blackman", "flattop"):
+        for segment, overlap in ((64, 32), (51, 20)):
+            for scaling in ("density", "spectrum"):
+                f, p = signal.welch(x, 1e3, window, segment, overlap, scaling=scaling)
+                cases.append({
+                    "window": window, "segment": segment, "overlap": overlap, "scaling": scaling,
+                    "frequency": f.tolist(), "power": p.tolist(),
+                })
+    write("welch", {"x": x.tolist(), "cases": cases})
+
+
+SUBJECTS = [butterworth, envelope, welch]
 
 if __name__ == "__main__":
     for subject in SUBJECTS:
