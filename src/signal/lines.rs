@@ -187,11 +187,8 @@ fn stands_out(
         })
         .sum();
     let floor = stronger.first().map_or(0.0, |peak| FLOOR * peak.amplitude);
-    stronger
-        .iter()
-        .all(|peak| widths(peak) >= window_function.main_lobe_bins())
-        && candidate.amplitude >= floor
-        && candidate.amplitude > LEAKAGE_MARGIN * leakage
+    // within the main lobe the leakage is the whole line
+    candidate.amplitude >= floor && candidate.amplitude > LEAKAGE_MARGIN * leakage
 }
 
 #[cfg(test)]
