@@ -91,6 +91,48 @@ pub enum SignalError {
         /// Samples of the series.
         samples: usize,
     },
+    /// Frequencies of a transform that are out of order or outside what the series has.
+    #[error(
+        "frequencies must satisfy {lowest_hz} Hz <= from < to < {highest_hz} Hz and be two at least, found {count} from {from_hz} Hz to {to_hz} Hz"
+    )]
+    Frequencies {
+        /// Lowest frequency as given, Hz.
+        from_hz: f64,
+        /// Highest frequency as given, Hz.
+        to_hz: f64,
+        /// Number of frequencies as given.
+        count: usize,
+        /// Lowest frequency offered, Hz.
+        lowest_hz: f64,
+        /// What the highest frequency must lie below, Hz.
+        highest_hz: f64,
+    },
+    /// A number of cycles of a wavelet that is not offered.
+    #[error("a wavelet must have {fewest} to {most} cycles, found {cycles}")]
+    Cycles {
+        /// Cycles as given.
+        cycles: f64,
+        /// Fewest cycles offered.
+        fewest: f64,
+        /// Most cycles offered.
+        most: f64,
+    },
+    /// A decimation by zero, or one that leaves fewer than two instants.
+    #[error("decimation of {samples} samples must be by 1 to half as many, found {ratio}")]
+    Decimation {
+        /// Ratio as given.
+        ratio: usize,
+        /// Samples of the series.
+        samples: usize,
+    },
+    /// A transform of more than 2^28 points.
+    #[error("transform needs {points} points, at most {most} are offered: take a shorter stretch")]
+    TooLong {
+        /// Points needed.
+        points: usize,
+        /// Most points offered.
+        most: usize,
+    },
     /// The Fourier transform refused its buffers.
     #[error("Fourier transform over {points} points failed: {source}")]
     Transform {
