@@ -18,15 +18,19 @@ use crate::series::TimeSeries;
 /// [`SignalError::Transform`], which no valid series causes.
 pub fn envelope(series: &TimeSeries) -> Result<TimeSeries, SignalError> {
     let x = series.values();
+    let envelope = x.iter().zip(quadrature(x)?).map(|(x, h)| x.hypot(h));
+    Ok(series.with_values(envelope.collect())?)
+}
+
+/// Hilbert transform H x of values taken as periodic.
+pub(super) fn quadrature(x: &[f64]) -> Result<Vec<f64>, SignalError> {
     let points = x.len();
     let mut bins = forward(x, points)?;
     for bin in &mut bins {
         *bin *= Complex::new(0.0, -1.0);
     }
     // At zero and half the rate the Hilbert transform of a real signal vanishes; `inverse` drops what is imaginary.
-    let quadrature = inverse(bins, points)?;
-    let envelope = x.iter().zip(&quadrature).map(|(x, h)| x.hypot(*h));
-    Ok(series.with_values(envelope.collect())?)
+    inverse(bins, points)
 }
 
 #[cfg(test)]

@@ -125,6 +125,23 @@ pub enum SignalError {
         /// Samples of the series.
         samples: usize,
     },
+    /// A confidence that is no probability.
+    #[error("confidence must lie between 0 and 1, found {confidence}")]
+    Confidence {
+        /// Confidence as given.
+        confidence: f64,
+    },
+    /// Levels of a kurtogram that are not offered.
+    #[error("levels must be 1 to {most}, found {levels}")]
+    Levels {
+        /// Levels as given.
+        levels: usize,
+        /// Most levels offered.
+        most: usize,
+    },
+    /// Windows that do not move.
+    #[error("windows must move by at least one sample, found 0")]
+    Hop,
     /// A transform of more than 2^28 points.
     #[error("transform needs {points} points, at most {most} are offered: take a shorter stretch")]
     TooLong {

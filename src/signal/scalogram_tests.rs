@@ -1,6 +1,7 @@
 //! The wavelet transform against convolution in time, tones, chirps and its own parts.
 
 use super::*;
+use crate::signal::noise::gaussian;
 use crate::signal::reference::{items, load, numbers, worst};
 
 fn series(samples: usize, rate_hz: f64, x: impl Fn(f64) -> f64) -> TimeSeries {
@@ -148,6 +149,42 @@ fn decimation_keeps_level_and_energy_and_folds_nothing() {
             let apart = (full.row(index)[20 * k] - coarse.row(index)[k]).abs();
             // smoothing over 1 ms of a 2 Hz modulation, (2 pi 2 1e-3)^2 / 2
             assert!(apart < 2e-4 * largest, "{index} {k}: {apart}");
+        }
+    }
+}
+
+#[test]
+fn decimation_of_noise_is_the_smoothed_power() {
+    let noise = gaussian(6000, 1);
+    let input = TimeSeries::new(0.0, 1e-3, "N", noise).expect("a valid series");
+    // spectra that end at neither zero nor half the rate: cut there a wavelet would ring to the ends
+    let settings = transform(60.0, 250.0, 4, 10.0);
+    let full = settings.scalogram(&input).expect("scalogram");
+    for decimation in [2, 30] {
+        let coarse = WaveletTransform {
+            decimation,
+            ..settings
+        };
+        let coarse = coarse.scalogram(&input).expect("scalogram");
+        for index in 0..4 {
+            for middle in [1800, 2310, 3000, 3930] {
+                let reach = 9 * decimation;
+                let around = (middle - reach..=middle + reach).map(|k| {
+                    let deviations = (k as f64 - middle as f64) / decimation as f64;
+                    (
+                        (-0.5 * deviations * deviations).exp(),
+                        full.row(index)[k].powi(2),
+                    )
+                });
+                let (weights, sum) = around.fold((0.0, 0.0), |(w, s), (a, b)| (w + a, s + a * b));
+                let expected = (sum / weights).sqrt();
+                let found = coarse.row(index)[middle / decimation];
+                // a Gaussian cut at nine deviations, rounding
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-12,
+                    "{decimation} {index} {middle}"
+                );
+            }
         }
     }
 }

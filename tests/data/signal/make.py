@@ -113,7 +113,34 @@ def cwt():
     write("cwt", {"x": x.tolist(), "cycles": w0, "frequency": frequency, "rows": [r[::5].tolist() for r in rows]})
 
 
-SUBJECTS = [butterworth, envelope, welch, cwt]
+def kurtogram():
+    """The tree of Antoni (2007), with the filters of his program and an analytic root without 64 samples at each end."""
+    x = noisy(1500, 5)
+
+    def band(signal_, taps, ratio, place):
+        y = signal.lfilter(taps, 1.0, signal_)[len(taps) - 1::ratio]
+        return y * (-1.0) ** np.arange(len(y)) if place % 2 else y
+
+    def taps(order, cut_off, middle):
+        return signal.firwin(order + 1, cut_off) * np.exp(1j * np.pi * middle * np.arange(order + 1))
+
+    def kurtosis(c):
+        return float(np.mean(np.abs(c) ** 4) / np.mean(np.abs(c) ** 2) ** 2 - 2)
+
+    halves = [taps(16, 0.4, m) for m in (1 / 4, 3 / 4)]
+    thirds = [taps(24, 0.4 * 2 / 3, m) for m in (1 / 6, 3 / 6, 5 / 6)]
+    level = [signal.hilbert(x - x.mean())[64:-64]]
+    rows = [[kurtosis(c) for c in level]]
+    for depth in range(1, 4):
+        in_three = [band(c, thirds[i], 3, i) for c in level for i in range(3)]
+        if depth > 1:
+            rows.append([kurtosis(c) for c in in_three])
+        level = [band(c, halves[i], 2, i) for c in level for i in range(2)]
+        rows.append([kurtosis(c) for c in level])
+    write("kurtogram", {"x": x.tolist(), "rows": sorted(rows, key=len)})
+
+
+SUBJECTS = [butterworth, envelope, welch, cwt, kurtogram]
 
 if __name__ == "__main__":
     for subject in SUBJECTS:

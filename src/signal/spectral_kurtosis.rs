@@ -1,0 +1,196 @@
+//! Kurtosis of a signal at each frequency.
+
+use serde::Serialize;
+
+use super::fourier::Forward;
+use super::kurtosis_limit::{FEWEST_VALUES, kurtosis_limit};
+use super::{SignalError, WindowFunction};
+use crate::series::TimeSeries;
+
+/// Kurtosis over frequency.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpectralKurtosis {
+    /// Bin frequencies between zero and half the rate, both left out, Hz.
+    pub frequency_hz: Vec<f64>,
+    /// Kurtosis there: 0 for Gaussian noise, -1 for a steady tone, large for repeated impacts.
+    pub kurtosis: Vec<f64>,
+    /// What Gaussian noise exceeds nowhere, with the confidence asked for.
+    pub limit: f64,
+    /// Confidence of the limit, for all frequencies together.
+    pub confidence: f64,
+    /// Segments.
+    pub segments: usize,
+    /// Segments that as many independent ones would be worth.
+    pub independent_segments: f64,
+    /// What is separated: main lobe of the window function over the length of a segment, Hz.
+    pub resolution_hz: f64,
+}
+
+/// Spectral kurtosis of a series from short transforms X_j(f) of `segment_samples` n, windowed, `overlap_samples` shared,
+///
+/// K(f) = mean |X_j|^4 / (mean |X_j|^2)^2 - 2,
+///
+/// with the limit that Gaussian noise keeps below with `confidence` at all frequencies together. Segments must be longer
+/// than a burst's ringing and shorter than the time between bursts. M overlapping segments count as
+/// M / sum_i |rho(i hop)|^4, rho the window's correlation with itself moved by i hops.
+///
+/// Source: J. Antoni, "The spectral kurtosis: a useful tool for characterising non-stationary signals", Mechanical Systems
+/// and Signal Processing 20 (2006) 282-307, eq. (41), with a limit for few segments
+/// (Nita and Gary 2010 instead of the normal law of its section 5.2).
+///
+/// # Errors
+/// [`SignalError::Segments`]; [`SignalError::TooShort`] below 8 independent segments; [`SignalError::Confidence`].
+pub fn spectral_kurtosis(
+    series: &TimeSeries,
+    window_function: WindowFunction,
+    segment_samples: usize,
+    overlap_samples: usize,
+    confidence: f64,
+) -> Result<SpectralKurtosis, SignalError> {
+    let n = segment_samples;
+    let samples = series.values().len();
+    if n < 4 || n > samples || overlap_samples >= n {
+        return Err(SignalError::Segments {
+            segment: n,
+            overlap: overlap_samples,
+            samples,
+        });
+    }
+    let hop = n - overlap_samples;
+    let window = window_function.samples(n);
+    let segments = (samples - n) / hop + 1;
+    let worth = segment_worth(&window, hop);
+    if segments as f64 * worth < FEWEST_VALUES {
+        return Err(SignalError::TooShort {
+            samples,
+            needed: n + hop * ((FEWEST_VALUES / worth).ceil() as usize - 1),
+        });
+    }
+    let plan = Forward::new(n);
+    let inner = (n - 1) / 2;
+    let (mut second, mut fourth) = (vec![0.0; inner], vec![0.0; inner]);
+    let mean = series.mean();
+    for first in (0..=samples - n).step_by(hop) {
+        let segment = series.values()[first..first + n].iter().zip(&window);
+        let bins = plan.transform(segment.map(|(x, w)| (x - mean) * w))?;
+        for ((second, fourth), bin) in second.iter_mut().zip(&mut fourth).zip(&bins[1..]) {
+            let power = bin.norm_sqr();
+            *second += power;
+            *fourth += power * power;
+        }
+    }
+    let kurtosis = second.iter().zip(&fourth).map(|(second, fourth)| {
+        if *second > 0.0 {
+            segments as f64 * fourth / (second * second) - 2.0
+        } else {
+            0.0
+        }
+    });
+    let bin_hz = 1.0 / (n as f64 * series.step_s());
+    let independent_segments = segments as f64 * worth;
+    Ok(SpectralKurtosis {
+        frequency_hz: (1..=inner).map(|m| m as f64 * bin_hz).collect(),
+        kurtosis: kurtosis.collect(),
+        limit: kurtosis_limit(independent_segments, inner, confidence)?,
+        confidence,
+        segments,
+        independent_segments,
+        resolution_hz: window_function.main_lobe_bins() * bin_hz,
+    })
+}
+
+/// 1 / sum_i |rho(i hop)|^4.
+fn segment_worth(window: &[f64], hop: usize) -> f64 {
+    let correlation =
+        |shift: usize| -> f64 { window[shift..].iter().zip(window).map(|(a, b)| a * b).sum() };
+    let whole = correlation(0);
+    let shifts = (hop..window.len()).step_by(hop);
+    let sum: f64 = shifts
+        .map(|shift| (correlation(shift) / whole).powi(4))
+        .sum();
+    1.0 / (1.0 + 2.0 * sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::noise::gaussian;
+    use std::f64::consts::PI;
+
+    fn kurtosis(values: Vec<f64>, confidence: f64) -> SpectralKurtosis {
+        let series = TimeSeries::new(0.0, 1e-4, "m/s^2", values).expect("a valid series");
+        spectral_kurtosis(&series, WindowFunction::Hann, 64, 32, confidence).expect("kurtosis")
+    }
+
+    #[test]
+    fn gaussian_noise_stays_below_the_limit() {
+        // 40 noises at 90 %: 4 exceed it on average, with a scatter of 2
+        let exceeding = (0..40).filter(|seed| {
+            let found = kurtosis(gaussian(8000, *seed), 0.9);
+            found.kurtosis.iter().any(|k| *k > found.limit)
+        });
+        let count = exceeding.count();
+        assert!((1..=10).contains(&count), "{count}");
+    }
+
+    #[test]
+    fn bursts_stand_out_at_their_frequency_and_a_tone_falls_to_minus_one() {
+        // rings of 2 kHz every 40 ms, a tone of 4 kHz, noise
+        let mut values = gaussian(8000, 7);
+        for (k, v) in values.iter_mut().enumerate() {
+            let since = (k % 400) as f64;
+            *v += 20.0 * (-since / 20.0).exp() * (0.4 * PI * since).sin();
+            *v += 10.0 * (0.8 * PI * k as f64).cos();
+        }
+        let found = kurtosis(values, 0.99);
+        let top = (0..found.kurtosis.len())
+            .max_by(|a, b| found.kurtosis[*a].total_cmp(&found.kurtosis[*b]));
+        let top_hz = found.frequency_hz[top.expect("bins")];
+        assert!((top_hz - 2000.0).abs() <= found.resolution_hz, "{top_hz}");
+        assert!(found.kurtosis[top.expect("bins")] > 5.0 * found.limit);
+        let at_4000 = found
+            .frequency_hz
+            .iter()
+            .position(|f| (f - 4000.0).abs() < 80.0);
+        assert!((found.kurtosis[at_4000.expect("a bin")] + 1.0).abs() < 0.05);
+        assert!((found.resolution_hz - 312.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn overlap_adds_no_more_than_it_is_worth() {
+        let series = TimeSeries::new(0.0, 1.0, "N", gaussian(8000, 1)).expect("a valid series");
+        let of = |window, overlap| {
+            let found = spectral_kurtosis(&series, window, 64, overlap, 0.99);
+            found.expect("kurtosis").independent_segments
+        };
+        assert!((of(WindowFunction::Boxcar, 0) - 125.0).abs() < 1e-9);
+        // Hann: rho(half) = 1/6
+        let half = 249.0 / (1.0 + 2.0 / 6_f64.powi(4));
+        assert!((of(WindowFunction::Hann, 32) - half).abs() < 1e-3 * half);
+        // one sample apart: nearly as many times less worth as there are more
+        assert!(of(WindowFunction::Hann, 63) < 2.0 * half);
+    }
+
+    #[test]
+    fn errors_fire_with_their_exact_messages() {
+        let series = TimeSeries::new(0.0, 1.0, "N", vec![1.0; 300]).expect("a valid series");
+        let message = |segment, overlap, confidence| {
+            let boxcar = WindowFunction::Boxcar;
+            let found = spectral_kurtosis(&series, boxcar, segment, overlap, confidence);
+            found.expect_err("must fail").to_string()
+        };
+        assert!(message(3, 0, 0.9).starts_with("segments must have 2 to 300 samples"));
+        assert!(message(8, 8, 0.9).starts_with("segments must have"));
+        assert!(message(301, 8, 0.9).starts_with("segments must have"));
+        assert_eq!(
+            message(40, 0, 0.9),
+            "series has 300 samples, the filter or transform needs at least 320"
+        );
+        assert_eq!(
+            message(4, 0, 1.0),
+            "confidence must lie between 0 and 1, found 1"
+        );
+        let silent = spectral_kurtosis(&series, WindowFunction::Hann, 4, 2, 0.9).expect("zeros");
+        assert!(silent.kurtosis.iter().all(|k| k.abs() <= 0.0));
+    }
+}
