@@ -115,16 +115,6 @@ pub enum CaseError {
         /// What the key takes.
         expected: String,
     },
-    /// A key or value of the case-file format that this version cannot honour.
-    #[error("{place}: `{key}` is not supported yet by this version")]
-    NotSupported {
-        /// Where it was written.
-        place: Place,
-        /// Full path of the key, with its value where only that value is not supported.
-        key: String,
-        /// What can be written instead.
-        instead: &'static str,
-    },
     /// A value outside its range, or one that contradicts another.
     #[error("{place}: `{key}`: {rule}")]
     Rule {
@@ -169,7 +159,6 @@ impl CaseError {
             Self::Set { problem, .. } => Some(problem.help().to_owned()),
             Self::UnknownKey { keys, .. } => Some(keys.help("keys")),
             Self::UnknownName { names, .. } => Some(names.help("names")),
-            Self::NotSupported { instead, .. } => Some((*instead).to_owned()),
             Self::Rule { rule, .. } => rule.help(),
             Self::MissingTable { table, .. } => Some(format!("add {table} to the case file")),
             Self::Variant { source, .. } => source.help(),

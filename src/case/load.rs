@@ -8,7 +8,7 @@ use super::check::{BrokenRule, groups_of};
 use super::document::{Document, Source};
 use super::error::{CaseError, Place};
 use super::nearest::Choices;
-use super::{Case, Defect, HousingSource, Interface, Linearise, material, unsupported};
+use super::{Case, Defect, HousingSource, Interface, Linearise, material};
 
 /// What a case is to be used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,7 +68,6 @@ impl Case {
 
     fn without_variants(source: Source) -> Result<Self, CaseError> {
         let document = Document::read(&source)?;
-        unsupported::refuse(&document)?;
         let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
         material::add_built_in(&mut case.materials);
         if let Some(folder) = source.path.parent() {

@@ -49,7 +49,6 @@ mod tests;
 mod transient;
 mod tree;
 mod union;
-mod unsupported;
 
 use std::collections::BTreeMap;
 
@@ -83,7 +82,7 @@ pub use sensor::{Sensor, SensorSpot};
 pub use set::SetProblem;
 pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
 pub use transient::{
-    Accuracy, Analysis, Ensemble, Method, ModesKept, StepLength, Transient, Window,
+    Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient, Window,
 };
 
 /// One case: everything that a command computes from, but the mesh.

@@ -210,10 +210,32 @@ pub struct Analysis {
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
     pub envelope: Vec<Window>,
+    /// Scalogram of every sensor; `None`: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scalogram: Option<ScalogramWindow>,
     /// Whether the balance of the run's energy is taken, which costs up to a third of a fast run's time; `None`:
     /// of runs of up to 100 000 samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<bool>,
+}
+
+/// What a scalogram shows: amplitude over time and frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScalogramWindow {
+    /// In s.
+    pub from: f64,
+    /// In s, after `from`.
+    pub to: f64,
+    /// Lowest and highest frequency in Hz; the highest below half the sampling rate.
+    pub band_hz: [f64; 2],
+    /// Cycles of the wavelet, 2 to 1000: more tell frequencies apart better, and instants worse.
+    #[serde(default = "usual_cycles")]
+    pub cycles: f64,
+}
+
+fn usual_cycles() -> f64 {
+    6.0
 }
 
 /// A stretch of time within the simulation.

@@ -8,7 +8,8 @@ use crate::linalg::DenseMatrix;
 use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
     ChosenPart, CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModelChoice, ModesResult,
-    Reading, Recording, ReducedInterface, RunEnd, RunResult, StageError, StructureStage,
+    Reading, Recording, ReducedInterface, RunEnd, RunResult, SensorScalogram, StageError,
+    StructureStage,
 };
 use crate::system::{BallsInertia, Column};
 use serde_json::{Map, Value, json};
@@ -424,4 +425,38 @@ pub(super) fn write_signals<R: Recording>(
     };
     write()?;
     Ok(path)
+}
+
+/// `scalogram.npz`: `time_s`, `frequency_hz` and of each sensor its amplitudes \[frequencies x instants\], m/s^2.
+///
+/// # Errors
+/// [`CliError`] if it cannot be written.
+pub(super) fn write_scalograms(
+    folder: &OutputFolder,
+    scalograms: &[SensorScalogram],
+) -> Result<Option<PathBuf>, CliError> {
+    let Some(SensorScalogram {
+        scalogram: axes, ..
+    }) = scalograms.first()
+    else {
+        return Ok(None);
+    };
+    let path = folder.path().join("scalogram.npz");
+    let (rows, columns) = (axes.frequency_hz.len(), axes.time_s.len());
+    let write = || -> Result<(), StageError> {
+        let mut npz = NpzWriter::create(&path)?;
+        npz.array("time_s", &axes.time_s)?;
+        npz.array("frequency_hz", &axes.frequency_hz)?;
+        for of_sensor in scalograms {
+            npz.matrix(
+                &of_sensor.sensor,
+                rows,
+                columns,
+                &of_sensor.scalogram.amplitude,
+            )?;
+        }
+        Ok(npz.finish()?)
+    };
+    write()?;
+    Ok(Some(path))
 }

@@ -1,7 +1,7 @@
 //! `plummer run`: the simulation in time.
 
 use super::report_files::ReportFiles;
-use super::results::{choice_json, run_json, write_signals};
+use super::results::{choice_json, run_json, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
 use crate::stages::{
@@ -62,7 +62,8 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
         error => error.into(),
     })?;
     progress.stage("write");
-    let signals = write_signals(&folder, &result)?;
+    let mut arrays = vec![write_signals(&folder, &result)?];
+    arrays.extend(write_scalograms(&folder, &result.scalograms)?);
     let command = options.command_line("run", case);
     let report = run_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "run", case, report)?;
@@ -79,7 +80,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     Ok(Outcome {
         summary: summary(&result),
         result: json,
-        written: [vec![signals, json_path], files.paths].concat(),
+        written: [arrays, vec![json_path], files.paths].concat(),
         verdict: verdict(&result),
     })
 }

@@ -56,6 +56,17 @@ impl Scalogram {
         let to = from.saturating_add(instants);
         self.amplitude.get(from..to).unwrap_or_default()
     }
+
+    /// The instants from `from_s` to `to_s` alone, s.
+    #[must_use]
+    pub fn within(mut self, from_s: f64, to_s: f64) -> Self {
+        let first = self.time_s.partition_point(|t| *t < from_s);
+        let end = self.time_s.partition_point(|t| *t <= to_s).max(first);
+        let rows = self.amplitude.chunks(self.time_s.len().max(1));
+        self.amplitude = rows.flat_map(|row| &row[first..end]).copied().collect();
+        self.time_s = self.time_s[first..end].to_vec();
+        self
+    }
 }
 
 /// Where one wavelet lies in the transform of the signal, and the transform back of what it lets through.

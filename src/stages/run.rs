@@ -3,8 +3,8 @@
 use super::bearing_table;
 use super::statics::Statics;
 use super::{
-    InMemory, Keeper, ModelChoice, Recording, RunEnd, Scene, Simulation, Span, StageError, Watch,
-    WindowAnalysis, analyse,
+    InMemory, Keeper, ModelChoice, Recording, RunEnd, Scene, SensorScalogram, Simulation, Span,
+    StageError, Watch, WindowAnalysis, analyse,
 };
 use crate::case::Case;
 use crate::report::Table;
@@ -32,6 +32,8 @@ pub struct RunResult<R = RunRecord> {
     pub simulation: Simulation<R>,
     /// Analysed windows of all sensors.
     pub windows: Vec<WindowAnalysis>,
+    /// Scalograms of all sensors, if the case asks for them.
+    pub scalograms: Vec<SensorScalogram>,
     /// Windows or sensors that could not be analysed, and why.
     pub not_analysed: Vec<String>,
 }
@@ -93,6 +95,7 @@ pub fn compute_kept_run<K: Keeper>(
         loaded,
         simulation,
         windows: Vec::new(),
+        scalograms: Vec::new(),
         not_analysed: Vec::new(),
     };
     watch.stage("analyse");
@@ -118,6 +121,13 @@ impl<R: Recording> RunResult<R> {
             let analysed = analyse(case, name, read, &self.scene.setup);
             match analysed {
                 Ok(windows) => self.windows.extend(windows),
+                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
+            }
+            let Some(window) = case.analysis.scalogram else {
+                continue;
+            };
+            match SensorScalogram::of(&self.simulation, index, window) {
+                Ok(scalogram) => self.scalograms.push(scalogram),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),
             }
         }

@@ -36,6 +36,9 @@ pub fn run_report<R: Recording>(
     for window in &result.windows {
         report = report.section(envelope(window));
     }
+    for scalogram in &result.scalograms {
+        report = report.section(scalogram.section());
+    }
     report = report.section(frequencies(case, result));
     report = report.section(
         Section::new("Model")

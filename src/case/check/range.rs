@@ -75,6 +75,16 @@ pub(super) fn loss_factor(key: impl Into<String>, found: f64) -> Result<(), Brok
     )
 }
 
+/// Cycles of a wavelet.
+pub(super) fn cycles(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    within(
+        (2.0..=1000.0).contains(&found),
+        key,
+        found,
+        "a number from 2 to 1000",
+    )
+}
+
 pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
     within(
         found > -1.0 && found < 0.5,

@@ -5,8 +5,8 @@ use super::super::{
     ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, direction, each_once, fraction, known_sensor, not_empty, ratio,
-    share, zero_or_more, zero_to_one,
+    above, above_zero, below, cycles, direction, each_once, fraction, known_sensor, not_empty,
+    ratio, share, zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
 
@@ -320,18 +320,44 @@ pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
     }
     for (index, window) in case.analysis.envelope.iter().enumerate() {
         let key = format!("analysis.envelope[{index}]");
-        above(format!("{key}.to"), window.to, "`from`", window.from)?;
-        if let Some(transient) = &case.transient
-            && (window.from < transient.start || window.to > transient.end)
-        {
-            return Err(Rule::OutsideRun {
-                from: window.from,
-                to: window.to,
-                start: transient.start,
-                end: transient.end,
-            }
-            .at(key));
+        within_run(case, &key, [window.from, window.to])?;
+    }
+    if let Some(scalogram) = &case.analysis.scalogram {
+        let key = "analysis.scalogram";
+        within_run(case, key, [scalogram.from, scalogram.to])?;
+        let [low, high] = scalogram.band_hz;
+        above_zero(format!("{key}.band_hz[0]"), low)?;
+        above(
+            format!("{key}.band_hz[1]"),
+            high,
+            "the lowest frequency",
+            low,
+        )?;
+        if let Some(transient) = &case.transient {
+            let limit = 0.5 * transient.output_hz;
+            below(
+                format!("{key}.band_hz[1]"),
+                high,
+                "half of `transient.output_hz`",
+                limit,
+            )?;
         }
+        cycles(format!("{key}.cycles"), scalogram.cycles)?;
     }
     Ok(())
+}
+
+/// A window of that key is one, and lies in the simulation.
+fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), BrokenRule> {
+    above(format!("{key}.to"), to, "`from`", from)?;
+    match &case.transient {
+        Some(transient) if from < transient.start || to > transient.end => Err(Rule::OutsideRun {
+            from,
+            to,
+            start: transient.start,
+            end: transient.end,
+        }
+        .at(key)),
+        _ => Ok(()),
+    }
 }
