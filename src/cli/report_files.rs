@@ -1,15 +1,16 @@
-//! A command's report with its tables beside it.
+//! A command's report with its tables and figures beside it.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::{CliError, OutputFolder};
 use crate::case::Case;
 use crate::report::{Document, MeshFile, Report};
 use crate::stages::{MeshDigest, StageError, mesh_digests};
 
-/// Folder of the tables, in that of the results.
+/// Folders of the tables and of the figures, in that of the results.
 const TABLES: &str = "tables";
+const FIGURES: &str = "figures";
 
 /// What was written of a report, and what it rests on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,13 +19,13 @@ pub(super) struct ReportFiles {
     pub(super) meshes: Vec<MeshDigest>,
     /// Names of the tables' files in the folder of the results.
     pub(super) tables: Vec<String>,
-    /// What to name to the reader: the tables' folder, the report.
+    /// What to name to the reader: the folders of tables and figures, the report.
     pub(super) paths: Vec<PathBuf>,
 }
 
 impl ReportFiles {
-    /// Writes the report of a command and each of its tables as `tables/COMMAND-NUMBER-CAPTION.csv`; the meshes go into
-    /// the report's head. Tables of an earlier report of this command are removed.
+    /// Writes the report of a command, each of its tables as `tables/COMMAND-NUMBER-CAPTION.csv` and each of its plots as
+    /// `figures/COMMAND-NUMBER-TITLE.svg`; the meshes go into the report's head. Those of an earlier report of this command are removed.
     ///
     /// # Errors
     /// [`CliError`] when a mesh cannot be read, the report's contents do not fit together or a file cannot be written.
@@ -55,49 +56,65 @@ impl ReportFiles {
     ) -> Result<Self, CliError> {
         let report = report.tables_in(TABLES, command);
         let html = report.to_html().map_err(StageError::from)?;
-        remove_earlier(folder, command)?;
-        let mut tables = Vec::new();
+        let figures = report.svg_files(command).map_err(StageError::from)?;
+        let tables = report.csv_files();
+        let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
+        let figures = figures
+            .into_iter()
+            .map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
-        for (name, text) in report.csv_files() {
-            folder.write(&name, text.as_bytes())?;
-            tables.push(name);
-        }
-        if !tables.is_empty() {
-            paths.push(folder.path().join(TABLES));
+        for (of, ending, files) in [
+            (TABLES, ".csv", tables),
+            (FIGURES, ".svg", figures.collect()),
+        ] {
+            let path = folder.path().join(of);
+            remove_earlier(&path, command, ending)?;
+            if files.is_empty() {
+                continue;
+            }
+            fs::create_dir_all(&path).map_err(|source| CliError::Folder {
+                path: path.clone(),
+                source,
+            })?;
+            for (name, text) in files {
+                folder.write(&name, text.as_bytes())?;
+            }
+            paths.push(path);
         }
         paths.push(folder.write(&folder.report_name(command), html.as_bytes())?);
         Ok(Self {
             meshes: Vec::new(),
-            tables,
+            tables: named,
             paths,
         })
     }
 }
 
-/// Makes the tables' folder and removes what an earlier report of the command left there, and nothing else.
-fn remove_earlier(folder: &OutputFolder, command: &str) -> Result<(), CliError> {
-    let path = folder.path().join(TABLES);
+/// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
+fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
     let failed = |source| CliError::Folder {
-        path: path.clone(),
+        path: path.to_owned(),
         source,
     };
-    fs::create_dir_all(&path).map_err(failed)?;
-    for entry in fs::read_dir(&path).map_err(failed)? {
+    if !path.is_dir() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(path).map_err(failed)? {
         let entry = entry.map_err(failed)?;
-        if is_table_of(command, &entry.file_name().to_string_lossy()) {
+        if is_of_report(command, &entry.file_name().to_string_lossy(), ending) {
             fs::remove_file(entry.path()).map_err(failed)?;
         }
     }
     Ok(())
 }
 
-/// Whether a file's name is `COMMAND-NUMBER-CAPTION.csv`.
-fn is_table_of(command: &str, name: &str) -> bool {
+/// Whether a file's name is `COMMAND-NUMBER-CAPTION` and that ending.
+fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
     let rest = name
         .strip_prefix(command)
         .and_then(|rest| rest.strip_prefix('-'));
     let number = rest
-        .and_then(|rest| rest.strip_suffix(".csv"))
+        .and_then(|rest| rest.strip_suffix(ending))
         .and_then(|rest| rest.split_once('-'));
     number
         .is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
@@ -105,10 +122,10 @@ fn is_table_of(command: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_table_of;
+    use super::is_of_report;
 
     #[test]
-    fn only_tables_of_the_command_are_told() {
+    fn only_files_of_the_command_are_told() {
         for (name, expected) in [
             ("modes-1-eigenfrequencies.csv", true),
             ("modes-12-a-b.csv", true),
@@ -118,8 +135,9 @@ mod tests {
             ("modes--a.csv", false),
             ("modes-1-notes.txt", false),
             ("my-modes-1-a.csv", false),
+            ("modes-1-a.svg", false),
         ] {
-            assert_eq!(is_table_of("modes", name), expected, "{name}");
+            assert_eq!(is_of_report("modes", name, ".csv"), expected, "{name}");
         }
     }
 }

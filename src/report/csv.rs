@@ -58,20 +58,25 @@ impl Table {
     /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
     #[must_use]
     pub fn csv_name(&self) -> String {
-        let mut name = String::new();
-        for c in self.caption.chars().flat_map(char::to_lowercase) {
-            if name.len() >= LONGEST_NAME {
-                break;
-            }
-            if c.is_ascii_alphanumeric() {
-                name.push(c);
-            } else if !name.is_empty() && !name.ends_with('-') {
-                name.push('-');
-            }
-        }
-        let name = name.trim_end_matches('-');
-        format!("{}.csv", if name.is_empty() { "table" } else { name })
+        format!("{}.csv", plain_name(&self.caption, "table"))
     }
+}
+
+/// Small letters, digits and hyphens of a text, for the name of a file; `or` if there are none.
+pub(super) fn plain_name(text: &str, or: &str) -> String {
+    let mut name = String::new();
+    for c in text.chars().flat_map(char::to_lowercase) {
+        if name.len() >= LONGEST_NAME {
+            break;
+        }
+        if c.is_ascii_alphanumeric() {
+            name.push(c);
+        } else if !name.is_empty() && !name.ends_with('-') {
+            name.push('-');
+        }
+    }
+    let name = name.trim_end_matches('-');
+    if name.is_empty() { or } else { name }.to_owned()
 }
 
 impl Report {

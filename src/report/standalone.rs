@@ -2,10 +2,13 @@
 
 use std::fmt::Write;
 
+use super::csv::plain_name;
 use super::layout::{Layout, WIDTH};
 use super::svg::escape;
 use super::svg_plot::COLOURS;
-use super::{Curve, CurveStyle, Plot, ReportError, Spans, StepMap, spans, step_map, svg_plot};
+use super::{
+    Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg_plot,
+};
 
 /// The report's colours, written out: a file of its own has no style sheet to ask.
 const PALETTE: [&str; COLOURS] = [
@@ -27,6 +30,25 @@ impl Plot {
         let named = named.filter(|(_, curve)| !curve.name.is_empty());
         let entries: Vec<Entry> = named.map(|(k, curve)| Entry::of(curve, k)).collect();
         Ok(file(&self.title, &entries, &inner, layout.height))
+    }
+}
+
+impl Report {
+    /// Name and content ([`Plot::to_svg`]) of each plot's file, in the order of the page: `PREFIX-NUMBER-TITLE.svg`.
+    ///
+    /// # Errors
+    /// As [`Plot::to_svg`].
+    pub fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
+        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
+        let plots = blocks.filter_map(|block| match block {
+            Block::Plot(plot) => Some(plot),
+            _ => None,
+        });
+        let file = |(number, plot): (usize, &Plot)| {
+            let name = plain_name(&plot.title, "plot");
+            Ok((format!("{prefix}-{number}-{name}.svg"), plot.to_svg()?))
+        };
+        (1..).zip(plots).map(file).collect()
     }
 }
 

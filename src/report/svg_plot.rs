@@ -15,6 +15,9 @@ pub(super) const COLOURS: usize = 6;
 /// Most points of a curve in the picture: two a pixel column.
 const MOST_POINTS: usize = 2 * WIDTH as usize;
 
+/// Lines of the grid that lie over a picture.
+const FAINT: &str = " stroke-opacity=\"0.2\"";
+
 /// The SVG element of a plot; `id` must be unique on the page.
 ///
 /// # Errors
@@ -34,7 +37,7 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
     if let Some(raster) = &plot.raster {
         out.push_str(&raster::picture(raster, plot, layout, id)?);
     }
-    grid(&mut out, layout);
+    grid(&mut out, plot, layout);
     markers(&mut out, layout);
     levels(&mut out, plot, layout);
     let _ = write!(out, "<g clip-path=\"url(#{id}-clip)\">");
@@ -63,7 +66,9 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
     Ok(out)
 }
 
-fn grid(out: &mut String, layout: &Layout) {
+fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
+    // faint over a picture
+    let look = plot.raster.as_ref().map_or("", |_| FAINT);
     let choose = |log: bool, low, high, wanted| -> Vec<Tick> {
         if log {
             ticks::log(low, high, wanted)
@@ -74,7 +79,7 @@ fn grid(out: &mut String, layout: &Layout) {
     let (left, right, top, bottom) = (layout.left, layout.right, layout.top, layout.bottom);
     for tick in choose(layout.x.log, layout.x.low, layout.x.high, TICKS[0]) {
         let x = tenth(layout.x_px(tick.at));
-        line(out, &tick, [x, top, x, bottom]);
+        line(out, &tick, look, [x, top, x, bottom]);
         if let Some(label) = tick.label {
             let y = bottom + 16.0;
             let _ = write!(
@@ -85,7 +90,7 @@ fn grid(out: &mut String, layout: &Layout) {
     }
     for tick in choose(layout.y.log, layout.y.low, layout.y.high, TICKS[1]) {
         let y = tenth(layout.y_px(tick.at));
-        line(out, &tick, [left, y, right, y]);
+        line(out, &tick, look, [left, y, right, y]);
         if let Some(label) = tick.label {
             let (x, y) = (left - 7.0, y + 4.0);
             let _ = write!(
@@ -96,11 +101,11 @@ fn grid(out: &mut String, layout: &Layout) {
     }
 }
 
-fn line(out: &mut String, tick: &Tick, [x1, y1, x2, y2]: [f64; 4]) {
+fn line(out: &mut String, tick: &Tick, look: &str, [x1, y1, x2, y2]: [f64; 4]) {
     let class = if tick.label.is_some() { "grid" } else { "fine" };
     let _ = write!(
         out,
-        "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
+        "<line class=\"{class}\"{look} x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
     );
 }
 

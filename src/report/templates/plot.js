@@ -145,7 +145,8 @@
         const [left, right] = d.raster.x.map((v) => this.xPixel(v)), [bottom, top] = d.raster.y.map((v) => this.yPixel(v));
         out.push(`<g clip-path="url(#${this.clip})"><image class="raster" x="${tenth(left)}" y="${tenth(top)}" width="${tenth(right - left)}" height="${tenth(bottom - top)}" preserveAspectRatio="none" href="${this.picture}"/></g>`);
       }
-      const line = (tick, x1, y1, x2, y2) => out.push(`<line class="${tick.label === null ? "fine" : "grid"}" x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}"/>`);
+      const look = d.raster ? ' stroke-opacity="0.2"' : "";
+      const line = (tick, x1, y1, x2, y2) => out.push(`<line class="${tick.label === null ? "fine" : "grid"}"${look} x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}"/>`);
       for (const tick of (this.x.log ? logTicks : linearTicks)(this.x.low, this.x.high, d.ticks[0])) {
         const x = tenth(this.xPixel(tick.at));
         line(tick, x, d.top, x, d.bottom);
