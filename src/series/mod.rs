@@ -11,6 +11,6 @@ mod time_series;
 
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS};
 pub use error::SeriesError;
-pub use kaiser::KaiserLowPass;
+pub use kaiser::{KaiserInterpolation, KaiserLowPass};
 pub(crate) use statistics::root_mean_square;
 pub use time_series::{TimeSeries, TimeWindow};

@@ -139,6 +139,54 @@ pub enum SignalError {
         /// Most levels offered.
         most: usize,
     },
+    /// Instants of a speed that are too few or out of order.
+    #[error(
+        "speed must be known at two instants at least, finite and in order of time, found {points} instants"
+    )]
+    SpeedPoints {
+        /// Instants given.
+        points: usize,
+    },
+    /// A speed that is not positive.
+    #[error(
+        "shaft speed must be positive throughout, found {speed_hz} Hz at {time_s} s: take a stretch in which the shaft turns one way"
+    )]
+    Speed {
+        /// Instant, s.
+        time_s: f64,
+        /// Speed there, Hz.
+        speed_hz: f64,
+    },
+    /// Samples per turn that are not offered.
+    #[error("samples per turn must be 2 to {most}, found {samples_per_turn}")]
+    SamplesPerTurn {
+        /// Samples per turn as given.
+        samples_per_turn: usize,
+        /// Most samples per turn offered.
+        most: usize,
+    },
+    /// Too few turns of the shaft.
+    #[error("{turns} turns are known, at least {needed} needed")]
+    FewTurns {
+        /// Turns found.
+        turns: f64,
+        /// Turns needed.
+        needed: usize,
+    },
+    /// An order of a line that is not positive.
+    #[error("order of a line must be positive, found {order}")]
+    OrderOfLine {
+        /// Order as given.
+        order: f64,
+    },
+    /// Too few readings of a speed to know their scatter.
+    #[error("{readings} readings of the speed, at least {needed} needed: take a longer stretch")]
+    FewReadings {
+        /// Readings found.
+        readings: usize,
+        /// Readings needed.
+        needed: usize,
+    },
     /// Windows that do not move.
     #[error("windows must move by at least one sample, found 0")]
     Hop,

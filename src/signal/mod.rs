@@ -7,6 +7,7 @@
 //!
 //! Nothing here knows of simulations: a measured signal goes the same way.
 
+mod angle_series;
 mod band_limit;
 mod butterworth;
 mod compare;
@@ -27,12 +28,15 @@ mod peaks;
 mod reference;
 mod ridge;
 mod scalogram;
+mod shaft_angle;
 mod spectral_kurtosis;
 mod spectrum;
+mod speed_estimate;
 mod third_octave;
 mod welch;
 mod window_function;
 
+pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
 pub use band_limit::{band_limit, band_limit_edge_s};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
@@ -45,8 +49,10 @@ pub use lines::{EnvelopePeak, LineMatch, NamedLine, PeakSearch, envelope_peaks, 
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
 pub use scalogram::{Scalogram, WaveletTransform};
+pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
 pub use spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
+pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
 pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
 pub use window_function::WindowFunction;
