@@ -17,7 +17,7 @@
 //! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
 //! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
 //! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and the integrators.
-//! 9. [`series`], [`signal`]: recorded signals, envelope spectra.
+//! 9. [`series`], [`signal`]: recorded signals; filters, spectra, scalograms, orders, kurtograms.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
 //! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation.

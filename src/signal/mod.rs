@@ -5,6 +5,10 @@
 //! lines. [`EnvelopeAnalysis`] does all of it over one window. [`band_limit`] and [`relative_difference`] compare the
 //! signals of two methods in the band that matters.
 //!
+//! Beside it: power spectra ([`Welch`]), amplitude over time and frequency ([`WaveletTransform`]), orders of a shaft
+//! ([`ShaftAngle`], [`AngleSeries`], [`SpeedSearch`]), and what is impulsive, when and in which band ([`moving_figures`],
+//! [`spectral_kurtosis()`], [`kurtogram()`]).
+//!
 //! Nothing here knows of simulations: a measured signal goes the same way.
 
 mod angle_series;

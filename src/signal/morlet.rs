@@ -15,7 +15,7 @@ pub(super) const REACH: f64 = 8.6;
 /// frequency a tone is read off its place, more so the fewer the cycles.) The envelope is a Gaussian with a standard
 /// deviation of w_p / (2 pi f) seconds, the response one of f w0 / w_p^2 hertz, about f / cycles.
 ///
-/// Source: I. Daubechies, "Ten Lectures on Wavelets", SIAM, 1992, eq. (3.3.24) to (3.3.26); C. Torrence and G. P. Compo,
+/// Source: I. Daubechies, "Ten Lectures on Wavelets", SIAM, 1992, chapter 3; C. Torrence and G. P. Compo,
 /// "A practical guide to wavelet analysis", Bull. Am. Meteorological Society 79 (1998) 61-78 (analytic form, cone of
 /// influence).
 #[derive(Debug, Clone, Copy, PartialEq)]

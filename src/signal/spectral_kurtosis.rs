@@ -35,8 +35,8 @@ pub struct SpectralKurtosis {
 /// M / sum_i |rho(i hop)|^4, rho the window's correlation with itself moved by i hops.
 ///
 /// Source: J. Antoni, "The spectral kurtosis: a useful tool for characterising non-stationary signals", Mechanical Systems
-/// and Signal Processing 20 (2006) 282-307, eq. (41), with a limit for few segments
-/// (Nita and Gary 2010 instead of the normal law of its section 5.2).
+/// and Signal Processing 20 (2006) 282-307, with a limit for few segments
+/// (Nita and Gary 2010) instead of the normal law.
 ///
 /// # Errors
 /// [`SignalError::Segments`]; [`SignalError::TooShort`] below 8 independent segments; [`SignalError::Confidence`].
