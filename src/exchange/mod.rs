@@ -10,6 +10,7 @@
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
 //! | superelement ([`superelement`]) | `.npz`, `.op4`, `.fem` | everything of a condensed housing | `.npz` |
 //! | columns of a run under way ([`ColumnFiles`]) | `.f64` | time, sensors, forces | the same |
+//! | measured signals ([`measured`]) | `.npz`, `.csv`, `.wav`, `.uff` | | signals over time |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
 //! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.
@@ -21,6 +22,7 @@ pub mod csv;
 pub mod dof_table;
 mod fortran;
 pub mod matrix_market;
+pub mod measured;
 mod mode_shapes;
 pub mod npz;
 pub mod op4;
@@ -36,6 +38,7 @@ pub use dof_table::{
     DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,
 };
 pub use matrix_market::{MatrixMarketError, write_dense_matrix_market, write_matrix_market};
+pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::{ModeShapes, ModeShapesError};
 pub use npz::{
     NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, read_modes_npz, write_modes_npz,

@@ -23,6 +23,7 @@ use std::io::Write;
 use std::path::Path;
 
 pub use error::CsvError;
+pub(super) use read::line_of;
 pub use read::{modes_from_bytes, read_modes_csv};
 
 use super::{ModeShapes, write_atomic};

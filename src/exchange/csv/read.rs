@@ -17,7 +17,7 @@ struct Fault {
 }
 
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
-fn line_of(text: &str, place: &Position) -> u64 {
+pub(in super::super) fn line_of(text: &str, place: &Position) -> u64 {
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
     let passed = rest
         .lines()

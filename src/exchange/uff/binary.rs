@@ -1,14 +1,26 @@
-//! Goes past binary functions, dataset 58b.
+//! Binary functions, dataset 58b.
 
 use super::cursor::{Cursor, Fault, Line};
 use super::read::skip;
 use super::read_response::Form;
 
-/// Goes past a dataset 58b, whose first line is `head`, to the line that ends it; returns its lines of text.
+/// What a dataset 58b has.
+pub(super) struct Binary<'a> {
+    /// Its lines of text, those of a dataset 58 before the values.
+    pub(super) lines: Vec<Line>,
+    /// The bytes of its numbers.
+    pub(super) bytes: &'a [u8],
+    /// Whether the lowest byte comes first.
+    little_endian: bool,
+    /// Whether the numbers are those of IEEE 754.
+    pub(super) ieee: bool,
+}
+
+/// Reads a dataset 58b, whose first line is `head`, to the line that ends it.
 ///
 /// Some programs give the bytes of half a complex function. Where the dataset does not end after as many bytes as its head
 /// says, those are taken that its form asks for.
-pub(super) fn skip_binary(cursor: &mut Cursor, head: &Line) -> Result<Vec<Line>, Fault> {
+pub(super) fn read_binary<'a>(cursor: &mut Cursor<'a>, head: &Line) -> Result<Binary<'a>, Fault> {
     // fields after 58b: byte order, number format, lines of text, bytes of numbers
     let words: Vec<&str> = head.text.split_ascii_whitespace().collect();
     let number = |place: usize| words.get(place).and_then(|word| word.parse().ok());
@@ -23,9 +35,35 @@ pub(super) fn skip_binary(cursor: &mut Cursor, head: &Line) -> Result<Vec<Line>,
     let mut sizes = vec![bytes];
     sizes.extend(form.iter().flat_map(sizes_of));
     let ends = sizes.iter().find(|&&bytes| cursor.delimiter_after(bytes));
-    cursor.skip(ends.copied().unwrap_or(bytes));
+    let bytes = cursor.take(ends.copied().unwrap_or(bytes));
     skip(cursor)?;
-    Ok(lines)
+    Ok(Binary {
+        lines,
+        bytes,
+        little_endian: number(1) != Some(2),
+        ieee: number(2) == Some(2),
+    })
+}
+
+impl Binary<'_> {
+    /// The numbers, in single or double precision; a rest that is no whole number is left out.
+    pub(super) fn numbers(&self, single: bool) -> Vec<f64> {
+        if single {
+            let real = match self.little_endian {
+                true => f32::from_le_bytes,
+                false => f32::from_be_bytes,
+            };
+            let (chunks, _) = self.bytes.as_chunks::<4>();
+            chunks.iter().map(|chunk| f64::from(real(*chunk))).collect()
+        } else {
+            let real = match self.little_endian {
+                true => f64::from_le_bytes,
+                false => f64::from_be_bytes,
+            };
+            let (chunks, _) = self.bytes.as_chunks::<8>();
+            chunks.iter().map(|chunk| real(*chunk)).collect()
+        }
+    }
 }
 
 /// Bytes of a function's numbers; an uneven abscissa has single precision, or that of the values.

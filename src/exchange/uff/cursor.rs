@@ -136,8 +136,10 @@ impl<'a> Cursor<'a> {
         lines.next().is_some_and(|line| line.trim_ascii() == b"-1")
     }
 
-    /// Goes past bytes that are no text.
-    pub(super) fn skip(&mut self, bytes: usize) {
-        self.rest = self.rest.get(bytes..).unwrap_or_default();
+    /// Takes bytes that are no text: as many as there are at most.
+    pub(super) fn take(&mut self, bytes: usize) -> &'a [u8] {
+        let (taken, rest) = self.rest.split_at(bytes.min(self.rest.len()));
+        self.rest = rest;
+        taken
     }
 }

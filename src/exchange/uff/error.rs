@@ -109,4 +109,13 @@ pub enum UffError {
         /// The file.
         path: PathBuf,
     },
+    /// A file without signals over time.
+    #[error(
+        "{}: expected signals over time (dataset 58 or 58b, function type 1, abscissa 17), found none",
+        path.display()
+    )]
+    NoTimes {
+        /// The file.
+        path: PathBuf,
+    },
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::super::ModeShapes;
 use super::UffError;
-use super::binary::skip_binary;
+use super::binary::read_binary;
 use super::cursor::{Cursor, Fault, Line};
 use super::mode::{Mode, read_mode};
 
@@ -142,7 +142,7 @@ impl Content {
                 self.modes.extend(read_mode(cursor)?);
                 Ok(())
             }
-            ["58b", ..] => skip_binary(cursor, &head).map(|_| ()),
+            ["58b", ..] => read_binary(cursor, &head).map(|_| ()),
             [number, ..] if number.parse::<u32>().is_ok() => skip(cursor),
             _ => Err(head.fault(NUMBER)),
         }

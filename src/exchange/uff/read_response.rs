@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::fortran::{columns, real};
 use super::UffError;
-use super::binary::skip_binary;
+use super::binary::read_binary;
 use super::cursor::{Cursor, Fault, Line};
 use super::read::skip;
 use super::response::{FrequencyResponse, ResponseKind, ResponsePoint};
@@ -47,7 +47,7 @@ pub fn responses_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<FrequencyRe
             path: path.to_owned(),
         });
     }
-    let scale = responses.per_newton / responses.per_metre;
+    let scale = responses.units.per_newton / responses.units.per_metre;
     for (index, response) in responses.list.iter_mut().enumerate() {
         for part in response.value.as_flattened_mut() {
             *part *= scale;
@@ -62,32 +62,33 @@ pub fn responses_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<FrequencyRe
 /// What a file has gathered so far.
 struct Content {
     list: Vec<FrequencyResponse>,
-    /// File's units of length in a metre, of force in a newton.
-    per_metre: f64,
-    per_newton: f64,
+    units: Units,
+}
+
+/// Units of a file, by dataset 164.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Units {
+    /// File's units of length in a metre.
+    pub(super) per_metre: f64,
+    /// File's units of force in a newton.
+    pub(super) per_newton: f64,
+}
+
+impl Units {
+    /// Of a file that says nothing.
+    pub(super) const SI: Self = Self {
+        per_metre: 1.0,
+        per_newton: 1.0,
+    };
 }
 
 fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let mut cursor = Cursor::new(bytes);
     let mut content = Content {
         list: Vec::new(),
-        per_metre: 1.0,
-        per_newton: 1.0,
+        units: Units::SI,
     };
-    while let Some(line) = cursor.next() {
-        if !line.is_delimiter() {
-            continue;
-        }
-        let mut head = cursor.next();
-        while head
-            .as_ref()
-            .is_some_and(|line| line.text.trim().is_empty())
-        {
-            head = cursor.next();
-        }
-        let Some(head) = head else {
-            break;
-        };
+    while let Some(head) = next_dataset(&mut cursor) {
         match head.text.split_ascii_whitespace().next() {
             Some("58") => content.list.extend(response(&mut cursor)?),
             Some("58b") => {
@@ -95,9 +96,7 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
                     return Err(head.fault("frequency responses as text (dataset 58)"));
                 }
             }
-            Some("164") => units(&mut cursor, &mut content)?,
-            Some(number) if number.parse::<u32>().is_ok() => skip(&mut cursor)?,
-            _ => return Err(head.fault("the number of a dataset")),
+            _ => other_dataset(&mut cursor, &head, &mut content.units)?,
         }
     }
     Ok(content)
@@ -105,19 +104,47 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
 
 /// Goes past a binary dataset and says whether it is a frequency response.
 fn binary_is_response(cursor: &mut Cursor, head: &Line) -> Result<bool, Fault> {
-    let lines = skip_binary(cursor, head)?;
+    let binary = read_binary(cursor, head)?;
     let function = |line: &Line| line.text.split_ascii_whitespace().next() == Some("4");
-    Ok(lines.get(5).is_some_and(function))
+    Ok(binary.lines.get(5).is_some_and(function))
 }
 
-fn units(cursor: &mut Cursor, content: &mut Content) -> Result<(), Fault> {
+/// The line with the next dataset's number, if there is one; text between datasets means nothing.
+pub(super) fn next_dataset(cursor: &mut Cursor) -> Option<Line> {
+    while !cursor.next()?.is_delimiter() {}
+    loop {
+        let line = cursor.next()?;
+        if !line.text.trim().is_empty() {
+            return Some(line);
+        }
+    }
+}
+
+/// Reads the units of a dataset 164, goes past others.
+pub(super) fn other_dataset(
+    cursor: &mut Cursor,
+    head: &Line,
+    units: &mut Units,
+) -> Result<(), Fault> {
+    match head.text.split_ascii_whitespace().next() {
+        Some("164") => *units = read_units(cursor)?,
+        Some(number) if number.parse::<u32>().is_ok() => skip(cursor)?,
+        _ => return Err(head.fault("the number of a dataset")),
+    }
+    Ok(())
+}
+
+fn read_units(cursor: &mut Cursor) -> Result<Units, Fault> {
     const FACTORS: &str = "units of length in a metre and of force in a newton, > 0";
     cursor.expect_text("the code of the units")?;
     let line = cursor.expect_text(FACTORS)?;
     match *line.reals(25, FACTORS)?.as_slice() {
-        [length, force, ..] if length > 0.0 && force > 0.0 => {
-            (content.per_metre, content.per_newton) = (length, force);
-            skip(cursor)
+        [per_metre, per_newton, ..] if per_metre > 0.0 && per_newton > 0.0 => {
+            skip(cursor)?;
+            Ok(Units {
+                per_metre,
+                per_newton,
+            })
         }
         _ => Err(line.fault(FACTORS)),
     }
@@ -132,58 +159,108 @@ struct Identification {
     moves: bool,
 }
 
+/// What a dataset 58 says before its values.
+pub(super) struct FunctionHead {
+    /// Identification lines.
+    pub(super) names: Vec<String>,
+    /// Record 6.
+    own: Identification,
+    /// Record 7 and what it says.
+    data: Line,
+    pub(super) form: Form,
+    /// Kind and line of abscissa, numerator, denominator and z axis.
+    pub(super) axes: Vec<(i64, Line)>,
+}
+
+impl FunctionHead {
+    /// Reads the head from where `next` gives line by line what is expected.
+    pub(super) fn read(
+        mut next: impl FnMut(&'static str) -> Result<Line, Fault>,
+    ) -> Result<Self, Fault> {
+        const LINES: &str = "five identification lines";
+        let mut names = Vec::new();
+        for _ in 0..5 {
+            let line = next(LINES)?;
+            if line.is_delimiter() {
+                return Err(line.fault(LINES));
+            }
+            names.push(line.text.trim().to_owned());
+        }
+        let line = next(POINTS)?;
+        let own = identification(&line)?;
+        const FORM: &str = "type, number, spacing, first abscissa and step of the data";
+        let data = next(FORM)?;
+        let form = Form::read(&data).ok_or_else(|| data.fault(FORM))?;
+        let mut axes = Vec::new();
+        for _ in 0..4 {
+            const AXIS: &str = "type, three exponents, label and unit of an axis";
+            let line = next(AXIS)?;
+            let kind = line.text.split_ascii_whitespace().next();
+            let kind: Option<i64> = kind.and_then(|word| word.parse().ok());
+            axes.push((kind.ok_or_else(|| line.fault(AXIS))?, line));
+        }
+        Ok(Self {
+            names,
+            own,
+            data,
+            form,
+            axes,
+        })
+    }
+
+    /// Function type: 1 a signal over time, 4 a frequency response.
+    pub(super) fn function(&self) -> i64 {
+        self.own.function
+    }
+
+    /// Where it was measured.
+    pub(super) fn measured_at(&self) -> &ResponsePoint {
+        &self.own.to
+    }
+
+    /// What is wrong with record 7.
+    pub(super) fn data_fault(&self, expected: &'static str) -> Fault {
+        self.data.fault(expected)
+    }
+}
+
+/// Unit of an axis.
+pub(super) fn axis_unit(line: &Line) -> &str {
+    line.text.get(47..).unwrap_or_default().trim()
+}
+
 /// Reads a dataset after its number, to the line that ends it; `None` if it is no frequency response.
 fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
-    const LINES: &str = "five identification lines";
-    let mut lines = Vec::new();
-    for _ in 0..5 {
-        let line = cursor.expect(LINES)?;
-        if line.is_delimiter() {
-            return Err(line.fault(LINES));
-        }
-        lines.push(line.text.trim().to_owned());
-    }
-    let line = cursor.expect(POINTS)?;
-    let mut own = identification(&line)?;
-    const FORM: &str = "type, number, spacing, first abscissa and step of the data";
-    let data = cursor.expect(FORM)?;
-    let form = Form::read(&data).ok_or_else(|| data.fault(FORM))?;
-    let mut axes = Vec::new();
-    for _ in 0..4 {
-        const AXIS: &str = "type, three exponents, label and unit of an axis";
-        let line = cursor.expect(AXIS)?;
-        let kind = line.text.split_ascii_whitespace().next();
-        let kind: Option<i64> = kind.and_then(|word| word.parse().ok());
-        axes.push((kind.ok_or_else(|| line.fault(AXIS))?, line));
-    }
-    let [(abscissa, _), (numerator, line), (denominator, _), _] = axes.as_slice() else {
-        return Err(data.fault("four axes"));
+    let head = FunctionHead::read(|expected| cursor.expect(expected))?;
+    let [(abscissa, _), (numerator, line), (denominator, _), _] = head.axes.as_slice() else {
+        return Err(head.data_fault("four axes"));
     };
     const FUNCTION: i64 = 4;
     let kind = ResponseKind::of_numerator(*numerator);
     let force = matches!(denominator, 9 | 13);
-    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, own.function, own.moves)
+    let (Some(kind), 18, true, FUNCTION, true) =
+        (kind, *abscissa, force, head.own.function, head.own.moves)
     else {
         skip(cursor)?;
         return Ok(None);
     };
-    let unit = line.text.get(47..).unwrap_or_default().trim();
-    if unit.eq_ignore_ascii_case("g") {
+    if axis_unit(line).eq_ignore_ascii_case("g") {
         return Err(line.fault("an acceleration in units of length, not in g"));
     }
-    if !form.complex {
-        return Err(data.fault("complex values of a frequency response"));
+    if !head.form.complex {
+        return Err(head.data_fault("complex values of a frequency response"));
     }
+    let mut own = head.own;
     let name_of = |line: &str, begin: &str, point: &mut ResponsePoint| {
         if let Some(name) = line.strip_prefix(begin) {
             point.name = named(name);
         }
     };
-    name_of(&lines[3], REFERENCE, &mut own.from);
-    name_of(&lines[4], RESPONSE, &mut own.to);
-    let (frequency_hz, value) = form.values(cursor)?;
+    name_of(&head.names[3], REFERENCE, &mut own.from);
+    name_of(&head.names[4], RESPONSE, &mut own.to);
+    let (frequency_hz, value) = head.form.values(cursor)?;
     Ok(Some(FrequencyResponse {
-        name: named(&lines[0]),
+        name: named(&head.names[0]),
         frequency_hz,
         value,
         kind,
@@ -242,7 +319,7 @@ fn point_fields(fields: &[&str]) -> Option<Identification> {
 }
 
 /// A name, where there is one.
-fn named(text: &str) -> String {
+pub(super) fn named(text: &str) -> String {
     match text.trim() {
         "NONE" => String::new(),
         name => name.to_owned(),
@@ -330,8 +407,8 @@ impl Form {
     }
 
     /// The numbers of a line: words, or columns where they run together.
-    fn numbers(&self, line: &Line) -> Result<Vec<f64>, Fault> {
-        const NUMBERS: &str = "real numbers of a frequency response";
+    pub(super) fn numbers(&self, line: &Line) -> Result<Vec<f64>, Fault> {
+        const NUMBERS: &str = "real numbers of a function";
         if self.single || self.even.is_some() {
             return line.reals(if self.single { 13 } else { 20 }, NUMBERS);
         }

@@ -246,7 +246,7 @@ fn errors_fire_with_their_exact_messages() {
         (
             "1.33333333333e-06",
             "1.333x3333333e-06",
-            "f.uff:14: expected real numbers of a frequency response, found \"1.333x3333333e-06   8.33333333333e-07   \
+            "f.uff:14: expected real numbers of a function, found \"1.333x3333333e-06   8.33333333333e-07   \
              4.00000000000e-06   ...\"",
         ),
         (

@@ -2,7 +2,9 @@
 
 responses.uff: accelerance at even frequencies in double precision, receptance at uneven ones, mobility at even ones in
 single precision, a coherence and a time signal, which are no frequency responses. millimetre.uff: receptance in mm/N.
-binary.uff: the first as dataset 58b.
+binary.uff: the first as dataset 58b. times.uff: signals over time, x_k = sin(0.7 k) + k / 8 m/s^2, step 1/128 s,
+as text (even, uneven), as dataset 58b, and in g (once without a name), after a frequency response and mm as the unit of
+length.
 """
 
 import pathlib
@@ -49,3 +51,16 @@ units = {"type": 164, "units_code": 5, "units_description": "mm", "temp_mode": 1
          "temp": 1.0, "temp_offset": 273.15}
 write("millimetre.uff", [units, function(uneven, value(uneven) * 1e3, 0, **receptance)])
 write("binary.uff", [{**first, "binary": 1}])
+
+k = np.arange(11)
+instants, signal = 2.5 + k / 128, np.sin(0.7 * k) + k / 8
+acceleration = {"func_type": 1, "abscissa_spec_data_type": 17, "abscissa_axis_lab": "Time", "abscissa_axis_units_lab": "s",
+                "orddenom_spec_data_type": 0, "orddenom_axis_lab": "NONE", "orddenom_axis_units_lab": "NONE",
+                "abscissa_min": 2.5, "abscissa_inc": 1 / 128}
+top = function(instants, signal * 1e3, 1, **acceleration, id1="top", ord_data_type=4)
+in_g = {**top, "id1": "in g", "ordinate_axis_units_lab": "g", "data": signal}
+write("times.uff", [
+    units, function(even, value(even), 1), top,
+    {**top, "id1": "uneven", "abscissa_spacing": 0}, {**top, "id1": "binary", "binary": 1}, {**in_g, "id1": "NONE"},
+    in_g,
+])

@@ -1,0 +1,88 @@
+//! When samples were taken, and whether at equal steps.
+
+use std::path::Path;
+
+use super::MeasuredError;
+
+/// How far one step may be from the median step, relative: what six digits leave of 48 kHz, and far from a lost sample.
+pub(super) const STEP_TOLERANCE: f64 = 0.1;
+/// How far an instant may be from that of equal steps, in steps: half a sample.
+const DRIFT_TOLERANCE: f64 = 0.5;
+
+/// What a file says of time.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Clock {
+    /// An instant a sample, s, and what its places are called: "row", counted from the first.
+    Times { times: Vec<f64>, first_row: u64 },
+    /// First instant and step, s.
+    Even { start_s: f64, step_s: f64 },
+    /// Nothing.
+    Unknown,
+}
+
+impl Clock {
+    /// First instant and step, s.
+    pub(super) fn grid(
+        &self,
+        path: &Path,
+        rate_hz: Option<f64>,
+    ) -> Result<(f64, f64), MeasuredError> {
+        match (self, rate_hz) {
+            (Self::Times { times, .. }, Some(rate)) => {
+                Ok((times.first().copied().unwrap_or(0.0), 1.0 / rate))
+            }
+            (Self::Even { start_s, .. }, Some(rate)) => Ok((*start_s, 1.0 / rate)),
+            (Self::Unknown, Some(rate)) => Ok((0.0, 1.0 / rate)),
+            (Self::Even { start_s, step_s }, None) => Ok((*start_s, *step_s)),
+            (Self::Times { times, first_row }, None) => even(path, times, *first_row),
+            (Self::Unknown, None) => Err(MeasuredError::NoTime {
+                path: path.to_owned(),
+            }),
+        }
+    }
+}
+
+/// Checks that steps are equal. The step is that of the whole, (last - first) / (n - 1).
+fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), MeasuredError> {
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+        return Err(MeasuredError::NoTime {
+            path: path.to_owned(),
+        });
+    };
+    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if steps.is_empty() {
+        return Err(MeasuredError::NoTime {
+            path: path.to_owned(),
+        });
+    }
+    let middle = steps.len() / 2;
+    let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let uneven = |place: usize, found_s: f64| MeasuredError::Uneven {
+        path: path.to_owned(),
+        row: first_row + place as u64,
+        found_s,
+        expected_s: median,
+    };
+    let mut pairs = times.windows(2).enumerate();
+    let wrong = pairs.find(|(_, pair)| {
+        let step = pair[1] - pair[0];
+        // a step that is none (NaN) is wrong too
+        !(median > 0.0 && (step / median - 1.0).abs() <= STEP_TOLERANCE)
+    });
+    if let Some((place, pair)) = wrong {
+        return Err(uneven(place + 1, pair[1] - pair[0]));
+    }
+    let step = (last - first) / (times.len() - 1) as f64;
+    let drift = |(place, time): (usize, &f64)| {
+        (time - first - place as f64 * step).abs() > DRIFT_TOLERANCE * step
+    };
+    if let Some(place) = times.iter().enumerate().position(drift) {
+        return Err(MeasuredError::Drift {
+            path: path.to_owned(),
+            row: first_row + place as u64,
+            found_s: times[place],
+            expected_s: first + place as f64 * step,
+        });
+    }
+    Ok((first, step))
+}

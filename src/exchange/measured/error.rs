@@ -1,0 +1,179 @@
+//! What can be wrong with a file of measured signals.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::super::{NpzReadError, UffError};
+use super::clock::STEP_TOLERANCE;
+use crate::series::SeriesError;
+
+/// Why a signal cannot be read.
+#[derive(Debug, Error)]
+pub enum MeasuredError {
+    /// The file cannot be opened or read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// An ending that says of no format.
+    #[error("{}: expected a file .npz, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`", path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// An archive that is none, or an array that is not what it should be.
+    #[error(transparent)]
+    Npz(#[from] NpzReadError),
+    /// A universal file that is damaged, or without signals.
+    #[error(transparent)]
+    Uff(#[from] UffError),
+    /// A sound file that is damaged.
+    #[error("{}: expected a sound file (RIFF WAVE, PCM of 8 to 32 bits or float of 32), found: {found}", path.display())]
+    Wav {
+        /// The file.
+        path: PathBuf,
+        /// What the library found.
+        found: String,
+    },
+    /// A line of a table.
+    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: u64,
+        /// What should stand there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// Numbers with a comma.
+    #[error("{}:{line}: expected numbers with a decimal point, found \"{found}\"", path.display())]
+    DecimalComma {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: u64,
+        /// What stands there.
+        found: String,
+    },
+    /// Arrays that do not fit together.
+    #[error("{}: array \"{name}\": expected {expected}, found {found}", path.display())]
+    Array {
+        /// The file.
+        path: PathBuf,
+        /// The array.
+        name: String,
+        /// What was expected.
+        expected: String,
+        /// What the array has.
+        found: String,
+    },
+    /// Nothing says when the samples were taken.
+    #[error("{}: expected a time or a sampling rate, found neither", path.display())]
+    NoTime {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Steps that are not equal.
+    #[error("{}: row {row}: expected equal time steps of {expected_s} s (the median, within {} %), found a step of {found_s} s", path.display(), 100.0 * STEP_TOLERANCE)]
+    Uneven {
+        /// The file.
+        path: PathBuf,
+        /// Row of the later instant: a line of a table, a place counted from 0 in an array.
+        row: u64,
+        /// Step found, s.
+        found_s: f64,
+        /// Median step, s.
+        expected_s: f64,
+    },
+    /// Instants that leave equal steps little by little.
+    #[error("{}: row {row}: expected equal time steps, so that t = {expected_s} s here within half a step, found {found_s} s", path.display())]
+    Drift {
+        /// The file.
+        path: PathBuf,
+        /// Row: a line of a table, a place counted from 0 in an array.
+        row: u64,
+        /// Instant found, s.
+        found_s: f64,
+        /// Instant of equal steps, s.
+        expected_s: f64,
+    },
+    /// Several channels, and none was named.
+    #[error("{}: expected one signal or the name of one, found {}", path.display(), quoted(known))]
+    Choose {
+        /// The file.
+        path: PathBuf,
+        /// Channels of the file.
+        known: Vec<String>,
+    },
+    /// No channel of this name.
+    #[error("{}: expected a channel \"{wanted}\", found {}", path.display(), quoted(known))]
+    NoChannel {
+        /// The file.
+        path: PathBuf,
+        /// Name asked for.
+        wanted: String,
+        /// Channels of the file.
+        known: Vec<String>,
+    },
+    /// Samples that are none, or no samples.
+    #[error("{}: channel \"{channel}\": {source}", path.display())]
+    Series {
+        /// The file.
+        path: PathBuf,
+        /// The channel.
+        channel: String,
+        /// What is wrong.
+        source: SeriesError,
+    },
+}
+
+/// Most names that are listed.
+const LISTED: usize = 20;
+
+fn quoted(names: &[String]) -> String {
+    if names.is_empty() {
+        return "no signals".to_owned();
+    }
+    let listed: Vec<String> = names
+        .iter()
+        .take(LISTED)
+        .map(|n| format!("\"{n}\""))
+        .collect();
+    let more = match names.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{}{more}", listed.join(", "))
+}
+
+impl MeasuredError {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::NoTime { .. } => Some("give the sampling rate with --rate HZ".to_owned()),
+            Self::Choose { .. } => Some("name it with --channel NAME (repeatable)".to_owned()),
+            Self::NoChannel { wanted, known, .. } => {
+                let nearest = known
+                    .iter()
+                    .map(|name| (strsim::damerau_levenshtein(wanted, name), name))
+                    .min();
+                nearest.map(|(_, name)| format!("did you mean --channel '{name}'?"))
+            }
+            Self::Uneven { .. } | Self::Drift { .. } => Some(
+                "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place".to_owned(),
+            ),
+            Self::DecimalComma { .. } => {
+                Some("write the table with decimal points; the separator may stay a semicolon".to_owned())
+            }
+            _ => None,
+        }
+    }
+}

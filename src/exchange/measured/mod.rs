@@ -1,0 +1,126 @@
+//! Measured signals, from the files of recorders and of this program.
+//!
+//! | ending | time | channels |
+//! |---|---|---|
+//! | `.npz` | array `time_s`, `time` or `t`, or a rate `rate_hz`, `fs` or `sampling_rate` (Hz) | arrays as long as the time; without one, every array of one dimension |
+//! | `.csv`, `.txt` | a column `time`, `time_s`, `t`, with a unit `(ms)` or `[us]` if it is not s; without a header the first column | the others; names and units from the header, `P1 (m/s^2)` |
+//! | `.wav` | the file's rate | one a channel, full scale 1 (`channel 1`, `channel 2`) |
+//! | `.uff`, `.unv` | of the data set | data sets 58 and 58b of function type 1 over time |
+//!
+//! A rate that is asked for goes before what the file says of time; the first instant stays the file's. A time that is not
+//! uniform is refused ([`MeasuredError::Uneven`]): a spectrum of such samples has lines that the signal does not have.
+//!
+//! This is a part of `exchange` and no row of its own: it reads files of other programs, and what it hands on is a
+//! [`TimeSeries`]. Memory stays below ten times the file's size (npz arrays: what [`NpzReader`](super::NpzReader) says): sizes that
+//! a file only promises are not believed.
+
+mod clock;
+mod csv;
+mod error;
+mod header;
+mod npz;
+#[cfg(test)]
+mod tests;
+mod uff;
+mod wav;
+
+use std::path::Path;
+
+pub use error::MeasuredError;
+
+use crate::series::TimeSeries;
+use clock::Clock;
+
+/// A signal with the name of its channel; the series has its unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSignal {
+    /// Name of the channel.
+    pub name: String,
+    /// The samples; the unit is empty where the file does not say it.
+    pub series: TimeSeries,
+}
+
+/// What is wanted of a file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SignalRequest {
+    /// Names of channels, in this order; none: the only one that there is.
+    pub channels: Vec<String>,
+    /// Sampling rate, Hz, > 0; none: what the file says.
+    pub rate_hz: Option<f64>,
+}
+
+/// Reads signals from a file; its ending says what it is.
+///
+/// # Errors
+/// [`MeasuredError`]: file and line or array, what was found, what was expected.
+pub fn read_signals(
+    path: &Path,
+    request: &SignalRequest,
+) -> Result<Vec<MeasuredSignal>, MeasuredError> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let channels = match ending.to_ascii_lowercase().as_str() {
+        "npz" => npz::read(path, request),
+        "csv" | "txt" => csv::read(path, request),
+        "wav" => wav::read(path, request),
+        "uff" | "unv" => uff::read(path, request),
+        _ => Err(MeasuredError::Ending {
+            path: path.to_owned(),
+        }),
+    }?;
+    let made = channels
+        .into_iter()
+        .map(|channel| channel.signal(path, request));
+    made.collect()
+}
+
+/// A channel as a file has it.
+struct Channel {
+    name: String,
+    unit: String,
+    values: Vec<f64>,
+    clock: std::rc::Rc<Clock>,
+}
+
+impl Channel {
+    fn signal(self, path: &Path, request: &SignalRequest) -> Result<MeasuredSignal, MeasuredError> {
+        let (start_s, step_s) = self.clock.grid(path, request.rate_hz)?;
+        let series =
+            TimeSeries::new(start_s, step_s, self.unit, self.values).map_err(|source| {
+                MeasuredError::Series {
+                    path: path.to_owned(),
+                    channel: self.name.clone(),
+                    source,
+                }
+            })?;
+        Ok(MeasuredSignal {
+            name: self.name,
+            series,
+        })
+    }
+}
+
+/// Places of the wanted channels among those that a file has.
+fn choose(
+    path: &Path,
+    names: &[String],
+    request: &SignalRequest,
+) -> Result<Vec<usize>, MeasuredError> {
+    if request.channels.is_empty() {
+        return match names.len() {
+            1 => Ok(vec![0]),
+            _ => Err(MeasuredError::Choose {
+                path: path.to_owned(),
+                known: names.to_vec(),
+            }),
+        };
+    }
+    let place = |wanted: &String| {
+        let place = names.iter().position(|name| name == wanted);
+        place.ok_or_else(|| MeasuredError::NoChannel {
+            path: path.to_owned(),
+            wanted: wanted.clone(),
+            known: names.to_vec(),
+        })
+    };
+    request.channels.iter().map(place).collect()
+}

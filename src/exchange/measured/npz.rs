@@ -1,0 +1,85 @@
+//! Signals in a NumPy archive.
+
+use std::path::Path;
+use std::rc::Rc;
+
+use super::super::NpzReader;
+use super::clock::Clock;
+use super::header::time_unit;
+use super::{Channel, MeasuredError, SignalRequest, choose};
+
+/// Names of arrays of one value that are a rate in Hz.
+const RATES: [&str; 4] = ["rate_hz", "fs", "sampling_rate", "sample_rate"];
+
+pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
+    let mut archive = NpzReader::open(path)?;
+    let names = archive.names();
+    let time = names.iter().find(|name| time_unit(name).is_some());
+    let rate = names.iter().find(|name| RATES.contains(&name.as_str()));
+    let clock = match (time, rate) {
+        (Some(name), _) => {
+            let unit = time_unit(name).unwrap_or(1.0);
+            let mut times = archive.real(name)?.values;
+            times.iter_mut().for_each(|time| *time *= unit);
+            Clock::Times {
+                times,
+                first_row: 0,
+            }
+        }
+        (None, Some(name)) => {
+            let values = archive.real(name)?.values;
+            match values.as_slice() {
+                &[rate] if rate > 0.0 && rate.is_finite() => Clock::Even {
+                    start_s: 0.0,
+                    step_s: 1.0 / rate,
+                },
+                found => {
+                    return Err(MeasuredError::Array {
+                        path: path.to_owned(),
+                        name: name.clone(),
+                        expected: "one sampling rate above 0 Hz".to_owned(),
+                        found: match found {
+                            [one] => one.to_string(),
+                            more => format!("{} values", more.len()),
+                        },
+                    });
+                }
+            }
+        }
+        (None, None) => Clock::Unknown,
+    };
+    let channels: Vec<String> = names
+        .iter()
+        .filter(|name| Some(*name) != time && Some(*name) != rate)
+        .cloned()
+        .collect();
+    let rows = match &clock {
+        Clock::Times { times, .. } => Some(times.len()),
+        _ => None,
+    };
+    let clock = Rc::new(clock);
+    let mut found = Vec::new();
+    for place in choose(path, &channels, request)? {
+        let name = &channels[place];
+        let array = archive.real(name)?;
+        let count = array.shape.iter().filter(|&&length| length != 1).count();
+        if count > 1 || rows.is_some_and(|rows| rows != array.values.len()) {
+            return Err(MeasuredError::Array {
+                path: path.to_owned(),
+                name: name.clone(),
+                expected: match rows {
+                    Some(rows) => format!("a signal of {rows} samples, as the time has"),
+                    None => "a signal, an array of one dimension".to_owned(),
+                },
+                found: format!("shape {:?}", array.shape),
+            });
+        }
+        found.push(Channel {
+            name: name.clone(),
+            unit: String::new(),
+            values: array.values,
+            clock: Rc::clone(&clock),
+        });
+    }
+    Ok(found)
+}

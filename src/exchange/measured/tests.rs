@@ -1,0 +1,453 @@
+//! Measured signals: each format read back, time, channels, damage.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+
+use super::super::NpzWriter;
+use super::*;
+
+/// `x_k = sin(0.7 k) + k / 8`.
+fn sample(k: usize) -> f64 {
+    (0.7 * k as f64).sin() + k as f64 / 8.0
+}
+
+fn samples(count: usize) -> Vec<f64> {
+    (0..count).map(sample).collect()
+}
+
+fn request(channels: &[&str], rate_hz: Option<f64>) -> SignalRequest {
+    SignalRequest {
+        channels: channels.iter().map(|&name| name.to_owned()).collect(),
+        rate_hz,
+    }
+}
+
+fn only(mut signals: Vec<MeasuredSignal>) -> MeasuredSignal {
+    assert_eq!(signals.len(), 1);
+    signals.remove(0)
+}
+
+/// A signal has these samples, to a part of their largest.
+fn assert_samples(signal: &MeasuredSignal, start_s: f64, step_s: f64, values: &[f64], part: f64) {
+    let series = &signal.series;
+    assert!((series.start_s() - start_s).abs() <= 1e-9 * step_s + part * start_s.abs());
+    assert!(
+        (series.step_s() / step_s - 1.0).abs() < 1e-9 + part,
+        "{}",
+        series.step_s()
+    );
+    assert_eq!(series.values().len(), values.len());
+    let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    for (found, expected) in series.values().iter().zip(values) {
+        assert!(
+            (found - expected).abs() <= part * largest,
+            "{found} {expected}"
+        );
+    }
+}
+
+fn table(text: &str, request: &SignalRequest) -> Result<Vec<MeasuredSignal>, MeasuredError> {
+    let path = Path::new("m.csv");
+    let channels = csv::from_bytes(text.as_bytes(), path, request)?;
+    channels
+        .into_iter()
+        .map(|channel| channel.signal(path, request))
+        .collect()
+}
+
+fn refused(text: &str, request: &SignalRequest) -> String {
+    table(text, request).unwrap_err().to_string()
+}
+
+#[test]
+fn tables_are_read_with_names_units_and_separators() {
+    let expected = [1.0, -2.5, 1e-3, 4.0];
+    let plain = "# bench 3\ntime_s,P1 (m/s^2),P2\n\n0.5,1,9\n0.75,-2.5,9\n1,1e-3,9\n1.25,4,9\n";
+    let found = only(table(plain, &request(&["P1"], None)).unwrap());
+    assert_eq!((found.name.as_str(), found.series.unit()), ("P1", "m/s^2"));
+    assert_samples(&found, 0.5, 0.25, &expected, 0.0);
+    let both = table(plain, &request(&["P2", "P1"], None)).unwrap();
+    assert_eq!(both[0].name, "P2");
+    assert_eq!(both[1], found);
+    // units in a row of their own, in milliseconds, a semicolon, a byte-order mark, empty cells at the end
+    let rows = "\u{feff}Time;P1\r\nms;g\r\n500;1\r\n750;-2.5\r\n1000;1e-3\r\n1250;4\r\n;\r\n";
+    let found = only(table(rows, &request(&[], None)).unwrap());
+    assert_eq!(found.series.unit(), "g");
+    assert_samples(&found, 0.5, 0.25, &expected, 1e-15);
+    // without names: the first column is the time, or none is
+    let bare = "0\t1\n0.25\t-2.5\n0.5\t1e-3\n0.75\t4\n";
+    let found = only(table(bare, &request(&[], None)).unwrap());
+    assert_eq!(found.name, "column 2");
+    assert_samples(&found, 0.0, 0.25, &expected, 0.0);
+    let found = only(table("1\n-2.5\n1e-3\n4\n", &request(&[], Some(4.0))).unwrap());
+    assert_samples(&found, 0.0, 0.25, &expected, 0.0);
+    // a rate goes before the time, the first instant stays
+    let found = only(table(plain, &request(&["P1"], Some(8.0))).unwrap());
+    assert_samples(&found, 0.5, 0.125, &expected, 0.0);
+}
+
+#[test]
+fn tables_are_refused_with_line_and_reason() {
+    let any = request(&[], None);
+    let cases = [
+        (
+            "time;P1\n0,1;2,5\n",
+            "m.csv:2: expected numbers with a decimal point, found \"0,1\"",
+        ),
+        (
+            "0,0;2,5\n0,1;2,5\n",
+            "m.csv:1: expected numbers with a decimal point, found \"0,0\"",
+        ),
+        (
+            "time,P1\n0,1\n1,two\n",
+            "m.csv:3: expected a finite number for P1, found \"two\"",
+        ),
+        (
+            "time,P1\n0,1\n# a pause\n1,NaN\n",
+            "m.csv:4: expected a finite number for P1, found \"NaN\"",
+        ),
+        (
+            "time,P1\n0,1\n1,2,3\n",
+            "m.csv:3: expected 2 columns, as in the first line, found \"3\"",
+        ),
+        (
+            "time,P1\n0,1\n1,1\n2,1\n2,1\n3,1\n",
+            "m.csv: row 5: expected equal time steps of 1 s (the median, within 10 %), found a step of 0 s",
+        ),
+        (
+            "time,P1\n0,1\n1,1\n2,1\n4,1\n5,1\n",
+            "m.csv: row 5: expected equal time steps of 1 s (the median, within 10 %), found a step of 2 s",
+        ),
+        (
+            "P1,P2\n0,1\n",
+            "m.csv: expected a time or a sampling rate, found neither",
+        ),
+        (
+            "time,P1\n0,1\n",
+            "m.csv: expected a time or a sampling rate, found neither",
+        ),
+        (
+            "time,P1,P2\n0,1,2\n",
+            "m.csv: expected one signal or the name of one, found \"P1\", \"P2\"",
+        ),
+        (
+            "time_s\n0\n",
+            "m.csv: expected one signal or the name of one, found no signals",
+        ),
+        (
+            "# nothing\n",
+            "m.csv:1: expected a header and rows of numbers, found \"none\"",
+        ),
+        (
+            "time,P1\nmin,g\n0,1\n",
+            "m.csv:2: expected s, ms or us as unit of the time, found \"min\"",
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(refused(text, &any), expected, "{text}");
+    }
+    let error = table("time,top\n0,1\n", &request(&["tip"], None)).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "m.csv: expected a channel \"tip\", found \"top\""
+    );
+    assert_eq!(error.help().unwrap(), "did you mean --channel 'top'?");
+}
+
+/// Steps that are each within the tolerance, and a clock that runs away all the same.
+#[test]
+fn a_clock_that_drifts_is_refused_and_a_rounded_one_is_not() {
+    let times = |step: &dyn Fn(usize) -> f64| {
+        let mut now = 0.0;
+        let rows: String = (0..400)
+            .map(|k| {
+                let row = format!("{now},0\n");
+                now += step(k);
+                row
+            })
+            .collect();
+        format!("t,P1\n{rows}")
+    };
+    let any = request(&[], None);
+    let drifting = refused(&times(&|k| if k < 200 { 1.0 } else { 1.05 }), &any);
+    assert!(
+        drifting.starts_with("m.csv: row 23: expected equal time steps, so that t = "),
+        "{drifting}"
+    );
+    // 48 kHz in microseconds: steps of 20 and 21
+    let rows: String = (0..500)
+        .map(|k| format!("{:.6},0\n", f64::from(k) / 48e3))
+        .collect();
+    let found = only(table(&format!("t,P1\n{rows}"), &any).unwrap());
+    // the last of 500 instants is rounded by half a microsecond
+    assert!((found.series.rate_hz() / 48e3 - 1.0).abs() < 1e-4);
+}
+
+fn archive(name: &str, write: impl FnOnce(&mut NpzWriter)) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    let mut npz = NpzWriter::create(&path).unwrap();
+    write(&mut npz);
+    npz.finish().unwrap();
+    (folder, path)
+}
+
+fn put(npz: &mut NpzWriter, name: &str, shape: &[usize], values: &[f64]) {
+    let mut array = npz.begin(name, shape).unwrap();
+    array.extend(values).unwrap();
+    array.end().unwrap();
+}
+
+#[test]
+fn archives_are_read_with_a_time_or_a_rate() {
+    let values = samples(50);
+    let times: Vec<f64> = (0..50).map(|k| 2.0 + f64::from(k) / 1024.0).collect();
+    let (_kept, path) = archive("run.npz", |npz| {
+        put(npz, "time_s", &[50], &times);
+        put(npz, "P1", &[50], &values);
+        put(npz, "ball_radius", &[50, 2], &[0.0; 100]);
+        put(npz, "short", &[49], &values[..49]);
+    });
+    let found = only(read_signals(&path, &request(&["P1"], None)).unwrap());
+    assert_samples(&found, 2.0, 1.0 / 1024.0, &values, 0.0);
+    let message = |name: &str| {
+        let error = read_signals(&path, &request(&[name], None)).unwrap_err();
+        error.to_string().replace(&path.display().to_string(), "F")
+    };
+    assert_eq!(
+        message("ball_radius"),
+        "F: array \"ball_radius\": expected a signal of 50 samples, as the time has, found shape [50, 2]"
+    );
+    assert_eq!(
+        message("short"),
+        "F: array \"short\": expected a signal of 50 samples, as the time has, found shape [49]"
+    );
+    for (rate, known) in [(Some(2048.0), None), (None, Some(2048.0))] {
+        let (_kept, path) = archive("rate.npz", |npz| {
+            put(npz, "x", &[50], &values);
+            if let Some(rate) = known {
+                put(npz, "fs", &[1], &[rate]);
+            }
+        });
+        let found = only(read_signals(&path, &request(&[], rate)).unwrap());
+        assert_samples(&found, 0.0, 1.0 / 2048.0, &values, 0.0);
+    }
+    let (_kept, path) = archive("none.npz", |npz| put(npz, "x", &[50], &values));
+    let error = read_signals(&path, &request(&[], None)).unwrap_err();
+    assert_eq!(
+        error.help().unwrap(),
+        "give the sampling rate with --rate HZ"
+    );
+}
+
+#[test]
+fn sound_files_are_read_in_every_depth() {
+    let folder = tempfile::tempdir().unwrap();
+    let values: Vec<f64> = (0..100).map(|k| 0.9 * (0.3 * f64::from(k)).sin()).collect();
+    let write = |name: &str, bits: u16, format: hound::SampleFormat| {
+        let path = folder.path().join(name);
+        let spec = hound::WavSpec {
+            channels: 2,
+            sample_rate: 44_100,
+            bits_per_sample: bits,
+            sample_format: format,
+        };
+        let mut to = hound::WavWriter::create(&path, spec).unwrap();
+        for value in &values {
+            match format {
+                hound::SampleFormat::Float => {
+                    to.write_sample(0.0_f32).unwrap();
+                    to.write_sample(*value as f32).unwrap();
+                }
+                hound::SampleFormat::Int => {
+                    to.write_sample(0_i32).unwrap();
+                    let full = f64::from(bits - 1).exp2();
+                    to.write_sample((value * full).round() as i32).unwrap();
+                }
+            }
+        }
+        to.finalize().unwrap();
+        path
+    };
+    for (name, bits, format) in [
+        ("8.wav", 8, hound::SampleFormat::Int),
+        ("16.wav", 16, hound::SampleFormat::Int),
+        ("24.wav", 24, hound::SampleFormat::Int),
+        ("32.WAV", 32, hound::SampleFormat::Float),
+    ] {
+        let path = write(name, bits, format);
+        let found = only(read_signals(&path, &request(&["channel 2"], None)).unwrap());
+        assert_eq!(found.series.unit(), "full scale");
+        // half a step of the depth; a float has 24 bits
+        let part = (-f64::from(bits.min(24) - 1)).exp2();
+        assert_samples(&found, 0.0, 1.0 / 44_100.0, &values, part);
+        let error = read_signals(&path, &request(&[], None)).unwrap_err();
+        assert!(error.to_string().ends_with(
+            "expected one signal or the name of one, found \"channel 1\", \"channel 2\""
+        ));
+    }
+    // half a file, and a head that promises 4 GiB
+    let mut bytes = fs::read(folder.path().join("16.wav")).unwrap();
+    bytes.truncate(200);
+    let path = folder.path().join("cut.wav");
+    fs::write(&path, &bytes).unwrap();
+    let error = read_signals(&path, &request(&["channel 1"], None)).unwrap_err();
+    assert!(matches!(error, MeasuredError::Wav { .. }), "{error}");
+    let size = bytes.windows(4).position(|word| word == b"data").unwrap() + 4;
+    bytes[size..size + 4].copy_from_slice(&[0xfc, 0xff, 0xff, 0xff]);
+    fs::write(&path, &bytes).unwrap();
+    let error = read_signals(&path, &request(&["channel 1"], None)).unwrap_err();
+    assert!(matches!(error, MeasuredError::Wav { .. }), "{error}");
+}
+
+#[test]
+fn universal_files_of_pyuff_are_read_as_text_and_binary() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/uff/times.uff");
+    let values = samples(11);
+    for (name, unit) in [
+        ("top", "m/s^2"),
+        ("uneven", "m/s^2"),
+        ("binary", "m/s^2"),
+        ("FOOT", "g"),
+        ("in g", "g"),
+    ] {
+        let found = only(read_signals(&path, &request(&[name], None)).unwrap());
+        assert_eq!(found.series.unit(), unit, "{name}");
+        // instants have six digits: 2e-6 of 2.5 s, 1e-4 of the step over ten steps; values have twelve
+        let series = &found.series;
+        assert!((series.start_s() - 2.5).abs() < 1e-5, "{name}");
+        assert!((128.0 * series.step_s() - 1.0).abs() < 2e-4, "{name}");
+        let step = series.step_s();
+        assert_samples(&found, series.start_s(), step, &values, 1e-11);
+    }
+    let error = read_signals(&path, &request(&[], None)).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .ends_with("found \"top\", \"uneven\", \"binary\", \"FOOT\", \"in g\"")
+    );
+    let none = path.with_file_name("millimetre.uff");
+    let error = read_signals(&none, &request(&[], None)).unwrap_err();
+    assert!(error.to_string().ends_with("abscissa 17), found none"));
+}
+
+/// A dataset 58b of function type 1 over time with these words of its first line and these bytes.
+fn binary_times(first: &str, form: &str, bytes: &[u8]) -> Vec<u8> {
+    let head = format!(
+        "    -1\n    58b {first}\nown\nNONE\nNONE\nNONE\nNONE\n    1         0    0         0       FOOT        17  -3       NONE         0   0\n\
+         {form}\n        17    0    0    0 Time                 s\n        12    0    0    0 Acceleration         m/s2\n\
+         \x20        0    0    0    0 NONE                 NONE\n         0    0    0    0 NONE                 NONE\n"
+    );
+    [head.as_bytes(), bytes, b"\n    -1\n"].concat()
+}
+
+#[test]
+fn binary_numbers_of_both_orders_and_precisions_are_read() {
+    use super::super::uff::times_from_bytes;
+    let values: Vec<f64> = (0..7).map(|k| f64::from(k) - 2.5).collect();
+    let form = |kind: u32, spacing: u32| {
+        format!(
+            "{kind:>10}{:>10}{spacing:>10}  0.00000e+00  2.50000e-01  0.00000e+00",
+            7
+        )
+    };
+    let path = Path::new("b.uff");
+    let big: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
+    let small: Vec<u8> = values
+        .iter()
+        .flat_map(|&v| (v as f32).to_le_bytes())
+        .collect();
+    let pairs = (0_u8..).map(|k| 0.25 * f64::from(k)).zip(&values);
+    let uneven: Vec<u8> = pairs
+        .flat_map(|(t, v)| [t.to_le_bytes(), v.to_le_bytes()].concat())
+        .collect();
+    for (first, form, bytes) in [
+        ("2 2 11 56 0 0 0 0", form(4, 1), &big),
+        ("1 2 11 28 0 0 0 0", form(2, 1), &small),
+        ("1 2 11 112 0 0 0 0", form(4, 0), &uneven),
+    ] {
+        let found = times_from_bytes(&binary_times(first, &form, bytes), path).unwrap();
+        assert_eq!(found[0].values, values, "{first}");
+    }
+    let message = |first: &str, form: &str, bytes: &[u8]| {
+        let error = times_from_bytes(&binary_times(first, form, bytes), path);
+        error.unwrap_err().to_string()
+    };
+    assert_eq!(
+        message("1 1 11 56 0 0 0 0", &form(4, 1), &big),
+        "b.uff:2: expected numbers of IEEE 754 (number format 2), found \"58b 1 1 11 56 0 0 0 0\""
+    );
+    assert_eq!(
+        message("1 2 11 48 0 0 0 0", &form(4, 1), &big[..48]),
+        "b.uff:2: expected as many values as the data has, found 6 of 7"
+    );
+    let huge = form(4, 1).replacen("         7", "1152921504606846976", 1);
+    assert!(message("1 2 11 56 0 0 0 0", &huge, &big).contains("expected"));
+}
+
+#[test]
+fn files_of_other_kinds_and_none_are_refused() {
+    let any = request(&[], None);
+    let error = read_signals(Path::new("signal.mat"), &any).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "signal.mat: expected a file .npz, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`"
+    );
+    for name in ["no.npz", "no.csv", "no.wav", "no.uff"] {
+        let error = read_signals(Path::new(name), &any).unwrap_err().to_string();
+        assert!(
+            error.starts_with(&format!("cannot read {name}: ")),
+            "{error}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn damaged_files_never_panic(
+        format in 0..4_usize,
+        cut in 0..1000_usize,
+        changes in prop::collection::vec((0..4000_usize, any::<u8>()), 0..6),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/uff/times.uff");
+        let path = folder.path().join(["f.uff", "f.csv", "f.wav", "f.npz"][format]);
+        match format {
+            0 => { fs::copy(&data, &path).unwrap(); }
+            1 => fs::write(&path, "time,P1\n0,1\n1,2\n2,5\n").unwrap(),
+            2 => {
+                let spec = hound::WavSpec {
+                    channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int,
+                };
+                let mut to = hound::WavWriter::create(&path, spec).unwrap();
+                (0..40_i16).for_each(|k| to.write_sample(k).unwrap());
+                to.finalize().unwrap();
+            }
+            _ => {
+                let mut npz = NpzWriter::create(&path).unwrap();
+                put(&mut npz, "time_s", &[3], &[0.0, 1.0, 2.0]);
+                put(&mut npz, "P1", &[3], &[0.0, 1.0, 2.0]);
+                npz.finish().unwrap();
+            }
+        }
+        let mut bytes = fs::read(&path).unwrap();
+        for (place, byte) in changes {
+            let length = bytes.len();
+            bytes[place % length] = byte;
+        }
+        bytes.truncate(bytes.len().saturating_sub(cut % 97));
+        fs::write(&path, &bytes).unwrap();
+        for rate in [None, Some(1e3)] {
+            for name in [&[][..], &["P1"], &["top"], &["binary"]] {
+                if let Ok(found) = read_signals(&path, &request(name, rate)) {
+                    for signal in found {
+                        prop_assert!(signal.series.values().len() <= bytes.len());
+                    }
+                }
+            }
+        }
+    }
+}

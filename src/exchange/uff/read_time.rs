@@ -1,0 +1,233 @@
+//! Reads signals over time: datasets 58 and 58b of function type 1.
+
+use std::fs;
+use std::path::Path;
+
+use super::UffError;
+use super::binary::read_binary;
+use super::cursor::{Cursor, Fault, Line};
+use super::read::skip;
+use super::read_response::{FunctionHead, Units, axis_unit, named, next_dataset, other_dataset};
+
+/// Instants of a signal.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TimeAxis {
+    /// First instant and step, s.
+    Even {
+        /// First instant, s.
+        start_s: f64,
+        /// Step, s; as the file has it, not checked.
+        step_s: f64,
+    },
+    /// Each instant, s.
+    Uneven(Vec<f64>),
+}
+
+/// A signal over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeResponse {
+    /// Its name: first identification line, else name or node and direction of the point; each name once in a file.
+    pub name: String,
+    /// Unit of the values: SI for displacements, velocities, accelerations and forces, else as the file has it; `g` stays.
+    pub unit: String,
+    /// Its instants.
+    pub axis: TimeAxis,
+    /// Its values, one an instant.
+    pub values: Vec<f64>,
+}
+
+/// Reads the signals over time of a universal file, in text or binary: datasets 58 and 58b of function type 1, or 0, over
+/// the time. Others, and all datasets of other numbers, are passed over.
+///
+/// Values are in SI: lengths and forces are divided by the factors of dataset 164 where the file has it; accelerations in g stay.
+///
+/// # Errors
+/// [`UffError`] with file and line, what was found and what was expected; without signals; for complex values; for binary
+/// numbers that are not of IEEE 754.
+pub fn read_times_uff(path: &Path) -> Result<Vec<TimeResponse>, UffError> {
+    let bytes = fs::read(path).map_err(|source| UffError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    times_from_bytes(&bytes, path)
+}
+
+/// As [`read_times_uff`], of a file that is in memory; `path` is for messages.
+///
+/// # Errors
+/// As [`read_times_uff`].
+pub fn times_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<TimeResponse>, UffError> {
+    let content = |fault: Fault| UffError::Content {
+        path: path.to_owned(),
+        line: fault.line,
+        expected: fault.expected,
+        found: fault.found,
+    };
+    let (found, units) = read(bytes).map_err(content)?;
+    if found.is_empty() {
+        return Err(UffError::NoTimes {
+            path: path.to_owned(),
+        });
+    }
+    let mut list: Vec<TimeResponse> = Vec::with_capacity(found.len());
+    for (quantity, mut response) in found {
+        let scale = match quantity {
+            Quantity::Motion => 1.0 / units.per_metre,
+            Quantity::Force => 1.0 / units.per_newton,
+            Quantity::Other => 1.0,
+        };
+        response.values.iter_mut().for_each(|value| *value *= scale);
+        let others = list.iter().filter(|other| {
+            let rest = other.name.strip_prefix(response.name.as_str());
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(" ("))
+        });
+        match others.count() {
+            0 => {}
+            before => response.name = format!("{} ({})", response.name, before + 1),
+        }
+        list.push(response);
+    }
+    Ok(list)
+}
+
+/// What a unit of the file applies to.
+enum Quantity {
+    Motion,
+    Force,
+    Other,
+}
+
+fn read(bytes: &[u8]) -> Result<(Vec<(Quantity, TimeResponse)>, Units), Fault> {
+    let mut cursor = Cursor::new(bytes);
+    let (mut list, mut units) = (Vec::new(), Units::SI);
+    while let Some(head) = next_dataset(&mut cursor) {
+        match head.text.split_ascii_whitespace().next() {
+            Some("58") => list.extend(text(&mut cursor)?),
+            Some("58b") => list.extend(binary(&mut cursor, &head)?),
+            _ => other_dataset(&mut cursor, &head, &mut units)?,
+        }
+    }
+    Ok((list, units))
+}
+
+/// Whether a function is a signal over time.
+fn is_time(head: &FunctionHead) -> bool {
+    const TIME: i64 = 17;
+    matches!(head.function(), 0 | 1) && head.axes.first().is_some_and(|axis| axis.0 == TIME)
+}
+
+fn text(cursor: &mut Cursor) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
+    let head = FunctionHead::read(|expected| cursor.expect(expected))?;
+    if !is_time(&head) {
+        skip(cursor)?;
+        return Ok(None);
+    }
+    let mut numbers = Vec::new();
+    loop {
+        let line = cursor.expect_text("a value or -1")?;
+        if line.is_delimiter() {
+            return signal(&head, numbers, &line).map(Some);
+        }
+        numbers.extend(head.form.numbers(&line)?);
+    }
+}
+
+fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
+    let found = read_binary(cursor, first)?;
+    let mut lines = found.lines.iter();
+    let head = FunctionHead::read(|expected| {
+        let line = lines.next().cloned();
+        line.ok_or_else(|| first.fault(expected))
+    })?;
+    if !is_time(&head) {
+        return Ok(None);
+    }
+    if !found.ieee {
+        return Err(first.fault("numbers of IEEE 754 (number format 2)"));
+    }
+    let numbers = if head.form.even.is_none() && !head.form.single {
+        // an uneven abscissa has single precision, or that of the values
+        match found.bytes.len().checked_div(head.form.count) {
+            Some(12) => return Err(first.fault("instants in the precision of the values")),
+            _ => found.numbers(false),
+        }
+    } else {
+        found.numbers(head.form.single)
+    };
+    signal(&head, numbers, first).map(Some)
+}
+
+/// The signal of these numbers; `end` is the line to name where they are too few or too many.
+fn signal(
+    head: &FunctionHead,
+    numbers: Vec<f64>,
+    end: &Line,
+) -> Result<(Quantity, TimeResponse), Fault> {
+    if head.form.complex {
+        return Err(head.data_fault("real values of a signal over time"));
+    }
+    let size = if head.form.even.is_some() { 1 } else { 2 };
+    if head.form.count.checked_mul(size) != Some(numbers.len()) {
+        return Err(Fault {
+            line: end.number,
+            expected: "as many values as the data has",
+            found: format!("{} of {}", numbers.len() / size, head.form.count),
+        });
+    }
+    let (axis, values) = match head.form.even {
+        Some((start_s, step_s)) => (TimeAxis::Even { start_s, step_s }, numbers),
+        None => {
+            let pairs = numbers.chunks_exact(2);
+            let (times, values) = pairs.map(|pair| (pair[0], pair[1])).unzip();
+            (TimeAxis::Uneven(times), values)
+        }
+    };
+    let unit = head
+        .axes
+        .get(1)
+        .map_or("", |(_, line)| axis_unit(line))
+        .to_owned();
+    let in_g = unit.eq_ignore_ascii_case("g");
+    let (quantity, unit) = match head.axes.get(1).map(|(kind, _)| kind) {
+        Some(12) if in_g => (Quantity::Other, "g".to_owned()),
+        Some(8) => (Quantity::Motion, "m".to_owned()),
+        Some(11) => (Quantity::Motion, "m/s".to_owned()),
+        Some(12) => (Quantity::Motion, "m/s^2".to_owned()),
+        Some(9 | 13) => (Quantity::Force, "N".to_owned()),
+        _ => (Quantity::Other, named(&unit)),
+    };
+    Ok((
+        quantity,
+        TimeResponse {
+            name: name(head),
+            unit,
+            axis,
+            values,
+        },
+    ))
+}
+
+fn name(head: &FunctionHead) -> String {
+    let point = head.measured_at();
+    let own = head
+        .names
+        .first()
+        .map(|line| named(line))
+        .unwrap_or_default();
+    match (own.is_empty(), point.name.is_empty()) {
+        (false, _) => own,
+        (true, false) => point.name.clone(),
+        (true, true) => {
+            let axis = match point.signed_axis() {
+                1 => " +x",
+                -1 => " -x",
+                2 => " +y",
+                -2 => " -y",
+                3 => " +z",
+                -3 => " -z",
+                _ => "",
+            };
+            format!("node {}{axis}", point.node.unwrap_or(0))
+        }
+    }
+}
