@@ -17,7 +17,8 @@
 //! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
 //! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
 //! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and the integrators.
-//! 9. [`series`], [`signal`]: recorded signals; filters, spectra, scalograms, orders, kurtograms.
+//! 9. [`series`], [`signal`], [`diagnosis`]: recorded signals; filters, spectra, scalograms, orders, kurtograms; verdicts on
+//!    each part.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
 //! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation.
@@ -43,6 +44,7 @@ pub mod case;
 pub mod chart;
 pub mod cli;
 pub mod closed_form;
+pub mod diagnosis;
 pub mod dynamics;
 pub mod element;
 pub mod exchange;

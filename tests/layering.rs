@@ -43,6 +43,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (8, "system", RowsAbove),
     (8, "transient", Only(&["dynamics", "linalg", "series"])),
     (9, "signal", Only(&["series"])),
+    (10, "diagnosis", Only(&["closed_form", "series", "signal"])),
     (10, "exchange", RowsAbove),
     (10, "report", RowsAbove),
     (11, "case", RowsAbove),

@@ -1,0 +1,61 @@
+//! What a diagnosis cannot work with.
+
+use thiserror::Error;
+
+use crate::series::SeriesError;
+use crate::signal::SignalError;
+
+/// Why there is no diagnosis of a window.
+#[derive(Debug, Error)]
+pub enum DiagnosisError {
+    /// A spectrum that cannot be formed.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// A window outside the signal.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    /// A shaft that rests or turns back: angle is no measure of progress then.
+    #[error(
+        "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"
+    )]
+    Turning {
+        /// Start of the window, s.
+        from_s: f64,
+        /// End of the window, s.
+        to_s: f64,
+        /// Where it does not turn on, s.
+        at_s: f64,
+    },
+    /// Fewer samples than a spectrum over the angle needs.
+    #[error(
+        "from {from_s} s to {to_s} s: expected at least {needed} samples at equal angles, found {found}: a longer window, or a higher sampling rate"
+    )]
+    TooFew {
+        /// Start of the window, s.
+        from_s: f64,
+        /// End of the window, s.
+        to_s: f64,
+        /// Samples at equal angles.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// An order that is none.
+    #[error("order of the {fault}: expected a number above 0 and at most {most}, found {found}")]
+    Order {
+        /// Which fault.
+        fault: &'static str,
+        /// What was given.
+        found: f64,
+        /// Largest order that is believed.
+        most: f64,
+    },
+    /// A tolerance that is none.
+    #[error("relative error of the orders: expected 0 to {most}, found {found}")]
+    Tolerance {
+        /// What was given.
+        found: f64,
+        /// Largest that makes sense.
+        most: f64,
+    },
+}

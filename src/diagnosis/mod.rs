@@ -1,0 +1,36 @@
+//! From the envelope of a signal to a verdict on each part of a ball bearing.
+//!
+//! 1. [`FaultOrders`]: how often each part strikes, per shaft turn, and how well that is known.
+//! 2. [`OrderSpectrum`]: the envelope's spectrum over the shaft's angle, so that a run-up smears nothing.
+//! 3. A comb: a fault's line and its harmonics, moved together within the uncertainty of its order. Each harmonic is
+//!    compared with the median of the bins about it; those that coincide with multiples of the shaft, or with lines of a
+//!    fault that is named already, do not count.
+//! 4. [`chance`]: the probability that noise alone has a comb as good anywhere in the search, computed.
+//! 5. [`Diagnosis`]: named, not enough evidence, or not seen, with the evidence.
+//!
+//! A healthy bearing has the ball-pass line of the outer race too: balls that pass under the load make its compliance vary.
+//! That is a smooth modulation, with a harmonic or two; bursts of a defect have many of about equal strength. Three of them
+//! are asked for, and together the strength of a jump ([`LEAST_HARMONICS`], [`BURST_STRENGTH`]). Thresholds and what was measured: `docs/diagnosis.md`.
+//!
+//! Nothing here knows of simulations or files.
+//!
+//! # Limitations
+//! Faults that strike at the same order are not told apart; a window of one speed and load; defects all round a race (waviness,
+//! wear) make no bursts and are not seen.
+
+pub mod chance;
+mod comb;
+mod error;
+mod fault;
+mod order_spectrum;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use error::DiagnosisError;
+pub use fault::{Fault, FaultOrders};
+pub use order_spectrum::OrderSpectrum;
+pub use verdict::{
+    BURST_STRENGTH, Conclusion, Diagnosis, FaultVerdict, Harmonic, LEAST_HARMONICS, NAMED_BELOW,
+    SideLine, UNSEEN_ABOVE,
+};
