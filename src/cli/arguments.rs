@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::AnalyzeArguments;
 use super::progress::Visibility;
 use crate::case::Case;
 use crate::chart::Effort;
@@ -75,6 +76,22 @@ Files:
   report.html     the same to zoom into, and tables
 
 Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
+
+const ANALYZE_EXAMPLE: &str = "\
+Examples: a run of this program; a recorder's table, with a bearing by its drawing; a run-up of a bearing with orders of a catalogue
+  plummer analyze out/outer-dent --window 1.0:2.6
+  plummer analyze bench.csv --channel P1 --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 29.95
+  plummer analyze rise.wav --orders outer=3.585,inner=5.415,ball=4.713,cage=0.398 --speed 0:10,8:50 --band 6000:12000
+
+Signals: .npz (an array time_s, time or t, or a rate fs), .csv or .txt (a column time; units in the header: P1 (m/s^2); decimal
+points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+
+Verdicts: named, not enough evidence, not seen, each with its evidence and the probability that noise alone looks like it;
+docs/diagnosis.md says what they rest on. Windows need 16 events of a part at least: 7 shaft turns for most bearings.
+
+Files:
+  analysis.json  windows with strongest peaks and verdicts
+  report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons";
 
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
@@ -176,6 +193,9 @@ pub enum Command {
         #[arg(long, value_name = "PART", value_enum)]
         only: Option<ChartPart>,
     },
+    /// Which part of a bearing is damaged, by a run's signal or a measured one
+    #[command(after_help = ANALYZE_EXAMPLE)]
+    Analyze(Box<AnalyzeArguments>),
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
@@ -248,7 +268,8 @@ impl ExportFormat {
 }
 
 impl Command {
-    /// Returns the command's word, which is also its result file's name: `run` writes `run.json`.
+    /// Returns the command's word, which is also its result file's name: `run` writes `run.json`; `analyze` alone writes
+    /// `analysis.json`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -257,6 +278,7 @@ impl Command {
             Self::Condense { .. } => "condense",
             Self::Frf { .. } => "frf",
             Self::Chart { .. } => "chart",
+            Self::Analyze(_) => "analyze",
             Self::Inspect { .. } => "inspect",
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
@@ -272,6 +294,7 @@ impl Command {
                 only: Some(ChartPart::Stability),
                 ..
             } => &["stability"],
+            Self::Analyze(_) => &["analysis"],
             other => &[other.name()],
         };
         names.iter().map(|name| format!("{name}.json")).collect()
@@ -290,8 +313,8 @@ impl Command {
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
-    /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; inspect writes only
-    /// if named)
+    /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; analyze: the run's own
+    /// folder, or out/ and the file's name; inspect writes only if named)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
@@ -398,6 +421,12 @@ mod tests {
             "plummer chart a.toml --only speed",
             "plummer run a.toml --checkpoint-every -1",
             "plummer run a.toml --checkpoint-every NaN",
+            "plummer analyze",
+            "plummer analyze a.csv --window 3:2",
+            "plummer analyze a.csv --speed fast",
+            "plummer analyze a.csv --balls 9",
+            "plummer analyze a.csv --orders outer=3.6 --bearing a.toml",
+            "plummer analyze a.csv --rate 0",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }
@@ -416,6 +445,7 @@ mod tests {
             "plummer frf --help",
             "plummer chart --help",
             "plummer inspect --help",
+            "plummer analyze --help",
             "plummer export --help",
             "plummer verify --help",
         ] {
@@ -446,6 +476,7 @@ mod tests {
             assert_eq!(files(&words), [file]);
         }
         assert_eq!(files("plummer run a"), ["run.json"]);
+        assert_eq!(files("plummer analyze a"), ["analysis.json"]);
     }
 
     #[test]

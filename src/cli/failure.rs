@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::ExportError;
+use super::{AnalyzeError, ExportError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
 use crate::stages::StageError;
@@ -81,6 +81,9 @@ pub enum CliError {
     /// Something was not exported.
     #[error(transparent)]
     Export(Box<ExportError>),
+    /// There is nothing to analyse, or nothing to analyse it by.
+    #[error(transparent)]
+    Analyze(#[from] AnalyzeError),
     /// A chart could not be made.
     #[error(transparent)]
     Chart(Box<ChartError>),
@@ -119,6 +122,7 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Case(_)
+            | Self::Analyze(_)
             | Self::ResultExists { .. }
             | Self::Folder { .. }
             | Self::Finished { .. }
@@ -145,6 +149,7 @@ impl CliError {
             Self::Case(error) => error.help(),
             Self::Stage(error) => error.help(),
             Self::Export(error) => error.help(),
+            Self::Analyze(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
@@ -178,7 +183,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{ChartError, CliError, ExportError, VerificationError};
+    use super::{AnalyzeError, ChartError, CliError, ExportError, VerificationError};
     use crate::case::Case;
     use crate::exchange::DofTableError;
     use crate::stages::{StageError, UnfinishedError};
@@ -297,6 +302,17 @@ mod tests {
                 2,
                 "error: out/a has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
                  help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
+            ),
+            (
+                CliError::from(AnalyzeError::NoSpeed),
+                2,
+                "error: nothing says how fast the shaft turns\nhelp: --speed HZ, or --speed T:HZ,T:HZ,...\n",
+            ),
+            (
+                CliError::from(AnalyzeError::NoBearing),
+                2,
+                "error: nothing says which bearing it is\n\
+                 help: --bearing CASE.toml, or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
             ),
             (
                 CliError::from(ChartError::TooShort {

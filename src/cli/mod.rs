@@ -3,6 +3,7 @@
 //! Computations return data; only this module prints. Exit codes: 0 done; 1 it ran and the answer is bad, or could not
 //! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
 
+mod analyze;
 mod arguments;
 mod chart;
 mod condense;
@@ -28,6 +29,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
 pub use export::ExportError;
 pub use failure::CliError;
@@ -76,6 +78,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Frf { case } => compute(case, Purpose::Frf, arguments),
         Command::Chart { case, .. } => compute(case, Purpose::Chart, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
+        Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Verify { full } => verify::verify(*full, options),
         Command::Inspect {
             mesh,

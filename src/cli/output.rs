@@ -91,9 +91,11 @@ impl OutputFolder {
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
     #[must_use]
     pub fn report_name(&self, command: &str) -> String {
-        let others = ["run", "modes", "condense", "frf", "chart", "verify"]
-            .into_iter()
-            .filter(|&other| other != command);
+        let others = [
+            "run", "modes", "condense", "frf", "chart", "analysis", "verify",
+        ]
+        .into_iter()
+        .filter(|&other| other != command);
         let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
         if others.into_iter().any(shared) {
             format!("{command}-report.html")

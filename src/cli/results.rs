@@ -9,7 +9,7 @@ use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
     ChosenPart, CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModelChoice, ModesResult,
     Reading, Recording, ReducedInterface, RunEnd, RunResult, SensorScalogram, StageError,
-    StructureStage,
+    StructureStage, WindowAnalysis,
 };
 use crate::system::{BallsInertia, Column};
 use serde_json::{Map, Value, json};
@@ -117,26 +117,48 @@ pub(super) fn run_json<R: Recording>(
             "inner": orders.inner,
             "ball": orders.ball_defect,
         },
-        "windows": result.windows.iter().map(|window| json!({
+        "windows": windows_json(&result.windows),
+        "superelement": imported(&result.scene.stage),
+        "not_analysed": result.not_analysed,
+    });
+    extend(&mut map, fields);
+    Value::Object(map)
+}
+
+/// What a result says of analysed windows.
+pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
+    let verdict = |window: &WindowAnalysis| match &window.diagnosis {
+        Ok(diagnosis) => json!({
+            "sentence": diagnosis.sentence(),
+            "turns": diagnosis.spectrum.turns,
+            "faults": diagnosis.faults,
+        }),
+        Err(reason) => json!({ "sentence": format!("no verdict: {reason}") }),
+    };
+    let window = |window: &WindowAnalysis| {
+        let outer = window.outer.iter().map(|(expected, found)| {
+            json!({
+                "expected_hz": expected,
+                "found_hz": found.map(|found| found.0),
+                "amplitude": found.map(|found| found.1),
+            })
+        });
+        json!({
             "sensor": window.sensor,
+            "unit": window.unit,
             "from": window.from,
             "to": window.to,
             "speed_hz": window.speed_hz,
             "rms": window.rms,
             "peak": window.peak,
             "kurtosis": window.kurtosis,
-            "outer_race": window.outer.map(|(expected, found)| json!({
-                "expected_hz": expected,
-                "found_hz": found.map(|found| found.0),
-                "amplitude": found.map(|found| found.1),
-            })),
+            "high_pass_hz": window.spectrum.high_pass_hz,
+            "outer_race": outer.collect::<Vec<_>>(),
             "envelope_peaks": window.peaks,
-        })).collect::<Vec<_>>(),
-        "superelement": imported(&result.scene.stage),
-        "not_analysed": result.not_analysed,
-    });
-    extend(&mut map, fields);
-    Value::Object(map)
+            "verdict": verdict(window),
+        })
+    };
+    windows.iter().map(window).collect()
 }
 
 /// Where, and the frequencies there.

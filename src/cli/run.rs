@@ -190,7 +190,11 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
             "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",
             window.sensor, window.from, window.to, window.speed_hz, window.rms, window.peak
         ));
-        for (harmonic, (expected, found)) in (1..).zip(window.outer) {
+        lines.push(match &window.diagnosis {
+            Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
+            Err(reason) => format!("  no verdict: {reason}"),
+        });
+        for (harmonic, (expected, found)) in (1..).zip(&window.outer) {
             lines.push(match found {
                 Some((hz, amplitude)) => format!(
                     "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} m/s^2",

@@ -1,14 +1,14 @@
-//! Envelope analysis of a run's signal in the windows that the case names.
+//! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
 
-use super::StageError;
+use super::{Kinematics, StageError};
 use crate::case::Case;
-use crate::closed_form::race::DefectOrders;
+use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
+use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
-    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, envelope_peaks,
+    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, band_limit,
+    envelope_peaks,
 };
-use crate::system::BearingSetup;
-use std::f64::consts::TAU;
 
 /// Harmonics of each fault line that peaks are matched to.
 const HARMONICS: u32 = 3;
@@ -20,23 +20,59 @@ const HIGHEST_ORDER: f64 = 25.0;
 /// How far a peak may be from the line that it is said to belong to.
 const LINE_TOLERANCE: f64 = 0.03;
 
+/// Points of a window's signal, and of its envelope, that are kept to be shown.
+const SHOWN_POINTS: usize = 4000;
+
+/// What is analysed of a signal.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AnalysisSettings {
+    /// Corner of the high-pass before the envelope, Hz; `None`: none.
+    pub high_pass_hz: Option<f64>,
+    /// End of the band before the envelope, Hz; `None`: that of the signal.
+    pub low_pass_hz: Option<f64>,
+    /// Windows, s.
+    pub windows: Vec<TimeWindow>,
+}
+
+impl AnalysisSettings {
+    /// What a case asks for.
+    #[must_use]
+    pub fn of(case: &Case) -> Self {
+        let windows = case.analysis.envelope.iter();
+        Self {
+            high_pass_hz: case.analysis.high_pass_hz,
+            low_pass_hz: None,
+            windows: windows
+                .map(|window| TimeWindow {
+                    from: window.from,
+                    to: window.to,
+                })
+                .collect(),
+        }
+    }
+}
+
 /// A window of the signal, analysed.
 #[derive(Debug, Clone)]
 pub struct WindowAnalysis {
     /// Sensor that it belongs to.
     pub sensor: String,
+    /// Unit of its signal.
+    pub unit: String,
     /// Start, s.
     pub from: f64,
     /// End, s.
     pub to: f64,
     /// Mean shaft speed in the window, Hz.
     pub speed_hz: f64,
-    /// Root mean square of the signal, m/s^2.
+    /// Root mean square of the signal, in its unit.
     pub rms: f64,
-    /// Largest magnitude, m/s^2.
+    /// Largest magnitude, in its unit.
     pub peak: f64,
     /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
     pub kurtosis: Option<f64>,
+    /// Signal and envelope over time, thinned.
+    pub shown: [Curve; 2],
     /// Envelope spectrum.
     pub spectrum: EnvelopeSpectrum,
     /// Fault lines and the shaft's.
@@ -44,15 +80,17 @@ pub struct WindowAnalysis {
     /// Strongest peaks.
     pub peaks: Vec<EnvelopePeak>,
     /// For the outer race's line and its second harmonic: expected frequency, peak found within
-    /// three percent (Hz, amplitude).
-    pub outer: [(f64, Option<(f64, f64)>); 2],
+    /// three percent (Hz, amplitude). Empty where its order is not known.
+    pub outer: Vec<(f64, Option<(f64, f64)>)>,
+    /// Verdict on each part of the bearing, or why there is none.
+    pub diagnosis: Result<Diagnosis, String>,
 }
 
 /// What is read of a signal before and after a window, in periods of the high-pass's cut-off: filter and envelope err there, by
 /// the ends of what is read, by 1 / (pi 2 pi n) of the signal n periods from an end.
 const MARGIN_PERIODS: f64 = 200.0;
 
-/// Analyses one sensor's acceleration in every window of the case. `read` gives the stretch of it that holds a window (s), with
+/// Analyses one sensor's signal in every window. `read` gives the stretch of it that holds a window (s), with
 /// so many seconds before and after as there are: at least the window's own length, that its envelope has no edges.
 ///
 /// # Errors
@@ -60,28 +98,30 @@ const MARGIN_PERIODS: f64 = 200.0;
 /// [`StageError::Signal`] or [`StageError::Series`] for a window outside the signal or a filter
 /// that does not fit the sampling.
 pub fn analyse(
-    case: &Case,
     sensor: &str,
+    settings: &AnalysisSettings,
     read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
-    setup: &BearingSetup,
+    kinematics: &Kinematics,
 ) -> Result<Vec<WindowAnalysis>, StageError> {
-    let settings = EnvelopeAnalysis {
-        high_pass_hz: case.analysis.high_pass_hz,
+    let filter = EnvelopeAnalysis {
+        high_pass_hz: settings.high_pass_hz,
         ..EnvelopeAnalysis::default()
     };
     let filtered_s = settings.high_pass_hz.map_or(0.0, |hz| MARGIN_PERIODS / hz);
-    case.analysis
-        .envelope
-        .iter()
-        .map(|window| {
+    let windows = settings.windows.iter();
+    windows
+        .map(|&window| {
             let (from, to) = (window.from, window.to);
-            let stretch = read(TimeWindow { from, to }, filtered_s.max(to - from))?;
-            let envelope = settings.envelope(&stretch)?;
+            let stretch = read(window, filtered_s.max(to - from))?;
+            let limited = match settings.low_pass_hz {
+                Some(up_to_hz) => &band_limit(&stretch, up_to_hz)?,
+                None => &stretch,
+            };
+            let envelope = filter.envelope(limited)?;
             let part = stretch.window(from, to)?;
-            let turned = setup.cage.shaft().angle(to) - setup.cage.shaft().angle(from);
-            let speed_hz = (turned / (to - from) / TAU).abs();
-            let spectrum = settings.window_of(&envelope, from, to)?;
-            let orders = slipping_orders(setup, from, to);
+            let speed_hz = kinematics.mean_speed_hz(window);
+            let spectrum = filter.window_of(&envelope, from, to)?;
+            let orders = kinematics.orders(window)?;
             let lines = lines(speed_hz, &orders)?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),
@@ -92,55 +132,60 @@ pub fn analyse(
             } else {
                 Vec::new()
             };
-            let near = |expected: f64| {
+            let near = |harmonic: f64, order: f64| {
+                let expected = harmonic * order * speed_hz;
                 let found = spectrum.peak_near(expected, LINE_TOLERANCE);
                 (
                     expected,
                     found.map(|peak| (peak.frequency_hz, peak.amplitude)),
                 )
             };
+            let outer = orders.order(Fault::OuterRace).into_iter();
+            let turns = |time| kinematics.turns(time);
+            let diagnosis = Diagnosis::of(&envelope, window, turns, &orders);
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),
+                unit: stretch.unit().to_owned(),
                 from,
                 to,
                 speed_hz,
                 rms: part.rms(),
                 peak: part.peak(),
                 kurtosis: part.kurtosis(),
-                outer: [1.0, 2.0].map(|harmonic| near(harmonic * orders.outer * speed_hz)),
+                shown: [
+                    thinned(sensor, &part),
+                    thinned("envelope", &envelope.window(from, to)?),
+                ],
+                outer: outer
+                    .flat_map(|order| [near(1.0, order), near(2.0, order)])
+                    .collect(),
                 spectrum,
                 lines,
                 peaks,
+                diagnosis: diagnosis.map_err(|error| error.to_string()),
             })
         })
         .collect()
 }
 
-/// Defect orders between two times with the cage's slip: outer `N r`, inner `N (1 - r)` for a cage order r. The
-/// ball's own spin is not prescribed; its order stays that of pure rolling.
-fn slipping_orders(setup: &BearingSetup, from: f64, to: f64) -> DefectOrders {
-    let balls = f64::from(setup.geometry.balls());
-    let cage = setup.cage.ratio_between(from, to);
-    DefectOrders {
-        cage,
-        outer: balls * cage,
-        inner: balls * (1.0 - cage),
-        ..setup.geometry.orders()
-    }
+/// A curve of few points in which spikes survive.
+fn thinned(name: &str, series: &TimeSeries) -> Curve {
+    let mut thinner = Thinner::new(series.values().len(), SHOWN_POINTS);
+    thinner.push(series.values());
+    Curve::of_thinned(name, [series.start_s(), series.step_s()], thinner)
 }
 
-fn lines(speed_hz: f64, orders: &DefectOrders) -> Result<Vec<NamedLine>, StageError> {
+/// The shaft's line and those of the faults whose order is known.
+fn lines(speed_hz: f64, orders: &FaultOrders) -> Result<Vec<NamedLine>, StageError> {
     if speed_hz <= 0.0 {
         return Ok(Vec::new());
     }
-    let named = [
-        ("shaft", 1.0, HARMONICS),
-        ("outer race", orders.outer, HARMONICS),
-        ("inner race", orders.inner, HARMONICS),
-        ("ball", orders.ball_defect, HARMONICS),
-    ];
-    named
+    let faults = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
+    let known = faults
         .into_iter()
-        .map(|(name, order, harmonics)| Ok(NamedLine::new(name, order * speed_hz, harmonics)?))
+        .filter_map(|fault| Some((fault.name(), orders.order(fault)?)));
+    std::iter::once(("shaft", 1.0))
+        .chain(known)
+        .map(|(name, order)| Ok(NamedLine::new(name, order * speed_hz, HARMONICS)?))
         .collect()
 }

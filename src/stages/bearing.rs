@@ -66,6 +66,15 @@ pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, StageError> {
     Ok(Some(hertz(case, asked, &geometry)?))
 }
 
+/// Geometry of a case's bearing; `None` without one.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, StageError> {
+    let asked = case.bearing.as_ref();
+    asked.map(|asked| geometry(case, asked)).transpose()
+}
+
 fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, StageError> {
     let geometry = BearingGeometry::new(BearingDimensions {
         balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),

@@ -4,8 +4,9 @@ use super::{ImportError, UnfinishedError};
 use crate::bearing::defect::DefectError;
 use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError, WaveError};
 use crate::case::{CaseError, ModeExtent};
+use crate::diagnosis::DiagnosisError;
 use crate::element::ElementError;
-use crate::exchange::{ColumnError, CsvError, NpzError, ReadModesError, UffError};
+use crate::exchange::{ColumnError, CsvError, MeasuredError, NpzError, ReadModesError, UffError};
 use crate::linalg::HarmonicError;
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
@@ -28,6 +29,12 @@ pub enum StageError {
     /// The case file.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// A file of signals.
+    #[error(transparent)]
+    Measured(#[from] MeasuredError),
+    /// A signal that cannot be judged.
+    #[error(transparent)]
+    Diagnosis(#[from] DiagnosisError),
     /// The mesh file.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -358,6 +365,7 @@ impl StageError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help(),
+            Self::Measured(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
             Self::Import { source, .. } => source.help(),
             Self::Unfinished(error) => error.help(),

@@ -5,6 +5,7 @@
 //! [`Watch`].
 
 mod analysis;
+mod analysis_report;
 mod bearing;
 mod bearing_defects;
 mod bearing_motion;
@@ -33,8 +34,10 @@ mod imported_report;
 mod imported_tests;
 mod inspect;
 mod keeper;
+mod kinematics;
 mod loaded_pass;
 mod loose;
+mod measured;
 mod mesh_digest;
 mod mesh_sequence;
 mod modal_system;
@@ -67,8 +70,9 @@ mod tables;
 mod tie_price;
 mod unfinished;
 
-pub use analysis::{WindowAnalysis, analyse};
-pub use bearing::{bearing_setup, race_contacts};
+pub use analysis::{AnalysisSettings, WindowAnalysis, analyse};
+pub use analysis_report::analysis_report;
+pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
 pub use bearing_table::bearing_table;
 pub use choice::{ChosenPart, ModelChoice};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
@@ -88,7 +92,9 @@ pub use imported::ImportedHousing;
 pub use imported_report::imported_report;
 pub use inspect::{ElementShape, GroupSize, Inspection};
 pub use keeper::{InMemory, Keeper, Wish};
+pub use kinematics::Kinematics;
 pub use loaded_pass::{LoadedPass, LoadedPoint};
+pub use measured::compute_analysis;
 pub use mesh_digest::{MeshDigest, mesh_digests};
 pub use modal_tables::free_motions;
 pub use mode_checks_report::{error_text, misses_text, mode_numbers, plain, signed};

@@ -3,8 +3,8 @@
 use super::bearing_table;
 use super::statics::Statics;
 use super::{
-    InMemory, Keeper, ModelChoice, Recording, RunEnd, Scene, SensorScalogram, Simulation, Span,
-    StageError, Watch, WindowAnalysis, analyse,
+    AnalysisSettings, InMemory, Keeper, Kinematics, ModelChoice, Recording, RunEnd, Scene,
+    SensorScalogram, Simulation, Span, StageError, Watch, WindowAnalysis, analyse,
 };
 use crate::case::Case;
 use crate::report::Table;
@@ -116,9 +116,11 @@ impl<R: Recording> RunResult<R> {
 
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
+        let settings = AnalysisSettings::of(case);
         for (index, name) in self.simulation.record.sensors().iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
-            let analysed = analyse(case, name, read, &self.scene.setup);
+            let kinematics = Kinematics::of(&self.scene.setup);
+            let analysed = analyse(name, &settings, read, &kinematics);
             match analysed {
                 Ok(windows) => self.windows.extend(windows),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),

@@ -1,13 +1,13 @@
 //! The report of `plummer run`.
 
+use super::analysis_report::{verdict_headlines, window_section};
 use super::drawing::draw;
 use super::statics_report::statics_section;
 use super::tables::{assumptions, expected_table, mode_table, model_facts};
-use super::{ExpectedMode, Recording, RunEnd, RunResult, StageError, WindowAnalysis};
+use super::{ExpectedMode, Recording, RunEnd, RunResult, StageError};
 use crate::case::Case;
 use crate::report::{
-    Axis, Cell, Column as TableColumn, Curve, CurveStyle, Fact, Marker, Plot, Report,
-    SIGNAL_POINTS, Section, Table, Thinner, Verdict, significant,
+    Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant,
 };
 use crate::system::Column;
 
@@ -34,7 +34,7 @@ pub fn run_report<R: Recording>(
     }
     report = report.section(signals(result)?);
     for window in &result.windows {
-        report = report.section(envelope(window));
+        report = report.section(window_section(window));
     }
     for scalogram in &result.scalograms {
         report = report.section(scalogram.section());
@@ -80,7 +80,7 @@ fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report 
             format!("{} m/s^2", significant(window.peak, 3)),
             Verdict::None,
         );
-        for (harmonic, (expected, found)) in (1..).zip(window.outer) {
+        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
             if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
                 report = report.headline(
                     format!(
@@ -93,7 +93,7 @@ fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report 
             }
         }
     }
-    report
+    verdict_headlines(report, &result.windows)
 }
 
 fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
@@ -122,96 +122,6 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
         );
     }
     Ok(section)
-}
-
-fn envelope(window: &WindowAnalysis) -> Section {
-    let top = 14.0 * window.speed_hz;
-    let mut plot = Plot::new(
-        format!(
-            "Envelope spectrum of {}, {}-{} s",
-            window.sensor, window.from, window.to
-        ),
-        Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
-        Axis::new("Amplitude", "m/s^2"),
-    )
-    .curve(
-        Curve::of_envelope_spectrum("envelope", &window.spectrum)
-            .within(0.0, top.max(1.0))
-            .style(CurveStyle::Line),
-    );
-    for (family, line) in window.lines.iter().enumerate() {
-        for harmonic in 1..=line.harmonics() {
-            let at = f64::from(harmonic) * line.frequency_hz();
-            if at < top {
-                let label = if harmonic == 1 {
-                    line.name().to_owned()
-                } else {
-                    format!("{harmonic}x {}", line.name())
-                };
-                plot = plot.marker(Marker::new(at, label).family(family));
-            }
-        }
-    }
-    let mut peaks = Table::new(
-        "Strongest peaks",
-        [
-            TableColumn::number("Frequency", "Hz"),
-            TableColumn::number("Amplitude", "m/s^2"),
-            TableColumn::text("Nearest line"),
-            TableColumn::number("Expected", "Hz"),
-            TableColumn::number("Deviation", "%"),
-        ],
-    );
-    for peak in &window.peaks {
-        let (name, expected, deviation) = match &peak.line {
-            Some(line) => (
-                format!("{} x {}", line.harmonic, line.nearest),
-                Cell::number(line.expected_hz, 4),
-                Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
-            ),
-            None => (String::new(), Cell::text(""), Cell::text("")),
-        };
-        peaks = peaks.row([
-            Cell::number(peak.frequency_hz, 4),
-            Cell::number(peak.amplitude, 3),
-            Cell::text(name),
-            expected,
-            deviation,
-        ]);
-    }
-    Section::new(format!("Envelope analysis of {}", window.sensor))
-        .plot(plot)
-        .facts([
-            Fact::new(
-                "Mean shaft speed",
-                format!("{} Hz", significant(window.speed_hz, 4)),
-            ),
-            Fact::new("RMS", format!("{} m/s^2", significant(window.rms, 4))),
-            Fact::new("Peak", format!("{} m/s^2", significant(window.peak, 4))),
-            Fact::new(
-                "Kurtosis",
-                window
-                    .kurtosis
-                    .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
-            )
-            .note("3 for a normal distribution"),
-            Fact::new(
-                "High-pass",
-                window.spectrum.high_pass_hz.map_or_else(
-                    || "none".to_owned(),
-                    |hz| format!("{} Hz, Butterworth, zero phase", significant(hz, 4)),
-                ),
-            ),
-            Fact::new(
-                "Window",
-                format!(
-                    "{} s, zero-padded {} times",
-                    significant(window.to - window.from, 3),
-                    significant(window.spectrum.zero_padding, 3)
-                ),
-            ),
-        ])
-        .table(peaks)
 }
 
 fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {

@@ -291,7 +291,8 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     });
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>| {
-        let mut windows = analyse(&case, "P1", read, &setup).unwrap();
+        let settings = AnalysisSettings::of(&case);
+        let mut windows = analyse("P1", &settings, read, &Kinematics::of(&setup)).unwrap();
         windows.remove(0).spectrum.amplitude
     };
     let part = analysed(&|window, margin| simulation.stretch(0, window, margin));

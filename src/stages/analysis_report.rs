@@ -1,0 +1,295 @@
+//! What a report says of an analysed window, and the report of `plummer analyze`.
+
+use super::WindowAnalysis;
+use crate::diagnosis::{Conclusion, Diagnosis, FaultVerdict};
+use crate::report::{
+    Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
+    significant,
+};
+
+/// Highest order that is drawn at first: three harmonics of usual races.
+const DRAWN_ORDERS: f64 = 16.0;
+/// Points of an order spectrum that are drawn.
+const DRAWN_POINTS: usize = 20_000;
+
+/// Composes the report of signals from files; `source` is the file or folder, `command` the line that made it.
+#[must_use]
+pub fn analysis_report(
+    source: &str,
+    assumptions: &[String],
+    windows: &[WindowAnalysis],
+    command: &str,
+) -> Report {
+    let mut report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Diagnosis of a ball bearing by its vibration signal");
+    report = verdict_headlines(report, windows);
+    for window in windows {
+        if let Err(reason) = &window.diagnosis {
+            report = report.warning(format!("{}: no verdict: {reason}", window.sensor));
+        }
+        report = report.section(window_section(window));
+    }
+    for text in assumptions {
+        report = report.assumption(text.clone());
+    }
+    report
+}
+
+/// The verdict on each window, on top of a report.
+pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) -> Report {
+    for window in windows {
+        if let Ok(diagnosis) = &window.diagnosis {
+            let named: Vec<&str> = diagnosis.named().map(|v| v.fault.name()).collect();
+            let text = if named.is_empty() {
+                "no fault named".to_owned()
+            } else {
+                format!("fault: {}", named.join(", "))
+            };
+            let what = format!(
+                "{}, {}-{} s",
+                window.sensor,
+                round(window.from),
+                round(window.to)
+            );
+            report = report.headline(what, text, Verdict::None);
+        }
+    }
+    report
+}
+
+fn round(time: f64) -> String {
+    significant(time, 4)
+}
+
+/// All about a window.
+pub(super) fn window_section(window: &WindowAnalysis) -> Section {
+    let amount = |value: f64| format!("{} {}", significant(value, 4), window.unit);
+    let mut section = Section::new(format!(
+        "{}, {}-{} s",
+        window.sensor,
+        round(window.from),
+        round(window.to)
+    ));
+    if let Ok(diagnosis) = &window.diagnosis {
+        section = section
+            .table(verdict_table(diagnosis))
+            .plot(order_plot(window, diagnosis));
+    }
+    section = section
+        .plot(envelope_plot(window))
+        .plot(time_plot(window))
+        .facts([
+            Fact::new(
+                "Mean shaft speed",
+                format!("{} Hz", significant(window.speed_hz, 4)),
+            ),
+            Fact::new("RMS", amount(window.rms)),
+            Fact::new("Peak", amount(window.peak)),
+            Fact::new(
+                "Kurtosis",
+                window
+                    .kurtosis
+                    .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
+            )
+            .note("3 for a normal distribution"),
+            Fact::new(
+                "High-pass",
+                window.spectrum.high_pass_hz.map_or_else(
+                    || "none".to_owned(),
+                    |hz| format!("{} Hz, Butterworth, zero phase", significant(hz, 4)),
+                ),
+            ),
+            Fact::new(
+                "Window",
+                format!(
+                    "{} s, zero-padded {} times",
+                    significant(window.to - window.from, 3),
+                    significant(window.spectrum.zero_padding, 3)
+                ),
+            ),
+        ])
+        .table(peak_table(window));
+    match &window.diagnosis {
+        Ok(diagnosis) => section.table(harmonic_table(window, diagnosis)),
+        Err(reason) => section.paragraph(format!("No verdict: {reason}.")),
+    }
+}
+
+fn time_plot(window: &WindowAnalysis) -> Plot {
+    let plot = Plot::new(
+        format!("{} and its envelope", window.sensor),
+        Axis::new("Time", "s"),
+        Axis::new("Amplitude", &window.unit),
+    );
+    let [signal, envelope] = window.shown.clone();
+    plot.curve(signal).curve(envelope)
+}
+
+fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
+    let spectrum = &diagnosis.spectrum;
+    let step = spectrum.order.get(1).copied().unwrap_or(1.0);
+    let count = ((DRAWN_ORDERS / step) as usize).min(DRAWN_POINTS);
+    let drawn: Vec<f64> = spectrum.amplitude.iter().take(count).copied().collect();
+    let last = step * drawn.len() as f64;
+    let even = crate::report::Abscissa::Even { start: 0.0, step };
+    let mut plot = Plot::new(
+        format!(
+            "Envelope of {} over the shaft's angle, {}-{} s",
+            window.sensor,
+            round(window.from),
+            round(window.to)
+        ),
+        Axis::new("Order", "").range(0.0, last),
+        Axis::new("Amplitude", &window.unit),
+    )
+    .curve(Curve::new("envelope", even, drawn).style(CurveStyle::Line))
+    .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.");
+    plot = plot.marker(Marker::new(1.0, "shaft").family(0));
+    for (family, verdict) in (1..).zip(&diagnosis.faults) {
+        let order = verdict.order.unwrap_or(verdict.expected_order);
+        let name = verdict.fault.name();
+        plot = plot.marker(Marker::new(order, name).family(family));
+        for harmonic in verdict.harmonics.iter().skip(1) {
+            if harmonic.order < last {
+                let label = format!("{}x {name}", harmonic.harmonic);
+                plot = plot.marker(Marker::new(harmonic.order, label).family(family));
+            }
+        }
+    }
+    plot
+}
+
+fn verdict_table(diagnosis: &Diagnosis) -> Table {
+    let mut table = Table::new(
+        "Verdict",
+        [
+            Column::text("Part"),
+            Column::text("Verdict"),
+            Column::number("Probability under noise alone", ""),
+            Column::number("Order, expected", ""),
+            Column::number("Order, found", ""),
+            Column::number("Line", "Hz"),
+            Column::text("Evidence, and why not more"),
+        ],
+    );
+    let number = |value: Option<f64>, digits| {
+        value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits))
+    };
+    for verdict in &diagnosis.faults {
+        let judged = match verdict.conclusion {
+            Conclusion::Named => Verdict::Bad,
+            Conclusion::NotEnough | Conclusion::NotSeen => Verdict::None,
+        };
+        table = table.row([
+            Cell::text(verdict.fault.name()),
+            Cell::text(verdict.conclusion.words()).judged(judged),
+            number(verdict.false_alarm, 2),
+            Cell::number(verdict.expected_order, 5),
+            number(verdict.order, 5),
+            number(verdict.frequency_hz, 4),
+            Cell::text(verdict.why.clone()),
+        ]);
+    }
+    table
+}
+
+fn harmonic_table(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Table {
+    let mut table = Table::new(
+        "Harmonics",
+        [
+            Column::text("Line"),
+            Column::number("Order", ""),
+            Column::number("Frequency", "Hz"),
+            Column::number("Amplitude", &window.unit),
+            Column::number("Of the mean envelope", "%"),
+            Column::number("Above the floor", "dB"),
+            Column::text("Remark"),
+        ],
+    );
+    let harmonics = diagnosis
+        .faults
+        .iter()
+        .flat_map(|verdict: &FaultVerdict| verdict.harmonics.iter().map(move |h| (verdict, h)));
+    for (verdict, harmonic) in harmonics {
+        let remark = match (&harmonic.coincides_with, &harmonic.leakage_of) {
+            (Some(other), _) => format!("coincides with {other}: does not count"),
+            (None, Some(other)) => format!("may be leakage of {other}: no evidence"),
+            (None, None) if harmonic.seen => "stands out".to_owned(),
+            (None, None) => String::new(),
+        };
+        table = table.row([
+            Cell::text(format!("{} x {}", harmonic.harmonic, verdict.fault.name())),
+            Cell::number(harmonic.order, 5),
+            Cell::number(harmonic.frequency_hz, 4),
+            Cell::number(harmonic.amplitude, 3),
+            Cell::number(100.0 * harmonic.depth, 2),
+            Cell::number(harmonic.above_floor_db, 3),
+            Cell::text(remark),
+        ]);
+    }
+    table
+}
+
+fn envelope_plot(window: &WindowAnalysis) -> Plot {
+    let top = 14.0 * window.speed_hz;
+    let mut plot = Plot::new(
+        format!(
+            "Envelope spectrum of {}, {}-{} s",
+            window.sensor,
+            round(window.from),
+            round(window.to)
+        ),
+        Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
+        Axis::new("Amplitude", &window.unit),
+    )
+    .curve(
+        Curve::of_envelope_spectrum("envelope", &window.spectrum)
+            .within(0.0, top.max(1.0))
+            .style(CurveStyle::Line),
+    );
+    for (family, line) in window.lines.iter().enumerate() {
+        for harmonic in 1..=line.harmonics() {
+            let at = f64::from(harmonic) * line.frequency_hz();
+            if at < top {
+                let label = if harmonic == 1 {
+                    line.name().to_owned()
+                } else {
+                    format!("{harmonic}x {}", line.name())
+                };
+                plot = plot.marker(Marker::new(at, label).family(family));
+            }
+        }
+    }
+    plot
+}
+
+fn peak_table(window: &WindowAnalysis) -> Table {
+    let mut peaks = Table::new(
+        "Strongest peaks",
+        [
+            Column::number("Frequency", "Hz"),
+            Column::number("Amplitude", &window.unit),
+            Column::text("Nearest line"),
+            Column::number("Expected", "Hz"),
+            Column::number("Deviation", "%"),
+        ],
+    );
+    for peak in &window.peaks {
+        let (name, expected, deviation) = match &peak.line {
+            Some(line) => (
+                format!("{} x {}", line.harmonic, line.nearest),
+                Cell::number(line.expected_hz, 4),
+                Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
+            ),
+            None => (String::new(), Cell::text(""), Cell::text("")),
+        };
+        peaks = peaks.row([
+            Cell::number(peak.frequency_hz, 4),
+            Cell::number(peak.amplitude, 3),
+            Cell::text(name),
+            expected,
+            deviation,
+        ]);
+    }
+    peaks
+}

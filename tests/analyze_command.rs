@@ -1,0 +1,248 @@
+//! `plummer analyze` from outside, and the verdicts on the example cases.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use plummer::case::Case;
+use plummer::stages::{Unwatched, WindowAnalysis, compute_run};
+use serde_json::Value;
+
+/// An empty folder of this test's own.
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn plummer(folder: &Path, words: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(folder)
+        .args(words)
+        .output()
+        .unwrap()
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn json(output: &Output) -> Value {
+    assert_eq!(output.status.code(), Some(0), "{}", errors(output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Parts that a window's verdict names.
+fn named(window: &Value) -> Vec<&str> {
+    let faults = window["verdict"]["faults"].as_array().unwrap().iter();
+    let named = faults.filter(|fault| fault["conclusion"] == "named");
+    named
+        .map(|fault| fault["fault"].as_str().unwrap())
+        .collect()
+}
+
+/// What makes an example short: 44 Hz all the time, analysed as a whole.
+fn short(seconds: f64) -> Vec<String> {
+    let end = 0.1 + seconds;
+    vec![
+        "speed.profile=[{time=0,hz=44}]".to_owned(),
+        "transient.start=0.1".to_owned(),
+        format!("transient.end={end}"),
+        format!("analysis.envelope=[{{from=0.1,to={end}}}]"),
+    ]
+}
+
+fn example(name: &str) -> String {
+    let root = env!("CARGO_MANIFEST_DIR");
+    format!("{root}/examples/tadina2011/{name}.toml")
+}
+
+/// The analysed window of an example.
+fn window(name: &str, set: &[String]) -> WindowAnalysis {
+    let case = Case::load(example(name), set).unwrap();
+    compute_run(&case, &Unwatched).unwrap().windows.remove(0)
+}
+
+fn faults(window: &WindowAnalysis) -> Vec<&'static str> {
+    let diagnosis = window.diagnosis.as_ref().unwrap();
+    println!("{}", diagnosis.sentence());
+    diagnosis
+        .named()
+        .map(|verdict| verdict.fault.name())
+        .collect()
+}
+
+#[test]
+fn a_healthy_bearing_has_no_fault() {
+    assert_eq!(faults(&window("healthy", &short(0.3))), [""; 0]);
+}
+
+/// Its outer race's line is there with all certainty under ten times its weight, and no fault.
+#[test]
+fn a_healthy_bearing_under_load_has_the_outer_races_line_and_no_fault() {
+    let mut set = short(0.3);
+    set.push("shaft.gravity=[0,-98.1]".to_owned());
+    let loaded = window("healthy", &set);
+    assert_eq!(faults(&loaded), [""; 0]);
+    let outer = &loaded.diagnosis.unwrap().faults[0];
+    assert!(outer.false_alarm.unwrap() < 1e-6, "{outer:#?}");
+    assert!(outer.burst_strength.unwrap() < 1.0, "{outer:#?}");
+}
+
+#[test]
+fn a_dent_in_the_inner_race_is_named() {
+    assert_eq!(faults(&window("inner-dent", &short(0.3))), ["inner race"]);
+}
+
+/// A ball strikes where the load is only: a longer window.
+#[test]
+fn a_flat_on_a_ball_is_named() {
+    assert_eq!(faults(&window("ball-flat", &short(0.6))), ["ball"]);
+}
+
+#[test]
+fn a_run_and_its_folder_have_the_same_verdict() {
+    let folder = scratch("analyze-run");
+    let (case, set) = (example("outer-dent"), short(0.3));
+    let mut words = vec!["run", &case, "--out", "dent", "--json"];
+    words.extend(set.iter().flat_map(|set| ["--set", set]));
+    let run = json(&plummer(&folder, &words));
+    let found = json(&plummer(&folder, &["analyze", "dent", "--json"]));
+    assert_eq!(named(&found["windows"][0]), ["outer race"]);
+    // the same samples through the same code; read from a file, filtered with other margins
+    assert_eq!(named(&run["windows"][0]), ["outer race"]);
+    let rms = |result: &Value| result["windows"][0]["rms"].as_f64().unwrap();
+    assert!((rms(&run) / rms(&found) - 1.0).abs() < 1e-12);
+    assert_eq!(found["command"], "analyze");
+    assert!((found["defect_orders"]["outer"].as_f64().unwrap() - 2.568).abs() < 1e-3);
+    assert!((found["windows"][0]["speed_hz"].as_f64().unwrap() - 44.0).abs() < 1e-9);
+    assert!(found["windows"][0]["envelope_peaks"][0]["frequency_hz"].is_f64());
+    // the run's own report stays
+    for name in ["report.html", "analysis-report.html", "analysis.json"] {
+        assert!(folder.join("dent").join(name).is_file(), "{name}");
+    }
+    let again = plummer(&folder, &["analyze", "dent"]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(errors(&again).contains("is the result of an earlier run"));
+    // a window that is too short for any part
+    let words = ["analyze", "dent", "--force", "--window", "0.2:0.25"];
+    let brief = plummer(&folder, &words);
+    assert_eq!(brief.status.code(), Some(1), "{}", errors(&brief));
+    assert!(
+        errors(&brief).contains("no part could be judged"),
+        "{}",
+        errors(&brief)
+    );
+    let outside = plummer(
+        &folder,
+        &["analyze", "dent", "--force", "--window", "0.2:9"],
+    );
+    assert_eq!(outside.status.code(), Some(2));
+    assert!(
+        errors(&outside).contains("is not inside the series"),
+        "{}",
+        errors(&outside)
+    );
+}
+
+/// A table as a recorder may write it: rings of 3 kHz, struck 3.585 times a turn of 25 Hz, and noise.
+fn recorded(header: &str) -> String {
+    let (mut text, mut state) = (format!("{header}\n"), 1_u64);
+    for k in 0..16_000_u32 {
+        let t = f64::from(k) / 16e3;
+        let since = t - (t * 89.625).floor() / 89.625;
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let noise = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        let ring = (-600.0 * since).exp() * (TAU * 3e3 * since).sin();
+        writeln!(text, "{t},{:.6}", ring + 0.3 * noise).unwrap();
+    }
+    text
+}
+
+#[test]
+fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
+    let folder = scratch("analyze-table");
+    fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
+    let bearing = [
+        "--balls",
+        "9",
+        "--pitch-diameter",
+        "39.04",
+        "--ball-diameter",
+        "7.94",
+    ];
+    let analyze = |more: &[&str]| {
+        let words = [&["analyze", "bench.csv", "--force"][..], more].concat();
+        plummer(&folder, &words)
+    };
+    let by = |more: &[&str]| analyze(&[&bearing[..], more].concat());
+    let found = json(&by(&["--speed", "25", "--json"]));
+    let window = &found["windows"][0];
+    assert_eq!(named(window), ["outer race"]);
+    assert_eq!(window["unit"], "g");
+    // an eighth of the rate
+    assert!((window["high_pass_hz"].as_f64().unwrap() - 2e3).abs() < 1e-9);
+    let written = fs::read_to_string(folder.join("out/bench/analysis.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), found);
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    let command = "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
+    assert!(report.contains(command), "the command line");
+    assert!(report.contains("outer race"));
+    // by orders alone, and a speed over time that is constant all the same
+    let orders = [
+        "--orders",
+        "outer=3.585,inner=5.415",
+        "--speed",
+        "0:25,1:25",
+    ];
+    let found = json(&analyze(
+        &[&orders[..], &["--json", "--band", "2000:5000"]].concat(),
+    ));
+    assert_eq!(named(&found["windows"][0]), ["outer race"]);
+    assert!(found["defect_orders"]["ball"].is_null());
+    // another speed, at which nothing strikes
+    let found = json(&by(&["--speed", "31", "--json"]));
+    assert_eq!(named(&found["windows"][0]), [""; 0]);
+
+    for (output, expected) in [
+        (
+            by(&[]),
+            "error: nothing says how fast the shaft turns\nhelp: --speed HZ, or --speed T:HZ,T:HZ,...\n",
+        ),
+        (
+            analyze(&["--speed", "25"]),
+            "error: nothing says which bearing it is\nhelp: --bearing CASE.toml, or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+        ),
+        (
+            by(&["--speed", "25", "--channel", "P2"]),
+            "error: bench.csv: expected a channel \"P2\", found \"P1\"\nhelp: did you mean --channel 'P1'?\n",
+        ),
+        (
+            by(&["--speed", "25", "--geometry-error", "0.5"]),
+            "error: relative error of the orders: expected 0 to 0.1, found 0.5\n",
+        ),
+        (
+            by(&["--speed", "25", "--high-pass", "9000"]),
+            "error: analysis: cut-off must lie between 0 and 8000 Hz (half the sampling rate), found 9000 Hz\n",
+        ),
+        (
+            plummer(&folder, &["analyze", "."]),
+            "error: . has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals\n",
+        ),
+    ] {
+        assert_eq!(output.status.code(), Some(2), "{expected}");
+        assert_eq!(errors(&output), expected);
+    }
+    let still = by(&["--speed", "0"]);
+    assert_eq!(still.status.code(), Some(1));
+    assert!(
+        errors(&still).contains("found one that rests or turns back at 0 s"),
+        "{}",
+        errors(&still)
+    );
+}
