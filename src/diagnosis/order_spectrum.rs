@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::DiagnosisError;
 use crate::series::{TimeSeries, TimeWindow};
-use crate::signal::amplitude_spectrum;
+use crate::signal::{WindowFunction, amplitude_spectrum};
 
 /// Samples a turn for each order that is to be seen: two would do, and averages over an angle are 10 % low there.
 const SAMPLES_AN_ORDER: f64 = 2.5;
@@ -91,7 +91,8 @@ impl OrderSpectrum {
         // a series over turns in the place of seconds
         let series = TimeSeries::new(0.0, 1.0 / a_turn, part.unit(), means.collect())?;
         let turned = series.duration_s();
-        let spectrum = amplitude_spectrum(&series, 1.0 / (PADDING * turned))?;
+        let spectrum =
+            amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / (PADDING * turned))?;
         Ok(Self {
             order: spectrum.frequency_hz,
             amplitude: spectrum.amplitude,
