@@ -3,12 +3,13 @@
 CASE := examples/tadina2011/outer-dent.toml
 REPORT := out/outer-dent/report.html
 
-.PHONY: help setup demo test meshes docs bench bench-peers clean
+.PHONY: help setup demo test figures meshes docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
 	@echo "make test    all tests, documentation tests and examples"
 	@echo "make setup   install the system libraries that are missing"
+	@echo "make figures the figures of docs/paper.md"
 	@echo "make meshes  make the example meshes again (needs gmsh)"
 	@echo "make docs    documentation of the library"
 	@echo "make bench   benchmarks"
@@ -34,6 +35,10 @@ test: setup
 	fi
 	cargo run --example compare_integrators
 	cargo run --example bending_lock
+
+figures: setup
+	cargo build --release
+	sh scripts/figures.sh
 
 meshes:
 	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }

@@ -233,7 +233,7 @@ mod tests {
         let ridge = Curve::new("ridge", Abscissa::Points(vec![2.0, 2.3]), vec![1e3, 2e3]);
         let plot = plot().curve(ridge).marker(Marker::new(2.1, "burst"));
         let layout = Layout::of(&plot).unwrap();
-        assert!((layout.x.low - 2.0).abs() < 1e-12 && (layout.y.low - 0.5).abs() < 1e-12);
+        assert!((layout.x.low - 2.0).abs() < 1e-12 && (layout.y.low - 500.0).abs() < 1e-9);
         let svg = plot.to_svg().unwrap();
         let (width, height) = (layout.right - layout.left, layout.bottom - layout.top);
         let size = format!("width=\"{width:.1}\" height=\"{height:.1}\"");
