@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::fourier::MOST_POINTS;
 use super::{ShaftAngle, SignalError, WindowFunction, amplitude_spectrum};
 use crate::series::{KaiserInterpolation, TimeSeries};
 
@@ -61,7 +62,8 @@ impl AngleSeries {
     /// reaches beyond the series are left out.
     ///
     /// # Errors
-    /// [`SignalError::SamplesPerTurn`] unless 2 to 2^20; [`SignalError::FewTurns`] if less than a turn is left.
+    /// [`SignalError::SamplesPerTurn`] unless 2 to 2^20; [`SignalError::FewTurns`] if less than a turn is left;
+    /// [`SignalError::TooLong`] above 2^28 steps.
     pub fn resampled(
         series: &TimeSeries,
         angle: &ShaftAngle,
@@ -89,6 +91,12 @@ impl AngleSeries {
         } else {
             0
         };
+        if steps > MOST_POINTS {
+            return Err(SignalError::TooLong {
+                points: steps,
+                most: MOST_POINTS,
+            });
+        }
         for k in 0..steps {
             let turns = (first + k as f64) / per_turn;
             let time_s = angle.time_at(turns);
@@ -302,6 +310,17 @@ mod tests {
             found.expect_err("must fail").to_string()
         };
         assert_eq!(message(1), "samples per turn must be 2 to 1048576, found 1");
+        let fast = [0.0, 2.0].map(|time_s| SpeedPoint {
+            time_s,
+            speed_hz: 1e9,
+        });
+        let fast = ShaftAngle::from_points(fast.to_vec()).expect("a valid speed");
+        let found = AngleSeries::resampled(&series, &fast, 64).expect_err("must fail");
+        assert!(
+            found
+                .to_string()
+                .ends_with("at most 268435456 are offered: take a shorter stretch")
+        );
         let short = series.window(0.0, 0.02).expect("inside");
         let found = AngleSeries::resampled(&short, &run_up(), 64).expect_err("must fail");
         assert_eq!(found.to_string(), "0 turns are known, at least 1 needed");

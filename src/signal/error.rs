@@ -93,7 +93,7 @@ pub enum SignalError {
     },
     /// Frequencies of a transform that are out of order or outside what the series has.
     #[error(
-        "frequencies must satisfy {lowest_hz} Hz <= from < to < {highest_hz} Hz and be two at least, found {count} from {from_hz} Hz to {to_hz} Hz"
+        "frequencies must satisfy {lowest_hz} Hz <= from < to < {highest_hz} Hz and be 2 to {most}, found {count} from {from_hz} Hz to {to_hz} Hz"
     )]
     Frequencies {
         /// Lowest frequency as given, Hz.
@@ -106,6 +106,8 @@ pub enum SignalError {
         lowest_hz: f64,
         /// What the highest frequency must lie below, Hz.
         highest_hz: f64,
+        /// Most frequencies offered.
+        most: usize,
     },
     /// A number of cycles of a wavelet that is not offered.
     #[error("a wavelet must have {fewest} to {most} cycles, found {cycles}")]
@@ -190,8 +192,8 @@ pub enum SignalError {
     /// Windows that do not move.
     #[error("windows must move by at least one sample, found 0")]
     Hop,
-    /// A transform of more than 2^28 points.
-    #[error("transform needs {points} points, at most {most} are offered: take a shorter stretch")]
+    /// More than 2^28 points of a transform or a result.
+    #[error("{points} points are needed, at most {most} are offered: take a shorter stretch")]
     TooLong {
         /// Points needed.
         points: usize,

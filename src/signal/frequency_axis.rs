@@ -2,6 +2,9 @@
 
 use super::SignalError;
 
+/// Most frequencies offered.
+const MOST: usize = 1 << 16;
+
 /// Frequencies from the lowest to the highest, both included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrequencyAxis {
@@ -29,7 +32,7 @@ impl FrequencyAxis {
     /// The frequencies, Hz, rising, between `lowest_hz` and `highest_hz` (the latter excluded).
     ///
     /// # Errors
-    /// [`SignalError::Frequencies`] unless lowest <= from < to < highest and there are two at least.
+    /// [`SignalError::Frequencies`] unless lowest <= from < to < highest and there are 2 to 65536.
     pub fn frequencies_hz(&self, lowest_hz: f64, highest_hz: f64) -> Result<Vec<f64>, SignalError> {
         let (Self::Logarithmic {
             from_hz,
@@ -43,13 +46,14 @@ impl FrequencyAxis {
         }) = *self;
         // a millionth for what is typed in decimal
         let is_inside = from_hz >= lowest_hz * (1.0 - 1e-6) && to_hz < highest_hz;
-        if !(from_hz > 0.0 && from_hz < to_hz && is_inside && count >= 2) {
+        if !(from_hz > 0.0 && from_hz < to_hz && is_inside && (2..=MOST).contains(&count)) {
             return Err(SignalError::Frequencies {
                 from_hz,
                 to_hz,
                 count,
                 lowest_hz,
                 highest_hz,
+                most: MOST,
             });
         }
         let part = |k: usize| k as f64 / (count - 1) as f64;
@@ -105,7 +109,7 @@ mod tests {
                 .expect_err("must fail")
                 .to_string()
         };
-        let begin = "frequencies must satisfy 2 Hz <= from < to < 50 Hz and be two at least, found";
+        let begin = "frequencies must satisfy 2 Hz <= from < to < 50 Hz and be 2 to 65536, found";
         assert_eq!(
             message(1.0, 10.0, 3),
             format!("{begin} 3 from 1 Hz to 10 Hz")
@@ -116,6 +120,7 @@ mod tests {
         );
         assert_eq!(message(3.0, 3.0, 3), format!("{begin} 3 from 3 Hz to 3 Hz"));
         assert_eq!(message(3.0, 4.0, 1), format!("{begin} 1 from 3 Hz to 4 Hz"));
+        assert!(message(3.0, 4.0, 65_537).contains("found 65537"));
         assert_eq!(
             message(f64::NAN, 4.0, 2),
             format!("{begin} 2 from NaN Hz to 4 Hz")

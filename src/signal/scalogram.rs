@@ -1,6 +1,7 @@
 //! Amplitude over time and frequency: the continuous wavelet transform.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -71,8 +72,12 @@ impl Scalogram {
 
 /// Where one wavelet lies in the transform of the signal, and the transform back of what it lets through.
 struct Band {
-    first: usize,
-    responses: Vec<f64>,
+    wavelet: Morlet,
+    /// The wavelet's frequency in bins, not whole.
+    centre: f64,
+    bins: Range<usize>,
+    /// 1 / N.
+    scale: f64,
     back: Arc<dyn Fft<f64>>,
 }
 
@@ -89,7 +94,8 @@ impl WaveletTransform {
     ///
     /// # Errors
     /// [`SignalError::Cycles`]; [`SignalError::Frequencies`] unless they lie between 1 / duration and half the sampling
-    /// rate; [`SignalError::Decimation`] if it is zero or leaves fewer than two instants.
+    /// rate; [`SignalError::Decimation`] if it is zero or leaves fewer than two instants; [`SignalError::TooLong`] above
+    /// 2^28 amplitudes.
     pub fn scalogram(&self, series: &TimeSeries) -> Result<Scalogram, SignalError> {
         let (fewest, most) = CYCLES;
         if !(self.cycles >= fewest && self.cycles <= most) {
@@ -113,9 +119,11 @@ impl WaveletTransform {
         let padding = (longest.ceil() as usize).min(MOST_PADDING * samples);
         let outputs = fast_length((samples + padding).div_ceil(ratio));
         let points = outputs * ratio;
-        if points > MOST_POINTS {
+        let instants = samples.div_ceil(ratio);
+        let largest = points.max(instants.saturating_mul(frequency_hz.len()));
+        if largest > MOST_POINTS {
             return Err(SignalError::TooLong {
-                points,
+                points: largest,
                 most: MOST_POINTS,
             });
         }
@@ -127,7 +135,7 @@ impl WaveletTransform {
             .iter()
             .map(|hz| {
                 self.band(
-                    &wavelet,
+                    wavelet,
                     hz * points as f64 * series.step_s(),
                     points,
                     &mut planner,
@@ -135,7 +143,6 @@ impl WaveletTransform {
             })
             .collect();
         let to_outputs = planner.plan_fft_inverse(outputs);
-        let instants = samples.div_ceil(ratio);
         let rows = bands.par_iter().map(|band| {
             let mut row = if ratio == 1 {
                 magnitudes(band, &spectrum)
@@ -162,7 +169,7 @@ impl WaveletTransform {
     /// The wavelet at bin number `centre` (not whole) of a transform over so many points.
     fn band(
         &self,
-        wavelet: &Morlet,
+        wavelet: Morlet,
         centre: f64,
         points: usize,
         planner: &mut FftPlanner<f64>,
@@ -170,15 +177,12 @@ impl WaveletTransform {
         let (low, high) = wavelet.band();
         let first = ((low * centre).ceil() as usize).max(1);
         let last = ((high * centre).floor() as usize).min(points / 2);
-        let scale = 1.0 / points as f64;
-        let responses: Vec<f64> = (first..=last)
-            .map(|bin| scale * wavelet.response(bin as f64 / centre))
-            .collect();
+        let bins = first..(last + 1).max(first);
         let length = if self.decimation == 1 {
             points
         } else {
             // the power of K bins has 2 K - 1; lengths of few kinds, so that plans are shared
-            let needed = 2 * responses.len();
+            let needed = 2 * bins.len().max(1);
             let power = needed.next_power_of_two();
             if 3 * power / 4 >= needed {
                 3 * power / 4
@@ -187,8 +191,10 @@ impl WaveletTransform {
             }
         };
         Band {
-            first,
-            responses,
+            wavelet,
+            centre,
+            bins,
+            scale: 1.0 / points as f64,
             back: planner.plan_fft_inverse(length),
         }
     }
@@ -198,9 +204,9 @@ impl WaveletTransform {
 /// same.
 fn coefficients(band: &Band, spectrum: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let mut values = vec![Complex::ZERO; band.back.len()];
-    let inside = spectrum.get(band.first..).unwrap_or_default();
-    for ((value, bin), response) in values.iter_mut().zip(inside).zip(&band.responses) {
-        *value = bin * response;
+    let inside = spectrum.get(band.bins.clone()).unwrap_or_default();
+    for ((value, x), bin) in values.iter_mut().zip(inside).zip(band.bins.clone()) {
+        *value = x * (band.scale * band.wavelet.response(bin as f64 / band.centre));
     }
     band.back.process(&mut values);
     values
@@ -222,7 +228,7 @@ fn decimated(band: &Band, spectrum: &[Complex<f64>], to_outputs: &dyn Fft<f64>) 
     band.back.process(&mut power);
     let outputs = to_outputs.len();
     let mut smooth = vec![Complex::ZERO; outputs];
-    for (bin, value) in power.iter().take(band.responses.len()).enumerate() {
+    for (bin, value) in power.iter().take(band.bins.len()).enumerate() {
         let part = bin as f64 / outputs as f64;
         let gain = (-2.0 * PI * PI * part * part).exp() / points as f64;
         let place = bin % outputs;

@@ -248,8 +248,23 @@ fn errors_fire_with_their_exact_messages() {
     );
     assert_eq!(
         message(transform(9.0, 400.0, 5, 6.0)),
-        "frequencies must satisfy 10 Hz <= from < to < 500 Hz and be two at least, found 5 from 9 Hz to 400 Hz"
+        "frequencies must satisfy 10 Hz <= from < to < 500 Hz and be 2 to 65536, found 5 from 9 Hz to 400 Hz"
     );
+    let long = series(10_000, 1e3, |t| t);
+    let many = transform(20.0, 400.0, 30_000, 6.0)
+        .scalogram(&long)
+        .expect_err("must fail");
+    assert_eq!(
+        many.to_string(),
+        "300000000 points are needed, at most 268435456 are offered: take a shorter stretch"
+    );
+    for cycles in [2.0, 1000.0] {
+        let few = WaveletTransform {
+            decimation: 50,
+            ..transform(10.0, 11.0, 2, cycles)
+        };
+        assert_eq!(few.scalogram(&input).expect("scalogram").amplitude.len(), 4);
+    }
     let longest = transform(10.0, 400.0, 5, 1000.0)
         .scalogram(&input)
         .expect("scalogram");
