@@ -21,7 +21,7 @@ pub struct AnalyzeArguments {
     /// Sampling rate in Hz, in the place of what the file says
     #[arg(long, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
-    /// Case file whose [bearing] it is; without --speed its [speed] is the shaft's
+    /// Case file whose bearing it is; without --speed the shaft turns as it says
     #[arg(long, value_name = "CASE.toml")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
