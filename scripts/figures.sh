@@ -15,7 +15,8 @@ for case in healthy outer-dent inner-dent ball-flat; do
         --set transient.start=2.0 --set transient.end=2.82 \
         --set "analysis.envelope=[{from=2.3,to=$end},{from=2.2,to=2.8}]" \
         --set "analysis.scalogram={from=2.2,to=2.5,band_hz=[500,40000]}"
-    cp "$out/$case"/figures/run-1-*.svg "$to/$case-signal.svg"
-    cp "$out/$case"/figures/run-2-*.svg "$to/$case-envelope.svg"
-    cp "$out/$case"/figures/run-4-*.svg "$to/$case-scalogram.svg"
+    from="$out/$case/figures"
+    cp "$from"/run-*-acceleration-at-p1.svg "$to/$case-signal.svg"
+    cp "$from"/run-*-envelope-spectrum-of-p1-2-300-*.svg "$to/$case-envelope.svg"
+    cp "$from"/run-*-scalogram-of-p1-*.svg "$to/$case-scalogram.svg"
 done
