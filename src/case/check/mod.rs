@@ -7,6 +7,8 @@ mod structure;
 #[cfg(test)]
 mod tests;
 mod time;
+#[cfg(test)]
+mod window_tests;
 
 pub use rule::{BrokenRule, Rule};
 

@@ -12,7 +12,7 @@ const HOUSING: &str = "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\n\
     plane = { assumption = \"stress\", thickness = 4e-3 }\n\
     parts = [{ group = \"case\", material = \"steel\" }]\n";
 
-fn breaks(text: &str, set: &[&str], key: &str, rule: &str) {
+pub(super) fn breaks(text: &str, set: &[&str], key: &str, rule: &str) {
     let error = read(text, set).expect_err(set.last().unwrap_or(&text));
     let last = set.last().map(|argument| format!("--set {argument}"));
     let place = last.unwrap_or_else(|| "folder/case.toml".to_owned());
@@ -20,12 +20,12 @@ fn breaks(text: &str, set: &[&str], key: &str, rule: &str) {
 }
 
 /// Breaks `FULL` with one key set and expects the message at that key.
-fn full(argument: &str, rule: &str) {
+pub(super) fn full(argument: &str, rule: &str) {
     let (key, _) = argument.split_once('=').unwrap();
     breaks(FULL, &[argument], key, rule);
 }
 
-fn holds(text: &str, set: &[&str]) {
+pub(super) fn holds(text: &str, set: &[&str]) {
     if let Err(error) = read(text, set) {
         panic!("{set:?}: {error}");
     }
@@ -553,61 +553,6 @@ fn signals_are_sampled_finely_enough() {
             .unwrap(),
         "raise the sampling rate or narrow `accuracy.band_hz`"
     );
-}
-
-#[test]
-fn windows_lie_within_the_simulation() {
-    for (argument, from, to) in [
-        ("analysis.envelope[0]={from=0.4,to=1}", "0.4", "1"),
-        ("analysis.envelope[0]={from=2,to=2.9}", "2", "2.9"),
-    ] {
-        let rule = format!(
-            "found {from} to {to} s, expected a window within the simulation (0.5 to 2.8 s)"
-        );
-        full(argument, &rule);
-    }
-    holds(FULL, &["analysis.envelope[0]={from=0.5,to=2.8}"]);
-}
-
-#[test]
-fn a_scalogram_lies_within_the_simulation_and_its_sampling_rate() {
-    let with = |window: &str| format!("analysis.scalogram={{{window}}}");
-    for (window, key, rule) in [
-        (
-            "from=0.4,to=1,band_hz=[500,40000]",
-            "",
-            "found 0.4 to 1 s, expected a window within the simulation (0.5 to 2.8 s)",
-        ),
-        (
-            "from=2,to=2,band_hz=[500,40000]",
-            ".to",
-            "found 2, expected more than `from` (2)",
-        ),
-        (
-            "from=1,to=2,band_hz=[0,40000]",
-            ".band_hz[0]",
-            "found 0, expected a number above 0",
-        ),
-        (
-            "from=1,to=2,band_hz=[500,500]",
-            ".band_hz[1]",
-            "found 500, expected more than the lowest frequency (500)",
-        ),
-        (
-            "from=1,to=2,band_hz=[500,50000]",
-            ".band_hz[1]",
-            "found 50000, expected below half of `transient.output_hz` (50000)",
-        ),
-        (
-            "from=1,to=2,band_hz=[500,40000],cycles=1",
-            ".cycles",
-            "found 1, expected a number from 2 to 1000",
-        ),
-    ] {
-        let key = format!("analysis.scalogram{key}");
-        breaks(FULL, &[&with(window)], &key, rule);
-    }
-    holds(FULL, &[&with("from=1,to=2,band_hz=[500,40000],cycles=12")]);
 }
 
 #[test]
