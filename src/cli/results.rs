@@ -130,6 +130,8 @@ pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
     let verdict = |window: &WindowAnalysis| match &window.diagnosis {
         Ok(diagnosis) => json!({
             "sentence": diagnosis.sentence(),
+            "envelope": diagnosis.envelope,
+            "envelopes": diagnosis.envelopes,
             "turns": diagnosis.spectrum.turns,
             "faults": diagnosis.faults,
         }),

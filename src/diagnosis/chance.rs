@@ -48,6 +48,14 @@ pub fn search_probability(count: usize, sum: f64, bins: f64) -> f64 {
     (place - (1.0 - place) * (-crossings).exp_m1()).clamp(0.0, 1.0)
 }
 
+/// Probability that the best of `trials` independent ones is as good as one of probability `chance`, `1 - (1 - p)^n`; an upper
+/// bound where they depend on each other as spectra of one signal do.
+#[must_use]
+pub fn any_of(chance: f64, trials: usize) -> f64 {
+    // without cancellation
+    -(trials as f64 * (-chance).ln_1p()).exp_m1()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +111,13 @@ mod tests {
             assert!((found / expected - 1.0).abs() < 1e-9, "{count}: {found}");
         }
         assert!(log_gamma_tail(8, 2000.0).is_finite());
+    }
+
+    #[test]
+    fn the_best_of_several_is_likelier() {
+        assert!((any_of(0.5, 3) - 0.875).abs() < 1e-15);
+        assert!((any_of(1e-300, 4) / 4e-300 - 1.0).abs() < 1e-12);
+        assert!((any_of(1.0, 2) - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::OrderSpectrum;
-use super::chance::{log_exceedance, search_probability};
+use super::chance::{log_exceedance, log_gamma_tail, search_probability};
 
 /// Harmonics that are looked at, the fundamental counted.
 pub(super) const HARMONICS: u32 = 8;
@@ -41,10 +41,12 @@ pub(super) enum Worth {
     Leakage(String),
 }
 
-/// A harmonic.
+/// A harmonic, or a line beside one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tooth {
     pub(super) harmonic: u32,
+    /// How many spacings beside its harmonic.
+    pub(super) side: i32,
     pub(super) order: f64,
     pub(super) amplitude: f64,
     /// Power over the median of its floor.
@@ -60,6 +62,24 @@ pub(super) struct Comb {
     /// Probability that noise alone has one as good somewhere in the search; 1 without a tooth that counts.
     pub(super) chance: f64,
     pub(super) teeth: Vec<Tooth>,
+    /// Harmonics with a tooth that counts.
+    pub(super) free: usize,
+    /// Those of them whose teeth together are above their floors so that noise would do it once in a hundred.
+    pub(super) seen: usize,
+}
+
+/// Where a tooth is: `harmonic * fundamental + side * spacing`.
+struct Place {
+    harmonic: u32,
+    side: i32,
+    offset: f64,
+    floor: Floor,
+}
+
+impl Place {
+    fn line(&self, fundamental: f64) -> f64 {
+        f64::from(self.harmonic) * fundamental + self.offset
+    }
 }
 
 /// A floor: its median power and how many bins that is of.
@@ -75,44 +95,43 @@ pub(super) fn turns_needed(order: f64) -> f64 {
 
 impl Comb {
     /// The best comb within the larger of a relative `error` and half a bin about `order`; `None` if the window is too short
-    /// for a floor. Teeth on multiples of the shaft's order or on `known` lines do not count.
+    /// for a floor. Teeth on multiples of the shaft's order or on `known` lines do not count. With a spacing `beside`, in orders, every
+    /// harmonic has a tooth on each side too.
     pub(super) fn find(
         spectrum: &OrderSpectrum,
         order: f64,
         error: f64,
+        beside: Option<f64>,
         known: &[Known],
     ) -> Option<Self> {
         let bin = 1.0 / spectrum.turns;
-        let floors: Vec<(u32, Floor)> = (1..=HARMONICS)
-            .filter_map(|k| Some((k, floor(spectrum, f64::from(k) * order, order)?)))
-            .collect();
+        let places = places(spectrum, order, beside);
         // without its first two lines a comb is no evidence
-        if floors.len() < 2 || floors[1].0 != 2 {
+        let central = |harmonic| {
+            let mut places = places.iter();
+            places.any(|place| (place.harmonic, place.side) == (harmonic, 0))
+        };
+        if !(central(1) && central(2)) {
             return None;
         }
         let reach = (error * order).max(0.5 * bin);
         let step = bin / (f64::from(HARMONICS) * PLACES);
         let steps = (2.0 * reach / step).ceil();
         let mut best = (f64::INFINITY, order, 0, 0.0, 0.0);
-        for place in 0..=steps as usize {
-            let at = order - reach + 2.0 * reach * place as f64 / steps;
+        for step in 0..=steps as usize {
+            let at = order - reach + 2.0 * reach * step as f64 / steps;
             let (mut count, mut sum, mut squares) = (0, 0.0, 0.0);
-            for (k, floor) in &floors {
-                let line = f64::from(*k) * at;
-                if coincidence(line, bin, known).is_some() {
-                    continue;
-                }
-                count += 1;
-                squares += f64::from(k * k);
-                // what may be leakage stays in the count, so that noise is not helped by leaving its weak bins out
-                if leakage(spectrum, line, known).is_none() {
-                    sum -= log_exceedance(ratio(spectrum, line, floor), floor.bins);
+            for place in &places {
+                if let Some(evidence) = evidence(spectrum, place, at, known) {
+                    count += 1;
+                    squares += f64::from(place.harmonic * place.harmonic);
+                    sum += evidence;
                 }
             }
             if count > 0 {
-                let place = super::chance::log_gamma_tail(count, sum);
-                if place < best.0 {
-                    best = (place, at, count, sum, (squares / count as f64).sqrt());
+                let chance = log_gamma_tail(count, sum);
+                if chance < best.0 {
+                    best = (chance, at, count, sum, (squares / count as f64).sqrt());
                 }
             }
         }
@@ -121,10 +140,11 @@ impl Comb {
             0 => 1.0,
             _ => search_probability(count, sum, 2.0 * reach / bin * harmonic),
         };
-        let teeth = floors.iter().map(|(k, floor)| {
-            let line = f64::from(*k) * order;
-            let ratio = ratio(spectrum, line, floor);
-            let stands_out = log_exceedance(ratio, floor.bins) < SEEN.ln();
+        let (free, seen) = harmonics(spectrum, &places, order, known);
+        let teeth = places.iter().map(|place| {
+            let line = place.line(order);
+            let ratio = ratio(spectrum, line, &place.floor);
+            let stands_out = log_exceedance(ratio, place.floor.bins) < SEEN.ln();
             let worth = match (
                 coincidence(line, bin, known),
                 leakage(spectrum, line, known),
@@ -135,7 +155,8 @@ impl Comb {
                 (None, None) => Worth::Hidden,
             };
             Tooth {
-                harmonic: *k,
+                harmonic: place.harmonic,
+                side: place.side,
                 order: line,
                 amplitude: spectrum.at(line),
                 ratio,
@@ -146,8 +167,67 @@ impl Comb {
             order,
             chance,
             teeth: teeth.collect(),
+            free,
+            seen,
         })
     }
+}
+
+/// Places of the teeth that have a floor.
+fn places(spectrum: &OrderSpectrum, order: f64, beside: Option<f64>) -> Vec<Place> {
+    // lines nearer than a bin are not told apart
+    let spacing = beside.filter(|spacing| *spacing > 1.0 / spectrum.turns);
+    let sides: &[i32] = if spacing.is_some() { &[-1, 0, 1] } else { &[0] };
+    let pairs =
+        (1..=HARMONICS).flat_map(|harmonic| sides.iter().map(move |&side| (harmonic, side)));
+    let place = |(harmonic, side): (u32, i32)| {
+        let offset = f64::from(side) * spacing.unwrap_or(0.0);
+        Some(Place {
+            harmonic,
+            side,
+            offset,
+            floor: floor(spectrum, f64::from(harmonic) * order + offset, order)?,
+        })
+    };
+    pairs.filter_map(place).collect()
+}
+
+/// What a tooth says against noise, -ln of its probability; `None` where it does not count, 0 where it may be leakage. That stays
+/// in the count, so that noise is not helped by leaving its weak bins out.
+fn evidence(spectrum: &OrderSpectrum, place: &Place, at: f64, known: &[Known]) -> Option<f64> {
+    let line = place.line(at);
+    if coincidence(line, 1.0 / spectrum.turns, known).is_some() {
+        return None;
+    }
+    if leakage(spectrum, line, known).is_some() {
+        return Some(0.0);
+    }
+    Some(-log_exceedance(
+        ratio(spectrum, line, &place.floor),
+        place.floor.bins,
+    ))
+}
+
+/// Harmonics with teeth that count, and those whose teeth together stand out.
+fn harmonics(
+    spectrum: &OrderSpectrum,
+    places: &[Place],
+    order: f64,
+    known: &[Known],
+) -> (usize, usize) {
+    let (mut free, mut seen) = (0, 0);
+    for harmonic in 1..=HARMONICS {
+        let own = places.iter().filter(|place| place.harmonic == harmonic);
+        let said = own.filter_map(|place| evidence(spectrum, place, order, known));
+        let (count, sum) = said.fold((0, 0.0), |(count, sum), evidence| {
+            (count + 1, sum + evidence)
+        });
+        if count > 0 {
+            free += 1;
+            seen += usize::from(log_gamma_tail(count, sum) < SEEN.ln());
+        }
+    }
+    (free, seen)
 }
 
 /// A line beside a tooth: its power over its floor, and whether noise would do that once in a hundred.

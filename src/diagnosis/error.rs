@@ -14,6 +14,9 @@ pub enum DiagnosisError {
     /// A window outside the signal.
     #[error(transparent)]
     Series(#[from] SeriesError),
+    /// Nothing to judge.
+    #[error("expected an envelope at least, found none")]
+    NoEnvelope,
     /// A shaft that rests or turns back: angle is no measure of progress then.
     #[error(
         "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"

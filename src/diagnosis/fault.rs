@@ -48,6 +48,8 @@ impl Fault {
 pub struct FaultOrders {
     orders: [Option<f64>; 4],
     error: f64,
+    /// Error of the ball's order over that of the others.
+    ball: f64,
 }
 
 impl FaultOrders {
@@ -72,16 +74,28 @@ impl FaultOrders {
                 most: LARGEST_ERROR,
             });
         }
-        Ok(Self { orders, error })
+        Ok(Self {
+            orders,
+            error,
+            ball: 1.0,
+        })
     }
 
     /// Orders of a row of balls.
+    ///
+    /// An error e of a diameter changes `gamma = D_b / D_p` by as much and the order of a ball, `(1 - gamma^2) / gamma`, by
+    /// `e (1 + gamma^2) / (1 - gamma^2)`, more than e; those of the races by less, where e leaves room for slip.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn of(orders: &DefectOrders, error: f64) -> Result<Self, DiagnosisError> {
         let known = [orders.outer, orders.inner, orders.ball_defect, orders.cage];
-        Self::new(known.map(Some), error)
+        // N (1 -+ gamma) / 2
+        let gamma = (orders.inner - orders.outer) / (orders.inner + orders.outer);
+        Ok(Self {
+            ball: (1.0 + gamma * gamma) / (1.0 - gamma * gamma),
+            ..Self::new(known.map(Some), error)?
+        })
     }
 
     /// Order of a fault, if it is known.
@@ -90,10 +104,13 @@ impl FaultOrders {
         self.orders[fault as usize]
     }
 
-    /// Relative error of the orders.
+    /// Relative error of a fault's order.
     #[must_use]
-    pub fn error(&self) -> f64 {
-        self.error
+    pub fn error(&self, fault: Fault) -> f64 {
+        match fault {
+            Fault::Ball => self.ball * self.error,
+            Fault::OuterRace | Fault::InnerRace | Fault::Cage => self.error,
+        }
     }
 
     /// The highest order.
@@ -102,5 +119,29 @@ impl FaultOrders {
             .iter()
             .flatten()
             .fold(1.0, |most, &o| most.max(o))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_form::race::BallRow;
+
+    #[test]
+    fn a_wrong_diameter_is_worth_more_to_a_ball() {
+        let row = |pitch: f64| BallRow::new(7, 2e-3, pitch, 0.0).unwrap().orders();
+        let (given, real) = (row(7.51e-3), row(1.01 * 7.51e-3));
+        let orders = FaultOrders::of(&given, 0.01).unwrap();
+        let off = real.ball_defect / given.ball_defect - 1.0;
+        // to first order in the error of one percent
+        assert!(
+            (off / orders.error(Fault::Ball) - 1.0).abs() < 0.01,
+            "{off}"
+        );
+        assert!(off > 0.0113);
+        assert!((real.outer / given.outer - 1.0).abs() < orders.error(Fault::OuterRace));
+        assert!((real.inner / given.inner - 1.0).abs() < orders.error(Fault::InnerRace));
+        let typed = FaultOrders::new([None, None, Some(3.5), None], 0.01).unwrap();
+        assert!((typed.error(Fault::Ball) - 0.01).abs() < 1e-15);
     }
 }

@@ -1,12 +1,13 @@
 //! From the envelope of a signal to a verdict on each part of a ball bearing.
 //!
 //! 1. [`FaultOrders`]: how often each part strikes, per shaft turn, and how well that is known.
-//! 2. [`OrderSpectrum`]: the envelope's spectrum over the shaft's angle, so that a run-up smears nothing.
-//! 3. A comb: a fault's line and its harmonics, moved together within the uncertainty of its order. Each harmonic is
+//! 2. [`judged_envelopes`]: the envelopes that are judged; the verdict is that of the one which shows most.
+//! 3. [`OrderSpectrum`]: the envelope's spectrum over the shaft's angle, so that a run-up smears nothing.
+//! 4. A comb: a fault's line and its harmonics, for a ball those beside them too, moved together within the uncertainty of its order. Each harmonic is
 //!    compared with the median of the bins about it; those that coincide with multiples of the shaft, or with lines of a
 //!    fault that is named already, do not count.
-//! 4. [`chance`]: the probability that noise alone has a comb as good anywhere in the search, computed.
-//! 5. [`Diagnosis`]: named, not enough evidence, or not seen, with the evidence.
+//! 5. [`chance`]: the probability that noise alone has a comb as good anywhere in the search, computed.
+//! 6. [`Diagnosis`]: named, not enough evidence, or not seen, with the evidence.
 //!
 //! A healthy bearing has the ball-pass line of the outer race too: balls that pass under the load make its compliance vary.
 //! That is a smooth modulation, with a harmonic or two; bursts of a defect have many of about equal strength. Three of them
@@ -20,17 +21,23 @@
 
 pub mod chance;
 mod comb;
+mod envelopes;
 mod error;
 mod fault;
+mod judge;
 mod order_spectrum;
 #[cfg(test)]
 mod tests;
 mod verdict;
+mod window;
 
+pub use envelopes::{JudgedEnvelope, judged_envelopes};
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
+pub use judge::line_name;
 pub use order_spectrum::OrderSpectrum;
 pub use verdict::{
-    BURST_STRENGTH, Conclusion, Diagnosis, FaultVerdict, Harmonic, LEAST_HARMONICS, NAMED_BELOW,
-    SideLine, UNSEEN_ABOVE,
+    BURST_STRENGTH, Conclusion, FaultVerdict, Harmonic, LEAST_HARMONICS, NAMED_BELOW, SideLine,
+    UNSEEN_ABOVE,
 };
+pub use window::Diagnosis;

@@ -87,13 +87,13 @@ fn judged(
         high_pass_hz: Some(5e3),
         ..EnvelopeAnalysis::default()
     };
-    let envelope = settings.envelope(series).unwrap();
+    let envelopes = judged_envelopes(series, |signal| settings.envelope(signal)).unwrap();
     let window = TimeWindow {
         from: 0.0,
         to: series.end_s(),
     };
     Diagnosis::of(
-        &envelope,
+        &envelopes,
         window,
         turns,
         &FaultOrders::of(orders, error).unwrap(),
@@ -233,6 +233,74 @@ fn harmonics_that_fall_off_fast_are_no_bursts() {
     assert_eq!(outer.conclusion, Conclusion::NotEnough);
 }
 
+/// A steady hum of the machine above the high-pass hides bursts that ring elsewhere.
+#[test]
+fn a_resonance_that_hums_hides_no_bursts() {
+    let orders = bearing();
+    let (mut noise, mut hum) = (Noise(12), [0.0; 2]);
+    let mut values = struck(1.2, steady, orders.outer, |_| 0.5);
+    // noise through a resonance of 2 % at 11 kHz
+    let angle = TAU * 11e3 / RATE;
+    let decay = (-0.02 * angle).exp();
+    for value in &mut values {
+        let next =
+            0.5 * noise.normal() + 2.0 * decay * angle.cos() * hum[0] - decay * decay * hum[1];
+        hum = [next, hum[0]];
+        *value += next;
+    }
+    let series = with_noise(&values, 0.02, 13);
+    let found = judged(&series, steady, &orders, 0.01);
+    assert_eq!(named(&found), [Fault::OuterRace], "{:#?}", found.faults);
+    assert!(found.envelope.contains("whitened") || found.envelope.contains("impulsive"));
+    assert_eq!(found.envelopes, 4);
+    let settings = EnvelopeAnalysis {
+        high_pass_hz: Some(5e3),
+        ..EnvelopeAnalysis::default()
+    };
+    let plain = JudgedEnvelope {
+        name: "envelope",
+        series: settings.envelope(&series).unwrap(),
+    };
+    let window = TimeWindow {
+        from: 0.0,
+        to: series.end_s(),
+    };
+    let of = |envelopes: &[JudgedEnvelope]| {
+        let orders = FaultOrders::of(&orders, 0.01).unwrap();
+        Diagnosis::of(envelopes, window, steady, &orders)
+    };
+    let alone = of(std::slice::from_ref(&plain)).unwrap();
+    assert_eq!(named(&alone), [], "{:#?}", alone.faults);
+    // the same twice is twice as likely by chance
+    let twice = of(&[plain.clone(), plain]).unwrap();
+    let chance = |diagnosis: &Diagnosis| verdict(diagnosis, Fault::OuterRace).false_alarm.unwrap();
+    assert!((chance(&twice) - chance::any_of(chance(&alone), 2)).abs() < 1e-12);
+    assert_eq!(
+        of(&[]).unwrap_err().to_string(),
+        "expected an envelope at least, found none"
+    );
+}
+
+/// The ball of Tadina and Boltezar (2011), order 3.489: its even harmonics lie on multiples of the shaft, and it strikes for a third
+/// of a turn of the cage. What is beside the harmonics tells it.
+#[test]
+fn a_ball_shows_beside_its_harmonics() {
+    let orders = BallRow::new(7, 2e-3, 7.51e-3, 0.0).unwrap().orders();
+    let load = |angle: f64| f64::from((TAU * orders.cage * angle).cos() > 0.5);
+    let values = struck(0.6, steady, orders.ball_defect, load);
+    let found = judged(&with_noise(&values, 0.35, 3), steady, &orders, 0.0);
+    assert_eq!(named(&found), [Fault::Ball], "{:#?}", found.faults);
+    let ball = verdict(&found, Fault::Ball);
+    let coinciding = ball.harmonics.iter().filter(|h| h.coincides_with.is_some());
+    assert!(coinciding.filter(|h| h.side == 0).count() >= 2, "{ball:#?}");
+    assert_eq!(ball.harmonics_free, 8);
+    let beside = ball.harmonics.iter().filter(|h| h.side != 0);
+    assert!(beside.clone().count() > 10 && beside.filter(|h| h.seen).count() >= 4);
+    let sided = ball.harmonics.iter().find(|h| h.side == -1).unwrap();
+    assert!((sided.order - (ball.order.unwrap() - orders.cage)).abs() < 1e-12);
+    assert_eq!(line_name(Fault::Ball, 2, -1), "2 x ball -1 x cage");
+}
+
 #[test]
 fn short_windows_say_so() {
     let orders = bearing();
@@ -268,12 +336,12 @@ fn noise_is_no_more_alarming_than_stated() {
             let mut noise = Noise(seed * 7919 + 11);
             let values = (0..3840).map(|_| noise.normal()).collect();
             let series = TimeSeries::new(0.0, 1.0 / rate, "m/s^2", values).unwrap();
-            let envelope = settings.envelope(&series).unwrap();
+            let envelopes = judged_envelopes(&series, |signal| settings.envelope(signal)).unwrap();
             let window = TimeWindow {
                 from: 0.0,
                 to: 0.48,
             };
-            let found = Diagnosis::of(&envelope, window, |t| speed * t, &orders).unwrap();
+            let found = Diagnosis::of(&envelopes, window, |t| speed * t, &orders).unwrap();
             assert_eq!(named(&found), [], "seed {seed}");
             for chance in found
                 .faults

@@ -7,7 +7,7 @@
 //!
 //! Beside it: power spectra ([`Welch`]), amplitude over time and frequency ([`WaveletTransform`]), orders of a shaft
 //! ([`ShaftAngle`], [`AngleSeries`], [`SpeedSearch`]), and what is impulsive, when and in which band ([`moving_figures`],
-//! [`spectral_kurtosis()`], [`kurtogram()`]).
+//! [`spectral_kurtosis()`], [`kurtogram()`]). [`whiten`] makes weak bands count as much as resonances.
 //!
 //! Nothing here knows of simulations: a measured signal goes the same way.
 
@@ -38,6 +38,7 @@ mod spectrum;
 mod speed_estimate;
 mod third_octave;
 mod welch;
+mod whitening;
 mod window_function;
 
 pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
@@ -59,4 +60,5 @@ pub use spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
 pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
 pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
+pub use whitening::{Emphasis, whiten};
 pub use window_function::WindowFunction;

@@ -2,7 +2,7 @@
 
 use super::{Kinematics, StageError};
 use crate::case::Case;
-use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
+use crate::diagnosis::{Diagnosis, DiagnosisError, Fault, FaultOrders, judged_envelopes};
 use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
@@ -113,11 +113,11 @@ pub fn analyse(
         .map(|&window| {
             let (from, to) = (window.from, window.to);
             let stretch = read(window, filtered_s.max(to - from))?;
-            let limited = match settings.low_pass_hz {
-                Some(up_to_hz) => &band_limit(&stretch, up_to_hz)?,
-                None => &stretch,
+            let envelope_of = |signal: &TimeSeries| match settings.low_pass_hz {
+                Some(up_to_hz) => filter.envelope(&band_limit(signal, up_to_hz)?),
+                None => filter.envelope(signal),
             };
-            let envelope = filter.envelope(limited)?;
+            let envelope = envelope_of(&stretch)?;
             let part = stretch.window(from, to)?;
             let speed_hz = kinematics.mean_speed_hz(window);
             let spectrum = filter.window_of(&envelope, from, to)?;
@@ -142,7 +142,9 @@ pub fn analyse(
             };
             let outer = orders.order(Fault::OuterRace).into_iter();
             let turns = |time| kinematics.turns(time);
-            let diagnosis = Diagnosis::of(&envelope, window, turns, &orders);
+            let diagnosis = judged_envelopes(&stretch, envelope_of)
+                .map_err(DiagnosisError::from)
+                .and_then(|envelopes| Diagnosis::of(&envelopes, window, turns, &orders));
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),
                 unit: stretch.unit().to_owned(),

@@ -1,7 +1,7 @@
 //! What a report says of an analysed window, and the report of `plummer analyze`.
 
 use super::WindowAnalysis;
-use crate::diagnosis::{Conclusion, Diagnosis, FaultVerdict};
+use crate::diagnosis::{Conclusion, Diagnosis, FaultVerdict, line_name};
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
     significant,
@@ -57,6 +57,14 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
     report
 }
 
+/// With a capital first letter.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
 fn round(time: f64) -> String {
     significant(time, 4)
 }
@@ -110,7 +118,7 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         ])
         .table(peak_table(window));
     match &window.diagnosis {
-        Ok(diagnosis) => section.table(harmonic_table(window, diagnosis)),
+        Ok(diagnosis) => section.table(harmonic_table(diagnosis)),
         Err(reason) => section.paragraph(format!("No verdict: {reason}.")),
     }
 }
@@ -134,13 +142,14 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     let even = crate::report::Abscissa::Even { start: 0.0, step };
     let mut plot = Plot::new(
         format!(
-            "Envelope of {} over the shaft's angle, {}-{} s",
+            "{} over the shaft's angle, {}, {}-{} s",
+            capital(diagnosis.envelope),
             window.sensor,
             round(window.from),
             round(window.to)
         ),
         Axis::new("Order", "").range(0.0, last),
-        Axis::new("Amplitude", &window.unit),
+        Axis::new("Amplitude", &spectrum.unit),
     )
     .curve(Curve::new("envelope", even, drawn).style(CurveStyle::Line))
     .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.");
@@ -149,7 +158,7 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
         let order = verdict.order.unwrap_or(verdict.expected_order);
         let name = verdict.fault.name();
         plot = plot.marker(Marker::new(order, name).family(family));
-        for harmonic in verdict.harmonics.iter().skip(1) {
+        for harmonic in verdict.harmonics.iter().filter(|h| h.side == 0).skip(1) {
             if harmonic.order < last {
                 let label = format!("{}x {name}", harmonic.harmonic);
                 plot = plot.marker(Marker::new(harmonic.order, label).family(family));
@@ -193,14 +202,13 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
     table
 }
 
-fn harmonic_table(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Table {
+fn harmonic_table(diagnosis: &Diagnosis) -> Table {
     let mut table = Table::new(
         "Harmonics",
         [
             Column::text("Line"),
             Column::number("Order", ""),
             Column::number("Frequency", "Hz"),
-            Column::number("Amplitude", &window.unit),
             Column::number("Of the mean envelope", "%"),
             Column::number("Above the floor", "dB"),
             Column::text("Remark"),
@@ -218,10 +226,9 @@ fn harmonic_table(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Table {
             (None, None) => String::new(),
         };
         table = table.row([
-            Cell::text(format!("{} x {}", harmonic.harmonic, verdict.fault.name())),
+            Cell::text(line_name(verdict.fault, harmonic.harmonic, harmonic.side)),
             Cell::number(harmonic.order, 5),
             Cell::number(harmonic.frequency_hz, 4),
-            Cell::number(harmonic.amplitude, 3),
             Cell::number(100.0 * harmonic.depth, 2),
             Cell::number(harmonic.above_floor_db, 3),
             Cell::text(remark),

@@ -33,18 +33,26 @@ impl Scene {
     /// [`StageError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
         refuse_structural_damping(case)?;
-        let stage = StructureStage::build(case, watch)?;
         // a run without ring, bearing, shaft or transient was refused with the case
+        let stage = StructureStage::build(case, watch)?.ok_or(SystemError::NotSupported)?;
+        watch.stage("equilibrium");
+        Self::around(stage, case)
+    }
+
+    /// The scene of a case around ring and housing that are built already, of a case that has the same: for several runs of one
+    /// structure.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn around(stage: StructureStage, case: &Case) -> Result<Self, StageError> {
         let bearing = (bearing_setup(case)?, race_contacts(case)?);
-        let (Some(stage), (Some(setup), Some(contacts)), Some(asked)) =
-            (stage, bearing, case.transient.as_ref())
+        let ((Some(setup), Some(contacts)), Some(asked)) = (bearing, case.transient.as_ref())
         else {
             return Err(SystemError::NotSupported.into());
         };
         if let Some(imported) = &stage.imported {
             imported.refuse_structural_damping()?;
         }
-        watch.stage("equilibrium");
         let condition = StaticCondition::at(&setup, asked.start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         Ok(Self {

@@ -62,7 +62,7 @@ pub fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Outcome, C
                 "outer": order(Fault::OuterRace),
                 "inner": order(Fault::InnerRace),
                 "ball": order(Fault::Ball),
-                "relative_error": orders.map(|orders| orders.error()),
+                "relative_error": orders.map(|orders| orders.error(Fault::OuterRace)),
             }),
         ),
         ("windows", windows_json(&windows)),

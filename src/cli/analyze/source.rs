@@ -8,7 +8,7 @@ use crate::bearing::SpeedProfile;
 use crate::case::Case;
 use crate::cli::{CliError, Options};
 use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
-use crate::diagnosis::FaultOrders;
+use crate::diagnosis::{Fault, FaultOrders};
 use crate::exchange::{MeasuredSignal, SignalRequest, read_signals};
 use crate::series::TimeSeries;
 use crate::stages::{AnalysisSettings, Kinematics, StageError, bearing_geometry, bearing_setup};
@@ -105,8 +105,8 @@ impl Source {
                 "Speed, slip and orders are those of the case, whose cage is prescribed.".to_owned()
             }
             Motion::Given { orders, .. } => format!(
-                "Orders are known within {} %; the cage rolls without slip but for that.",
-                100.0 * orders.error()
+                "Orders are known within {} %, a ball's as well as the geometry gives it then; the cage rolls without slip but for that.",
+                100.0 * orders.error(Fault::OuterRace)
             ),
         });
         Ok(Self {

@@ -1,0 +1,52 @@
+//! The envelopes of a signal that a verdict is sought in.
+
+use crate::series::TimeSeries;
+use crate::signal::{Emphasis, SignalError, whiten};
+
+/// An envelope of a signal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JudgedEnvelope {
+    /// What it is.
+    pub name: &'static str,
+    /// Its values.
+    pub series: TimeSeries,
+}
+
+/// Envelopes of a signal, `envelope` being what filters it and takes its envelope: of the whitened signal, and of that with its
+/// impulsive frequencies emphasised; each as it is and squared.
+///
+/// No single one is best. Whitening makes many weak resonances count, the emphasis finds the band that noise leaves;
+/// the square has the lines of strong bursts above a floor of steady noise (R. B. Randall and J. Antoni, Rolling element
+/// bearing diagnostics: a tutorial, Mechanical Systems and Signal Processing 25 (2011) 485-520), the envelope itself suffers less from
+/// single strong ones.
+///
+/// # Errors
+/// Of [`whiten`] and of `envelope`.
+pub fn judged_envelopes(
+    signal: &TimeSeries,
+    envelope: impl Fn(&TimeSeries) -> Result<TimeSeries, SignalError>,
+) -> Result<Vec<JudgedEnvelope>, SignalError> {
+    let mut envelopes = Vec::with_capacity(4);
+    for (emphasis, name, squared) in [
+        (
+            Emphasis::Even,
+            "envelope of the whitened signal",
+            "squared envelope of the whitened signal",
+        ),
+        (
+            Emphasis::Impulsive,
+            "envelope of the signal's impulsive frequencies",
+            "squared envelope of the signal's impulsive frequencies",
+        ),
+    ] {
+        let series = envelope(&whiten(signal, emphasis)?)?;
+        let squares = series.values().iter().map(|value| value * value).collect();
+        let square = series.with_values(squares)?;
+        envelopes.push(JudgedEnvelope { name, series });
+        envelopes.push(JudgedEnvelope {
+            name: squared,
+            series: square,
+        });
+    }
+    Ok(envelopes)
+}
