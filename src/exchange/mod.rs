@@ -20,6 +20,7 @@ mod atomic;
 mod columns;
 pub mod csv;
 pub mod dof_table;
+mod file_error;
 mod fortran;
 pub mod matrix_market;
 pub mod measured;
@@ -37,6 +38,7 @@ pub use csv::{CsvError, read_modes_csv, write_modes_csv};
 pub use dof_table::{
     DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,
 };
+pub use file_error::FileError;
 pub use matrix_market::{MatrixMarketError, write_dense_matrix_market, write_matrix_market};
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::{ModeShapes, ModeShapesError};

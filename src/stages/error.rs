@@ -6,7 +6,9 @@ use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessE
 use crate::case::{CaseError, ModeExtent};
 use crate::diagnosis::DiagnosisError;
 use crate::element::ElementError;
-use crate::exchange::{ColumnError, CsvError, MeasuredError, NpzError, ReadModesError, UffError};
+use crate::exchange::{
+    ColumnError, CsvError, FileError, MeasuredError, NpzError, ReadModesError, UffError,
+};
 use crate::linalg::HarmonicError;
 use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
@@ -386,7 +388,7 @@ impl StageError {
                  stiffer springs or a link, or leave it out of housing.parts"
                     .to_owned(),
             ),
-            Self::ModeShapes(ReadModesError::Csv(CsvError::Content { .. })) => Some(
+            Self::ModeShapes(ReadModesError::Csv(CsvError::File(FileError::Content { .. }))) => Some(
                 "frequencies without shapes are checked by `modes.expected` in the case file".to_owned(),
             ),
             Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::super::ModeShapesError;
+use super::super::{FileError, ModeShapesError};
 
 /// Why a table of mode shapes cannot be written or read.
 #[derive(Debug, Error)]
@@ -21,26 +21,9 @@ pub enum CsvError {
     /// Nothing says where the displacements are.
     #[error("expected mode shapes with node labels or points, found neither")]
     NoPlaces,
-    /// The file cannot be opened or read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// Something in the file is not what the format has there.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    Content {
-        /// The file.
-        path: PathBuf,
-        /// Line, counted from 1.
-        line: u64,
-        /// What the format has there.
-        expected: String,
-        /// What stands there.
-        found: String,
-    },
+    /// The file cannot be read, or a line of it is not what the format has there.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// Mode shapes that contradict themselves.
     #[error("{}: {fault}", path.display())]
     Modes {

@@ -1,12 +1,12 @@
 //! Reads a table of mode shapes.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::Path;
 
 use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
 
-use super::super::ModeShapes;
+use super::super::file_error::bytes_of;
+use super::super::{FileError, ModeShapes};
 use super::{BY_NODE, BY_POINT, CsvError};
 
 /// What is wrong in which line.
@@ -46,11 +46,7 @@ struct Mode {
 /// # Errors
 /// [`CsvError`] with file and line, what was found and what was expected.
 pub fn read_modes_csv(path: &Path) -> Result<ModeShapes, CsvError> {
-    let bytes = fs::read(path).map_err(|source| CsvError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    modes_from_bytes(&bytes, path)
+    modes_from_bytes(&bytes_of(path)?, path)
 }
 
 /// As [`read_modes_csv`], of a file that is in memory; `path` is for messages.
@@ -61,7 +57,7 @@ pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, CsvErro
     // Comments may be in any encoding; numbers and header are ASCII.
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    let modes = read(text).map_err(|fault| CsvError::Content {
+    let modes = read(text).map_err(|fault| FileError::Content {
         path: path.to_owned(),
         line: fault.line,
         expected: fault.expected,

@@ -1,12 +1,13 @@
 //! Signals in a table.
 
-use std::fs;
 use std::path::Path;
 use std::rc::Rc;
 
 use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
 
+use super::super::FileError;
 use super::super::csv::line_of;
+use super::super::file_error::bytes_of;
 use super::clock::Clock;
 use super::header::{name_and_unit, time_unit};
 use super::{Channel, MeasuredError, SignalRequest, choose};
@@ -28,11 +29,7 @@ struct Table<'a> {
 }
 
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-    let bytes = fs::read(path).map_err(|source| MeasuredError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    from_bytes(&bytes, path, request)
+    from_bytes(&bytes_of(path)?, path, request)
 }
 
 pub(super) fn from_bytes(
@@ -231,12 +228,13 @@ impl Table<'_> {
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
         let short: String = found.chars().take(40).collect();
-        MeasuredError::Content {
+        let content = FileError::Content {
             path: self.path.to_owned(),
             line,
             expected: expected.to_owned(),
             found: format!("\"{short}\""),
-        }
+        };
+        content.into()
     }
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {

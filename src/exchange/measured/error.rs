@@ -1,25 +1,19 @@
 //! What can be wrong with a file of measured signals.
 
-use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::super::{NpzReadError, UffError};
+use super::super::{FileError, NpzReadError, UffError};
 use super::clock::STEP_TOLERANCE;
 use crate::series::SeriesError;
 
 /// Why a signal cannot be read.
 #[derive(Debug, Error)]
 pub enum MeasuredError {
-    /// The file cannot be opened or read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
+    /// The file cannot be read, or a line of a table is not what should stand there.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// An ending that says of no format.
     #[error("{}: expected a file .npz, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`", path.display())]
     Ending {
@@ -33,23 +27,11 @@ pub enum MeasuredError {
     #[error(transparent)]
     Uff(#[from] UffError),
     /// A sound file that is damaged.
-    #[error("{}: expected a sound file (RIFF WAVE, PCM of 8 to 32 bits or float of 32), found: {found}", path.display())]
+    #[error("{}: expected a sound file (RIFF WAVE, PCM of 8 to 32 bits, float of 32 or 64), found: {found}", path.display())]
     Wav {
         /// The file.
         path: PathBuf,
         /// What the library found.
-        found: String,
-    },
-    /// A line of a table.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    Content {
-        /// The file.
-        path: PathBuf,
-        /// Line, counted from 1.
-        line: u64,
-        /// What should stand there.
-        expected: String,
-        /// What stands there.
         found: String,
     },
     /// Numbers with a comma.
