@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::OrderSpectrum;
+use super::EnvelopeOrderSpectrum;
 use super::chance::{log_exceedance, log_gamma_tail, search_probability};
 
 /// Harmonics that are looked at, the fundamental counted.
@@ -98,7 +98,7 @@ impl Comb {
     /// for a floor. Teeth on multiples of the shaft's order or on `known` lines do not count. With a spacing `beside`, in orders, every
     /// harmonic has a tooth on each side too.
     pub(super) fn find(
-        spectrum: &OrderSpectrum,
+        spectrum: &EnvelopeOrderSpectrum,
         order: f64,
         error: f64,
         beside: Option<f64>,
@@ -174,7 +174,7 @@ impl Comb {
 }
 
 /// Places of the teeth that have a floor.
-fn places(spectrum: &OrderSpectrum, order: f64, beside: Option<f64>) -> Vec<Place> {
+fn places(spectrum: &EnvelopeOrderSpectrum, order: f64, beside: Option<f64>) -> Vec<Place> {
     // lines nearer than a bin are not told apart
     let spacing = beside.filter(|spacing| *spacing > 1.0 / spectrum.turns);
     let sides: &[i32] = if spacing.is_some() { &[-1, 0, 1] } else { &[0] };
@@ -194,7 +194,12 @@ fn places(spectrum: &OrderSpectrum, order: f64, beside: Option<f64>) -> Vec<Plac
 
 /// What a tooth says against noise, -ln of its probability; `None` where it does not count, 0 where it may be leakage. That stays
 /// in the count, so that noise is not helped by leaving its weak bins out.
-fn evidence(spectrum: &OrderSpectrum, place: &Place, at: f64, known: &[Known]) -> Option<f64> {
+fn evidence(
+    spectrum: &EnvelopeOrderSpectrum,
+    place: &Place,
+    at: f64,
+    known: &[Known],
+) -> Option<f64> {
     let line = place.line(at);
     if coincidence(line, 1.0 / spectrum.turns, known).is_some() {
         return None;
@@ -210,7 +215,7 @@ fn evidence(spectrum: &OrderSpectrum, place: &Place, at: f64, known: &[Known]) -
 
 /// Harmonics with teeth that count, and those whose teeth together stand out.
 fn harmonics(
-    spectrum: &OrderSpectrum,
+    spectrum: &EnvelopeOrderSpectrum,
     places: &[Place],
     order: f64,
     known: &[Known],
@@ -232,7 +237,7 @@ fn harmonics(
 
 /// A line beside a tooth: its power over its floor, and whether noise would do that once in a hundred.
 pub(super) fn side_line(
-    spectrum: &OrderSpectrum,
+    spectrum: &EnvelopeOrderSpectrum,
     line: f64,
     fundamental: f64,
 ) -> Option<(f64, bool)> {
@@ -256,7 +261,7 @@ pub(super) fn coincidence(line: f64, bin: f64, known: &[Known]) -> Option<String
 }
 
 /// The shaft's multiple or known line nearest to this one whose leakage could be all of it.
-fn leakage(spectrum: &OrderSpectrum, line: f64, known: &[Known]) -> Option<String> {
+fn leakage(spectrum: &EnvelopeOrderSpectrum, line: f64, known: &[Known]) -> Option<String> {
     let own = spectrum.at(line);
     let leaks = |from: f64| {
         let bins = ((line - from) * spectrum.turns).abs();
@@ -274,12 +279,12 @@ fn leakage(spectrum: &OrderSpectrum, line: f64, known: &[Known]) -> Option<Strin
     nearest.map(|other| other.name.clone())
 }
 
-fn ratio(spectrum: &OrderSpectrum, line: f64, floor: &Floor) -> f64 {
+fn ratio(spectrum: &EnvelopeOrderSpectrum, line: f64, floor: &Floor) -> f64 {
     spectrum.at(line).powi(2) / floor.power
 }
 
 /// Floor about a line; `None` where the window is too short for it or the spectrum ends.
-fn floor(spectrum: &OrderSpectrum, line: f64, fundamental: f64) -> Option<Floor> {
+fn floor(spectrum: &EnvelopeOrderSpectrum, line: f64, fundamental: f64) -> Option<Floor> {
     let reach = (FLOOR_REACH * fundamental * spectrum.turns + 1e-9) as usize;
     let reach = reach.min(FLOOR_BINS);
     let bin = 1.0 / spectrum.turns;

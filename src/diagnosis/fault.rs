@@ -113,8 +113,9 @@ impl FaultOrders {
         }
     }
 
-    /// The highest order.
-    pub(super) fn highest(&self) -> f64 {
+    /// The highest order that is known, at least 1.
+    #[must_use]
+    pub fn highest(&self) -> f64 {
         self.orders
             .iter()
             .flatten()

@@ -3,7 +3,9 @@
 use super::chance::any_of;
 use super::comb::{Comb, HARMONICS, Known, Tooth, Worth, coincidence, side_line, turns_needed};
 use super::verdict::conclude;
-use super::{Conclusion, Fault, FaultOrders, FaultVerdict, Harmonic, OrderSpectrum, SideLine};
+use super::{
+    Conclusion, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict, Harmonic, SideLine,
+};
 
 /// Side lines that are looked at: to so many spacings on each side of so many harmonics.
 const SIDES: i32 = 2;
@@ -11,7 +13,7 @@ const SIDED_HARMONICS: usize = 3;
 
 /// Verdicts on all faults in one spectrum of `trials`.
 pub(super) fn faults(
-    spectrum: &OrderSpectrum,
+    spectrum: &EnvelopeOrderSpectrum,
     speed_hz: f64,
     orders: &FaultOrders,
     trials: usize,
@@ -71,7 +73,7 @@ pub fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
 
 /// The lines that a named fault explains: its harmonics, their side lines, and of a ball the cage's multiples, since it comes
 /// into the load zone once a turn of the cage.
-fn lines(named: &FaultVerdict, spectrum: &OrderSpectrum) -> Vec<Known> {
+fn lines(named: &FaultVerdict, spectrum: &EnvelopeOrderSpectrum) -> Vec<Known> {
     let Some(order) = named.order else {
         return Vec::new();
     };
@@ -111,7 +113,7 @@ pub(super) fn carrier(fault: Fault) -> &'static str {
 /// All that verdicts rest on.
 struct Judge<'a> {
     orders: &'a FaultOrders,
-    spectrum: &'a OrderSpectrum,
+    spectrum: &'a EnvelopeOrderSpectrum,
     speed_hz: f64,
     /// Spectra that are judged, of which the best is shown.
     trials: usize,

@@ -2,7 +2,7 @@
 //!
 //! 1. [`FaultOrders`]: how often each part strikes, per shaft turn, and how well that is known.
 //! 2. [`judged_envelopes`]: the envelopes that are judged; the verdict is that of the one which shows most.
-//! 3. [`OrderSpectrum`]: the envelope's spectrum over the shaft's angle, so that a run-up smears nothing.
+//! 3. [`EnvelopeOrderSpectrum`]: the envelope's spectrum over the shaft's angle, so that a run-up smears nothing.
 //! 4. A comb: a fault's line and its harmonics, for a ball those beside them too, moved together within the uncertainty of its order. Each harmonic is
 //!    compared with the median of the bins about it; those that coincide with multiples of the shaft, or with lines of a
 //!    fault that is named already, do not count.
@@ -31,11 +31,14 @@ mod tests;
 mod verdict;
 mod window;
 
+/// Harmonics of a part's line that are judged, the line itself included.
+pub const JUDGED_HARMONICS: u32 = comb::HARMONICS;
+
 pub use envelopes::{JudgedEnvelope, judged_envelopes};
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use judge::line_name;
-pub use order_spectrum::OrderSpectrum;
+pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use verdict::{
     BURST_STRENGTH, Conclusion, FaultVerdict, Harmonic, LEAST_HARMONICS, NAMED_BELOW, SideLine,
     UNSEEN_ABOVE,

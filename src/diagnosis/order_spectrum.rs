@@ -1,4 +1,4 @@
-//! Spectrum of an envelope over the shaft's angle.
+//! Spectrum of an envelope over the shaft's angle, for a verdict.
 
 use serde::Serialize;
 
@@ -6,7 +6,8 @@ use super::DiagnosisError;
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{WindowFunction, amplitude_spectrum};
 
-/// Samples a turn for each order that is to be seen: two would do, and averages over an angle are 10 % low there.
+/// Samples a turn for each order that is to be seen: two would do. An average over 1 / P of a turn has the gain
+/// sinc(order / P), 0.76 at the highest order and 0.90 at a quarter of P.
 const SAMPLES_AN_ORDER: f64 = 2.5;
 /// Least padding: lines between bins are then read 0.6 % low at most.
 const PADDING: f64 = 8.0;
@@ -17,8 +18,17 @@ const FEWEST: usize = 16;
 ///
 /// The envelope is averaged over equal angles before it is transformed, so that a speed that changes in the window smears
 /// nothing: a run-up's lines are as sharp as those of a constant speed.
+///
+/// Why no [`AngleSeries`](crate::signal::AngleSeries), whose [`OrderSpectrum`](crate::signal::OrderSpectrum) is for calibrated
+/// amplitudes of any signal: its filter reaches 32 / P of a turn to each side, in all a tenth of the shortest window that is judged
+/// (6.2 turns, P = 100), which is lost where a record ends with its window. And it takes 64 / P of a turn for every value, 11 600
+/// samples of an envelope at 400 kHz and 22 Hz, where an average takes each sample once.
+///
+/// The price are images: of what is at P - q there is a part sinc((P - q) / P) at q, 0.50 at q = 0.4 P and 0.11 at 0.1 P. Those of
+/// the bursts of highest order (its harmonics from the 14th on; P is 22.5 times it) lie halfway between its lines, those of other
+/// parts anywhere; noise is raised by 1.7 at most (in power, at the highest order).
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OrderSpectrum {
+pub struct EnvelopeOrderSpectrum {
     /// Orders from 0, equally spaced.
     pub order: Vec<f64>,
     /// Amplitudes, same length, in `unit`.
@@ -33,7 +43,7 @@ pub struct OrderSpectrum {
     pub highest: f64,
 }
 
-impl OrderSpectrum {
+impl EnvelopeOrderSpectrum {
     /// Spectrum of an envelope in a window (s), up to `highest` > 0 orders or what the sampling gives; `turns` is the shaft's
     /// angle at a time (s), in turns.
     ///
@@ -121,7 +131,7 @@ impl OrderSpectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::TAU;
+    use std::f64::consts::{PI, TAU};
 
     /// A run-up from 10 to 40 Hz in 2 s.
     fn turns(t: f64) -> f64 {
@@ -139,7 +149,7 @@ mod tests {
             3.0 + 0.5 * (TAU * 3.57 * turns(t)).cos()
         });
         let envelope = TimeSeries::new(0.0, 1.0 / 20e3, "g", values.collect()).unwrap();
-        let spectrum = OrderSpectrum::new(&envelope, window(2.0), turns, 40.0).unwrap();
+        let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(2.0), turns, 40.0).unwrap();
         assert!((spectrum.turns - 50.0).abs() < 0.05);
         // the average over a hundredth of a turn takes 0.2 % of this line, leakage of its image as much
         assert!(
@@ -155,10 +165,27 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_beyond_the_averages_leaves_an_image() {
+        // 100 averages a turn for orders up to 40; a line at 60 comes through at 40
+        let values = (0..100_000).map(|k| 1.0 + (TAU * 60.0 * 20.0 * f64::from(k) / 100e3).cos());
+        let envelope = TimeSeries::new(0.0, 1e-5, "g", values.collect()).unwrap();
+        let spectrum =
+            EnvelopeOrderSpectrum::new(&envelope, window(1.0), |t| 20.0 * t, 40.0).unwrap();
+        let gain = (0.6 * PI).sin() / (0.6 * PI);
+        // sums of 50 samples in the place of integrals, and leakage of the image's image
+        assert!(
+            (spectrum.at(40.0) / gain - 1.0).abs() < 0.01,
+            "{}",
+            spectrum.at(40.0)
+        );
+        assert!(spectrum.at(37.3) < 0.02);
+    }
+
+    #[test]
     fn what_does_not_turn_on_is_refused() {
         let envelope = TimeSeries::new(0.0, 1e-3, "g", vec![1.0; 1000]).unwrap();
         let message = |turns: fn(f64) -> f64| {
-            let spectrum = OrderSpectrum::new(&envelope, window(1.0), turns, 10.0);
+            let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(1.0), turns, 10.0);
             spectrum.unwrap_err().to_string()
         };
         assert_eq!(
@@ -172,7 +199,7 @@ mod tests {
             "from 0 s to 1 s: expected at least 16 samples at equal angles, found 0: a longer window, or a higher sampling rate"
         );
         // backwards is as good as forwards
-        let back = OrderSpectrum::new(&envelope, window(1.0), |t| -20.0 * t, 10.0).unwrap();
+        let back = EnvelopeOrderSpectrum::new(&envelope, window(1.0), |t| -20.0 * t, 10.0).unwrap();
         assert!((back.turns - 20.0).abs() < 1e-9);
     }
 }

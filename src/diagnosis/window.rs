@@ -2,7 +2,9 @@
 
 use super::comb::HARMONICS;
 use super::judge::faults;
-use super::{Conclusion, DiagnosisError, FaultOrders, FaultVerdict, JudgedEnvelope, OrderSpectrum};
+use super::{
+    Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict, JudgedEnvelope,
+};
 use crate::series::TimeWindow;
 
 /// What is said of a window.
@@ -15,7 +17,7 @@ pub struct Diagnosis {
     /// How many were.
     pub envelopes: usize,
     /// Spectrum of that envelope over the shaft's angle.
-    pub spectrum: OrderSpectrum,
+    pub spectrum: EnvelopeOrderSpectrum,
     /// One verdict a fault whose order is known, in the order of [`Fault::ALL`].
     pub faults: Vec<FaultVerdict>,
 }
@@ -38,7 +40,7 @@ impl Diagnosis {
         let judged = envelopes.iter().map(|envelope| {
             // room for the floor beside the highest harmonic
             let highest = (f64::from(HARMONICS) + 1.0) * orders.highest();
-            let spectrum = OrderSpectrum::new(&envelope.series, window, &turns, highest)?;
+            let spectrum = EnvelopeOrderSpectrum::new(&envelope.series, window, &turns, highest)?;
             let speed_hz = spectrum.turns / (window.to - window.from);
             Ok(Self {
                 speed_hz,

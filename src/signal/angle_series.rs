@@ -14,7 +14,8 @@ pub struct AngleSeries {
     samples_per_turn: usize,
 }
 
-/// Amplitudes over shaft orders.
+/// Amplitudes over shaft orders, calibrated, of a series that was taken over the angle without aliases. A verdict on a bearing has the
+/// quicker [`EnvelopeOrderSpectrum`](crate::diagnosis::EnvelopeOrderSpectrum), which wants no signal beyond its window.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OrderSpectrum {
     /// Orders from 0, equally spaced: multiples of the shaft's speed.
