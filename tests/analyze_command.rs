@@ -44,6 +44,11 @@ fn named(window: &Value) -> Vec<&str> {
         .collect()
 }
 
+fn numbers(list: &Value) -> Vec<f64> {
+    let list = list.as_array().unwrap().iter();
+    list.map(|number| number.as_f64().unwrap()).collect()
+}
+
 /// What makes an example short: 44 Hz all the time, analysed as a whole.
 fn short(seconds: f64) -> Vec<String> {
     let end = 0.1 + seconds;
@@ -205,6 +210,26 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     ));
     assert_eq!(named(&found["windows"][0]), ["outer race"]);
     assert!(found["defect_orders"]["ball"].is_null());
+    assert_eq!(numbers(&found["windows"][0]["band_hz"]), [2e3, 5e3]);
+    assert!(found["windows"][0]["kurtosis_limit"].is_null());
+    // the band that rings, found by its kurtosis: wide enough for the eighth harmonic of the highest order, 1083 Hz
+    let found = json(&by(&["--speed", "25", "--json", "--band", "kurtogram"]));
+    let window = &found["windows"][0];
+    assert_eq!(named(window), ["outer race"]);
+    let band = numbers(&window["band_hz"]);
+    assert!(
+        band[0] >= 1083.0 && band[0] < 3e3 && band[1] > 3e3,
+        "{band:?}"
+    );
+    assert_eq!(window["high_pass_hz"].as_f64(), Some(band[0]));
+    let kurtosis = window["kurtosis_of_band"].as_f64().unwrap();
+    assert!(kurtosis > window["kurtosis_limit"].as_f64().unwrap());
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    assert!(
+        report.contains("--speed 25 --band kurtogram"),
+        "the command line"
+    );
+    assert!(report.contains("Kurtogram of P1") && report.contains("Kurtosis of that band"));
     // another speed, at which nothing strikes
     let found = json(&by(&["--speed", "31", "--json"]));
     assert_eq!(named(&found["windows"][0]), [""; 0]);
@@ -229,6 +254,10 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         (
             by(&["--speed", "25", "--high-pass", "9000"]),
             "error: analysis: cut-off must lie between 0 and 8000 Hz (half the sampling rate), found 9000 Hz\n",
+        ),
+        (
+            by(&["--speed", "25", "--band", "9000:2000"]),
+            "error: invalid value '9000:2000' for '--band <FROM:TO|kurtogram>': expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"9000:2000\"\n\nFor more information, try '--help'.\n",
         ),
         (
             plummer(&folder, &["analyze", "."]),

@@ -25,6 +25,7 @@ mod condense;
 mod decode;
 mod defect;
 mod document;
+mod envelope_band;
 mod error;
 mod fault;
 mod frf;
@@ -63,6 +64,7 @@ pub use defect::{
     Defect, DefectCurvature, DentDefect, DentProfile, FlatDefect, MeasuredDefect, RaceName,
 };
 pub use document::Source;
+pub use envelope_band::EnvelopeBand;
 pub use error::{CaseError, Place};
 pub use frf::{Frf, Push};
 pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::EnvelopeBand;
 use super::union::{Loose, Mismatch, NoTable, written_as};
 
 /// What the signals must be good for.
@@ -203,10 +204,13 @@ impl From<ModesKept> for Loose<NoTable> {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Analysis {
-    /// Corner of the high-pass filter before the envelope in Hz, > 0 and below half the sampling rate; `None`: no
-    /// filter.
+    /// Corner of the high-pass filter before the envelope in Hz, > 0 and below half the sampling rate; `None`, without
+    /// `band_hz` either: no filter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub high_pass_hz: Option<f64>,
+    /// The band before the envelope, in the place of `high_pass_hz`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub band_hz: Option<EnvelopeBand>,
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
     pub envelope: Vec<Window>,

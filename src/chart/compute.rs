@@ -7,7 +7,7 @@ use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
 use super::systems::{Ready, Systems};
 use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
 use crate::case::{self, Case, ModesKept, StepLength};
-use crate::stages::{ModelChoice, RunModel, Scene, Watch};
+use crate::stages::{AskedBand, ModelChoice, RunModel, Scene, Watch};
 use crate::system::SystemError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -208,7 +208,7 @@ fn statistics(
     let starts: Vec<Start> = reference.starts.iter().map(|s| s.start.clone()).collect();
     let analysis = FigureSettings {
         band_hz: [case.band_hz().map_or(0.0, |band| band[0]), settings.band_hz],
-        high_pass_hz: case.analysis.high_pass_hz,
+        high_pass_hz: AskedBand::of(case).map(|band| band.corner_hz(settings.output_hz)),
     };
     let progress = Counter::new(watch, 3 * starts.len());
     let run = |system: &Ready, model: &RunModel| {

@@ -10,6 +10,18 @@ use super::spectrum::{DEFAULT_BIN_HZ, amplitude_spectrum};
 use super::window_function::WindowFunction;
 use crate::series::{TimeSeries, TimeWindow};
 
+/// Corner of the high-pass unless one is asked for, Hz: Tadina & Boltezar 2011, section 5.
+const HIGH_PASS_HZ: f64 = 5e3;
+/// The same as a part of the sampling rate, for slow recorders.
+const HIGH_PASS_PART: f64 = 0.125;
+
+/// Corner of the high-pass before an envelope unless another is asked for, Hz: 5 kHz, or an eighth of the sampling rate (Hz) if
+/// that is lower.
+#[must_use]
+pub fn usual_high_pass_hz(rate_hz: f64) -> f64 {
+    HIGH_PASS_HZ.min(HIGH_PASS_PART * rate_hz)
+}
+
 /// Amplitude spectrum of the mean-removed envelope of a window of signal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EnvelopeSpectrum {
@@ -83,7 +95,7 @@ impl Default for EnvelopeAnalysis {
     /// 5 kHz, as in Tadina & Boltezar 2011, section 5; fourth order; boxcar; bins of 0.25 Hz.
     fn default() -> Self {
         Self {
-            high_pass_hz: Some(5e3),
+            high_pass_hz: Some(HIGH_PASS_HZ),
             order: DEFAULT_ORDER,
             window_function: WindowFunction::Boxcar,
             widest_bin_hz: DEFAULT_BIN_HZ,

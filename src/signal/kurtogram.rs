@@ -55,6 +55,15 @@ pub struct Kurtogram {
     pub confidence: f64,
 }
 
+impl KurtogramBand {
+    /// Lower and upper edge, Hz.
+    pub fn edges_hz(&self) -> [f64; 2] {
+        // the middle is a half more than a whole number of widths
+        let place = (self.centre_hz / self.width_hz - 0.5).round();
+        [place, place + 1.0].map(|edge| edge * self.width_hz)
+    }
+}
+
 impl Kurtogram {
     /// The band with the largest kurtosis.
     pub fn largest(&self) -> Option<&KurtogramBand> {
@@ -67,6 +76,16 @@ impl Kurtogram {
     pub fn most_impulsive(&self) -> Option<&KurtogramBand> {
         let beyond = self.bands.iter().filter(|band| band.kurtosis > band.limit);
         beyond.max_by(|a, b| a.kurtosis.total_cmp(&b.kurtosis))
+    }
+
+    /// Of these bands alone. The limits stay, which are for all: on the safe side.
+    #[must_use]
+    pub fn of_those(&self, wanted: impl Fn(&KurtogramBand) -> bool) -> Self {
+        let bands = self.bands.iter().copied();
+        Self {
+            bands: bands.filter(wanted).collect(),
+            confidence: self.confidence,
+        }
     }
 }
 

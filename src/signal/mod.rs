@@ -26,7 +26,7 @@ mod lines;
 mod morlet;
 mod moving;
 #[cfg(test)]
-mod noise;
+pub(crate) mod noise;
 mod peaks;
 #[cfg(test)]
 mod reference;
@@ -46,7 +46,9 @@ pub use band_limit::{band_limit, band_limit_edge_s};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
 pub use envelope::envelope;
-pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};
+pub use envelope_analysis::{
+    EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum, usual_high_pass_hz,
+};
 pub use error::SignalError;
 pub use frequency_axis::FrequencyAxis;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};

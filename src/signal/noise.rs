@@ -1,7 +1,7 @@
 //! Noise for the tests, the same in every run.
 
 /// Standard normal values, by Box and Muller.
-pub(super) fn gaussian(samples: usize, seed: u64) -> Vec<f64> {
+pub(crate) fn gaussian(samples: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def1;
     let mut uniform = || {
         // xorshift*, Marsaglia and Vigna

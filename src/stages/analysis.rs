@@ -1,6 +1,6 @@
 //! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
 
-use super::{Kinematics, StageError};
+use super::{AskedBand, Kinematics, StageError, UsedBand};
 use crate::case::Case;
 use crate::diagnosis::{Diagnosis, DiagnosisError, Fault, FaultOrders, judged_envelopes};
 use crate::report::{Curve, Thinner};
@@ -26,10 +26,8 @@ const SHOWN_POINTS: usize = 4000;
 /// What is analysed of a signal.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct AnalysisSettings {
-    /// Corner of the high-pass before the envelope, Hz; `None`: none.
-    pub high_pass_hz: Option<f64>,
-    /// End of the band before the envelope, Hz; `None`: that of the signal.
-    pub low_pass_hz: Option<f64>,
+    /// Band before the envelope; `None`: the signal as it is.
+    pub band: Option<AskedBand>,
     /// Windows, s.
     pub windows: Vec<TimeWindow>,
 }
@@ -40,8 +38,7 @@ impl AnalysisSettings {
     pub fn of(case: &Case) -> Self {
         let windows = case.analysis.envelope.iter();
         Self {
-            high_pass_hz: case.analysis.high_pass_hz,
-            low_pass_hz: None,
+            band: AskedBand::of(case),
             windows: windows
                 .map(|window| TimeWindow {
                     from: window.from,
@@ -73,6 +70,8 @@ pub struct WindowAnalysis {
     pub kurtosis: Option<f64>,
     /// Signal and envelope over time, thinned.
     pub shown: [Curve; 2],
+    /// Band that the envelope is of.
+    pub band: UsedBand,
     /// Envelope spectrum.
     pub spectrum: EnvelopeSpectrum,
     /// Fault lines and the shaft's.
@@ -85,10 +84,6 @@ pub struct WindowAnalysis {
     /// Verdict on each part of the bearing, or why there is none.
     pub diagnosis: Result<Diagnosis, String>,
 }
-
-/// What is read of a signal before and after a window, in periods of the high-pass's cut-off: filter and envelope err there, by
-/// the ends of what is read, by 1 / (pi 2 pi n) of the signal n periods from an end.
-const MARGIN_PERIODS: f64 = 200.0;
 
 /// Analyses one sensor's signal in every window. `read` gives the stretch of it that holds a window (s), with
 /// so many seconds before and after as there are: at least the window's own length, that its envelope has no edges.
@@ -103,25 +98,26 @@ pub fn analyse(
     read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
     kinematics: &Kinematics,
 ) -> Result<Vec<WindowAnalysis>, StageError> {
-    let filter = EnvelopeAnalysis {
-        high_pass_hz: settings.high_pass_hz,
-        ..EnvelopeAnalysis::default()
-    };
-    let filtered_s = settings.high_pass_hz.map_or(0.0, |hz| MARGIN_PERIODS / hz);
     let windows = settings.windows.iter();
     windows
         .map(|&window| {
             let (from, to) = (window.from, window.to);
-            let stretch = read(window, filtered_s.max(to - from))?;
-            let envelope_of = |signal: &TimeSeries| match settings.low_pass_hz {
+            let speed_hz = kinematics.mean_speed_hz(window);
+            let orders = kinematics.orders(window)?;
+            let read = |window, margin_s: f64| read(window, margin_s.max(to - from));
+            let band = UsedBand::of(settings.band, window, read, speed_hz, &orders)?;
+            let filter = EnvelopeAnalysis {
+                high_pass_hz: band.high_pass_hz,
+                ..EnvelopeAnalysis::default()
+            };
+            let stretch = read(window, band.margin_s())?;
+            let envelope_of = |signal: &TimeSeries| match band.low_pass_hz {
                 Some(up_to_hz) => filter.envelope(&band_limit(signal, up_to_hz)?),
                 None => filter.envelope(signal),
             };
             let envelope = envelope_of(&stretch)?;
             let part = stretch.window(from, to)?;
-            let speed_hz = kinematics.mean_speed_hz(window);
             let spectrum = filter.window_of(&envelope, from, to)?;
-            let orders = kinematics.orders(window)?;
             let lines = lines(speed_hz, &orders)?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),
@@ -161,6 +157,7 @@ pub fn analyse(
                 outer: outer
                     .flat_map(|order| [near(1.0, order), near(2.0, order)])
                     .collect(),
+                band,
                 spectrum,
                 lines,
                 peaks,

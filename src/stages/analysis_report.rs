@@ -1,6 +1,7 @@
 //! What a report says of an analysed window, and the report of `plummer analyze`.
 
 use super::WindowAnalysis;
+use super::band_search_report::{band_facts, kurtogram_plot};
 use crate::diagnosis::{Conclusion, Diagnosis, FaultVerdict, line_name};
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
@@ -83,40 +84,37 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
             .table(verdict_table(diagnosis))
             .plot(order_plot(window, diagnosis));
     }
+    let facts = [
+        Fact::new(
+            "Mean shaft speed",
+            format!("{} Hz", significant(window.speed_hz, 4)),
+        ),
+        Fact::new("RMS", amount(window.rms)),
+        Fact::new("Peak", amount(window.peak)),
+        Fact::new(
+            "Kurtosis",
+            window
+                .kurtosis
+                .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
+        )
+        .note("3 for a normal distribution"),
+        Fact::new(
+            "Window",
+            format!(
+                "{} s, zero-padded {} times",
+                significant(window.to - window.from, 3),
+                significant(window.spectrum.zero_padding, 3)
+            ),
+        ),
+    ];
     section = section
         .plot(envelope_plot(window))
         .plot(time_plot(window))
-        .facts([
-            Fact::new(
-                "Mean shaft speed",
-                format!("{} Hz", significant(window.speed_hz, 4)),
-            ),
-            Fact::new("RMS", amount(window.rms)),
-            Fact::new("Peak", amount(window.peak)),
-            Fact::new(
-                "Kurtosis",
-                window
-                    .kurtosis
-                    .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
-            )
-            .note("3 for a normal distribution"),
-            Fact::new(
-                "High-pass",
-                window.spectrum.high_pass_hz.map_or_else(
-                    || "none".to_owned(),
-                    |hz| format!("{} Hz, Butterworth, zero phase", significant(hz, 4)),
-                ),
-            ),
-            Fact::new(
-                "Window",
-                format!(
-                    "{} s, zero-padded {} times",
-                    significant(window.to - window.from, 3),
-                    significant(window.spectrum.zero_padding, 3)
-                ),
-            ),
-        ])
+        .facts(facts.into_iter().chain(band_facts(&window.band)))
         .table(peak_table(window));
+    if let Some(search) = window.band.found() {
+        section = section.plot(kurtogram_plot(&window.sensor, search));
+    }
     match &window.diagnosis {
         Ok(diagnosis) => section.table(harmonic_table(diagnosis)),
         Err(reason) => section.paragraph(format!("No verdict: {reason}.")),

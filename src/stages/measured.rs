@@ -1,17 +1,13 @@
 //! `plummer analyze`: signals from files, analysed.
 
-use super::{AnalysisSettings, Kinematics, StageError, Watch, WindowAnalysis, analyse};
+use super::{AnalysisSettings, AskedBand, Kinematics, StageError, Watch, WindowAnalysis, analyse};
 use crate::diagnosis::DiagnosisError;
 use crate::exchange::MeasuredSignal;
 use crate::series::TimeWindow;
+use crate::signal::usual_high_pass_hz;
 
-/// Corner of the high-pass unless one is asked for, Hz: that of the source paper.
-const HIGH_PASS_HZ: f64 = 5e3;
-/// The same as a part of the sampling rate, for slow recorders.
-const HIGH_PASS_PART: f64 = 0.125;
-
-/// Analyses every signal in every window; without windows each as a whole. Without a filter in `settings`: a high-pass at 5 kHz or
-/// an eighth of the sampling rate, whichever is lower.
+/// Analyses every signal in every window; without windows each as a whole. Without a band in `settings`: the high-pass of
+/// [`usual_high_pass_hz`].
 ///
 /// # Errors
 /// [`StageError`]: a window outside a signal, a filter beyond half the sampling rate.
@@ -29,9 +25,8 @@ pub fn compute_analysis(
         if own.windows.is_empty() {
             own.windows.push(series.span());
         }
-        if own.high_pass_hz.is_none() && own.low_pass_hz.is_none() {
-            own.high_pass_hz = Some(HIGH_PASS_HZ.min(HIGH_PASS_PART * series.rate_hz()));
-        }
+        let usual = AskedBand::HighPass(usual_high_pass_hz(series.rate_hz()));
+        own.band.get_or_insert(usual);
         let read = |window: TimeWindow, margin_s: f64| {
             let samples = series.values().len();
             let inside = window.check_inside(series.start_s(), series.step_s(), samples);

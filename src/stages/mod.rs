@@ -6,6 +6,10 @@
 
 mod analysis;
 mod analysis_report;
+mod band_search;
+mod band_search_report;
+#[cfg(test)]
+mod band_search_tests;
 mod bearing;
 mod bearing_defects;
 mod bearing_motion;
@@ -72,6 +76,7 @@ mod unfinished;
 
 pub use analysis::{AnalysisSettings, WindowAnalysis, analyse};
 pub use analysis_report::analysis_report;
+pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
 pub use bearing_table::bearing_table;
 pub use choice::{ChosenPart, ModelChoice};

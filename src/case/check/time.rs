@@ -1,8 +1,8 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, Method,
-    ModeExtent, ModesKept, SensorSpot, StepLength,
+    Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load,
+    Method, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, cycles, direction, each_once, fraction, known_sensor, not_empty,
@@ -308,14 +308,16 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
 pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
     if let Some(corner) = case.analysis.high_pass_hz {
         above_zero("analysis.high_pass_hz", corner)?;
-        if let Some(transient) = &case.transient {
-            let limit = 0.5 * transient.output_hz;
-            below(
-                "analysis.high_pass_hz",
-                corner,
-                "half of `transient.output_hz`",
-                limit,
-            )?;
+        below_half_the_rate(case, "analysis.high_pass_hz", corner)?;
+    }
+    if let Some(band) = case.analysis.band_hz {
+        let key = "analysis.band_hz";
+        if case.analysis.high_pass_hz.is_some() {
+            let other = "analysis.high_pass_hz";
+            return Err(Rule::Beside { other }.at(key));
+        }
+        if let EnvelopeBand::Between(edges) = band {
+            within_rate(case, key, edges)?;
         }
     }
     for (index, window) in case.analysis.envelope.iter().enumerate() {
@@ -325,26 +327,29 @@ pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
     if let Some(scalogram) = &case.analysis.scalogram {
         let key = "analysis.scalogram";
         within_run(case, key, [scalogram.from, scalogram.to])?;
-        let [low, high] = scalogram.band_hz;
-        above_zero(format!("{key}.band_hz[0]"), low)?;
-        above(
-            format!("{key}.band_hz[1]"),
-            high,
-            "the lowest frequency",
-            low,
-        )?;
-        if let Some(transient) = &case.transient {
-            let limit = 0.5 * transient.output_hz;
-            below(
-                format!("{key}.band_hz[1]"),
-                high,
-                "half of `transient.output_hz`",
-                limit,
-            )?;
-        }
+        within_rate(case, &format!("{key}.band_hz"), scalogram.band_hz)?;
         cycles(format!("{key}.cycles"), scalogram.cycles)?;
     }
     Ok(())
+}
+
+/// A band of that key is one above zero, and lies below half the sampling rate.
+fn within_rate(case: &Case, key: &str, [low, high]: [f64; 2]) -> Result<(), BrokenRule> {
+    above_zero(format!("{key}[0]"), low)?;
+    above(format!("{key}[1]"), high, "the lowest frequency", low)?;
+    below_half_the_rate(case, &format!("{key}[1]"), high)
+}
+
+fn below_half_the_rate(case: &Case, key: &str, frequency_hz: f64) -> Result<(), BrokenRule> {
+    match &case.transient {
+        Some(transient) => below(
+            key,
+            frequency_hz,
+            "half of `transient.output_hz`",
+            0.5 * transient.output_hz,
+        ),
+        None => Ok(()),
+    }
 }
 
 /// A window of that key is one, and lies in the simulation.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::bearing::{SpeedKnot, SpeedProfile};
+use crate::case::EnvelopeBand;
 use crate::diagnosis::FaultOrders;
 use crate::series::TimeWindow;
 
@@ -49,9 +50,10 @@ pub struct AnalyzeArguments {
     /// that is lower)
     #[arg(long, value_name = "HZ", value_parser = positive)]
     pub high_pass: Option<f64>,
-    /// Band before the envelope in Hz, in the place of --high-pass: where the housing rings
-    #[arg(long, value_name = "FROM:TO", value_parser = band, conflicts_with = "high_pass")]
-    pub band: Option<[f64; 2]>,
+    /// Band before the envelope in Hz, in the place of --high-pass: where the housing rings; or `kurtogram`: the most impulsive
+    /// band of each window, and the high-pass where noise may be as impulsive
+    #[arg(long, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
+    pub band: Option<EnvelopeBand>,
     /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
     #[arg(long, value_name = "PART")]
     pub geometry_error: Option<f64>,
@@ -108,11 +110,12 @@ fn window(text: &str) -> Result<TimeWindow, String> {
     }
 }
 
-fn band(text: &str) -> Result<[f64; 2], String> {
+fn band(text: &str) -> Result<EnvelopeBand, String> {
     match pair(text) {
-        Some([from, to]) if 0.0 < from && from < to => Ok([from, to]),
+        Some([from, to]) if 0.0 < from && from < to => Ok(EnvelopeBand::Between([from, to])),
+        None if text.trim() == "kurtogram" => Ok(EnvelopeBand::Kurtogram),
         _ => Err(format!(
-            "expected FROM:TO in Hz, 0 < FROM < TO, found \"{text}\""
+            "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"{text}\""
         )),
     }
 }
@@ -165,7 +168,9 @@ mod tests {
     fn pairs_orders_and_speeds_are_read() {
         let read = window("2.2:2.8").unwrap();
         assert_eq!([read.from, read.to], [2.2, 2.8]);
-        assert_eq!(band("500:2e4").unwrap(), [500.0, 2e4]);
+        let between = EnvelopeBand::Between([500.0, 2e4]);
+        assert_eq!(band("500:2e4").unwrap(), between);
+        assert_eq!(band("kurtogram").unwrap(), EnvelopeBand::Kurtogram);
         assert_eq!(
             orders("inner=5.4,outer=3.6").unwrap().0,
             [Some(3.6), Some(5.4), None, None]
@@ -186,7 +191,7 @@ mod tests {
             ),
             (
                 band("0:5").unwrap_err(),
-                "expected FROM:TO in Hz, 0 < FROM < TO, found \"0:5\"",
+                "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"0:5\"",
             ),
             (
                 orders("outer=3.6,top=1").unwrap_err(),

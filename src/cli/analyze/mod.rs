@@ -15,6 +15,7 @@ use self::source::Source;
 use super::report_files::ReportFiles;
 use super::results::{stages_s, windows_json};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::case::EnvelopeBand;
 use crate::diagnosis::{Conclusion, Fault};
 use crate::report::significant;
 use crate::stages::{WindowAnalysis, analysis_report, compute_analysis};
@@ -120,8 +121,10 @@ fn command(asked: &AnalyzeArguments) -> String {
     if let Some(speed) = &asked.speed {
         push("speed", speed.text.clone());
     }
-    if let Some([from, to]) = asked.band {
-        push("band", format!("{from}:{to}"));
+    match asked.band {
+        Some(EnvelopeBand::Between([from, to])) => push("band", format!("{from}:{to}")),
+        Some(EnvelopeBand::Kurtogram) => push("band", "kurtogram".to_owned()),
+        None => {}
     }
     for window in &asked.window {
         push("window", format!("{}:{}", window.from, window.to));

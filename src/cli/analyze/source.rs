@@ -11,7 +11,9 @@ use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
 use crate::diagnosis::{Fault, FaultOrders};
 use crate::exchange::{MeasuredSignal, SignalRequest, read_signals};
 use crate::series::TimeSeries;
-use crate::stages::{AnalysisSettings, Kinematics, StageError, bearing_geometry, bearing_setup};
+use crate::stages::{
+    AnalysisSettings, AskedBand, Kinematics, StageError, bearing_geometry, bearing_setup,
+};
 use crate::system::BearingSetup;
 
 /// Relative error of the orders of a real bearing: the contact angle under load and the cage's slip.
@@ -233,11 +235,8 @@ fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
     if !asked.window.is_empty() {
         settings.windows = asked.window.clone();
     }
-    if let Some([from, to]) = asked.band {
-        (settings.high_pass_hz, settings.low_pass_hz) = (Some(from), Some(to));
-    }
-    if asked.high_pass.is_some() {
-        settings.high_pass_hz = asked.high_pass;
-    }
+    let typed = asked.high_pass.map(AskedBand::HighPass);
+    let typed = typed.or(asked.band.map(AskedBand::from));
+    settings.band = typed.or(settings.band);
     settings
 }
