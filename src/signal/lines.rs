@@ -15,6 +15,11 @@ const LEAKAGE_MARGIN: f64 = 1.2;
 /// the periodic images of strong lines make some.
 const FLOOR: f64 = 0.01;
 
+/// How far a peak may be from a line that it is said to be, relative to the line's frequency: slip and a contact angle that is not
+/// known move the line of a fault by 1 to 2 % (Randall & Antoni,
+/// Mechanical Systems and Signal Processing 25, 2011, 485-520).
+pub const LINE_TOLERANCE: f64 = 0.03;
+
 /// A line that a spectrum may show at k f, k = 1 ..= harmonics.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NamedLine {
@@ -62,6 +67,17 @@ impl NamedLine {
     pub fn harmonics(&self) -> u32 {
         self.harmonics
     }
+
+    /// A harmonic of it against a frequency found, Hz.
+    fn at(&self, harmonic: u32, found_hz: f64) -> LineMatch {
+        let expected_hz = f64::from(harmonic) * self.frequency_hz;
+        LineMatch {
+            nearest: self.name.clone(),
+            harmonic,
+            expected_hz,
+            deviation: (found_hz - expected_hz) / expected_hz,
+        }
+    }
 }
 
 /// The line nearest to a peak.
@@ -77,7 +93,15 @@ pub struct LineMatch {
     pub deviation: f64,
 }
 
-/// A peak of an envelope spectrum with the line nearest to it.
+impl LineMatch {
+    /// Harmonic and name ("2 x outer race").
+    #[must_use]
+    pub fn label(&self) -> String {
+        format!("{} x {}", self.harmonic, self.nearest)
+    }
+}
+
+/// A peak of an envelope spectrum with the line nearest to it, and the lines that it may be.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EnvelopePeak {
     /// Frequency found, Hz.
@@ -87,6 +111,8 @@ pub struct EnvelopePeak {
     /// Nearest line; `None` only if no lines were given.
     #[serde(flatten)]
     pub line: Option<LineMatch>,
+    /// Labels of the lines that it may be, see [`lines_at`]: nearest first, empty for a peak that is none of them.
+    pub labels: Vec<String>,
 }
 
 /// Which peaks are looked for.
@@ -145,8 +171,34 @@ pub fn envelope_peaks(
             frequency_hz: peak.frequency_hz,
             amplitude: peak.amplitude,
             line: match_line(peak.frequency_hz, lines),
+            labels: lines_at(peak.frequency_hz, lines, spectrum.resolution_hz)
+                .iter()
+                .map(LineMatch::label)
+                .collect(),
         })
         .collect()
+}
+
+/// The lines that a peak at `frequency_hz` may be, nearest first: of the harmonics that are no farther than the larger of
+/// [`LINE_TOLERANCE`] of their frequency and half of `resolution_hz` (what the window separates, whatever the padding) the
+/// nearest, and those nearer to it than `resolution_hz`, which nothing tells from it. Empty if the peak is none of `lines`.
+pub fn lines_at(frequency_hz: f64, lines: &[NamedLine], resolution_hz: f64) -> Vec<LineMatch> {
+    let harmonics = lines
+        .iter()
+        .flat_map(|line| (1..=line.harmonics).map(move |harmonic| line.at(harmonic, frequency_hz)));
+    let distance = |line: &LineMatch| (frequency_hz - line.expected_hz).abs();
+    let mut near: Vec<LineMatch> = harmonics
+        .filter(|line| {
+            distance(line) <= (LINE_TOLERANCE * line.expected_hz).max(0.5 * resolution_hz)
+        })
+        .collect();
+    near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    if let Some(nearest) = near.first().map(|line| line.expected_hz) {
+        near.retain(|line| {
+            (line.expected_hz - nearest).abs() < resolution_hz.max(f64::MIN_POSITIVE)
+        });
+    }
+    near
 }
 
 /// The line and harmonic nearest to `frequency_hz` (in Hz; the first given wins a tie), `None` without lines.
@@ -156,13 +208,7 @@ pub fn match_line(frequency_hz: f64, lines: &[NamedLine]) -> Option<LineMatch> {
         .map(|line| {
             let multiple = (frequency_hz / line.frequency_hz).round();
             let harmonic = multiple.clamp(1.0, f64::from(line.harmonics)) as u32;
-            let expected_hz = f64::from(harmonic) * line.frequency_hz;
-            LineMatch {
-                nearest: line.name.clone(),
-                harmonic,
-                expected_hz,
-                deviation: (frequency_hz - expected_hz) / expected_hz,
-            }
+            line.at(harmonic, frequency_hz)
         })
         .min_by(|a, b| {
             let distance = |m: &LineMatch| (frequency_hz - m.expected_hz).abs();
@@ -236,6 +282,7 @@ mod tests {
             assert!((peak.amplitude / a - 1.0).abs() < 0.05, "{peak:?}");
             let line = peak.line.as_ref().expect("lines were given");
             assert_eq!((line.nearest.as_str(), line.harmonic), (name, harmonic));
+            assert_eq!(peak.labels, [line.label()]);
             let deviation = peak.frequency_hz / line_hz - 1.0;
             assert!((line.deviation - deviation).abs() < 1e-12);
         }
@@ -290,12 +337,53 @@ mod tests {
         assert_eq!((low.nearest.as_str(), low.harmonic), ("shaft", 1));
     }
 
+    /// Lines at 21.3, 54.7 and 94.4 Hz, judged with lines 0.5, 4 and 14 Hz apart.
+    #[test]
+    fn a_peak_is_a_line_within_three_percent_or_half_the_resolution() {
+        let labels = |hz: f64, resolution_hz: f64| -> Vec<String> {
+            let found = lines_at(hz, &lines(), resolution_hz);
+            found.iter().map(LineMatch::label).collect()
+        };
+        // 3 % of 54.7 Hz is 1.64 Hz
+        assert_eq!(labels(56.3, 0.5), ["1 x outer"]);
+        assert_eq!(labels(56.4, 0.5), [""; 0]);
+        assert_eq!(labels(1.7, 0.5), [""; 0], "92 % below the shaft");
+        // half of 4 Hz is more
+        assert_eq!(labels(56.6, 4.0), ["1 x outer"]);
+        assert_eq!(labels(56.8, 4.0), [""; 0]);
+        // 63.9 (shaft) and 54.7 Hz (outer) are 9.2 Hz apart: a window that separates 14 Hz does not tell them apart
+        assert_eq!(labels(59.2, 8.0), [""; 0]);
+        assert_eq!(labels(59.2, 14.0), ["1 x outer", "3 x shaft"]);
+        assert_eq!(labels(59.4, 14.0), ["3 x shaft", "1 x outer"]);
+        assert_eq!(lines_at(54.7, &[], 1.0), []);
+    }
+
+    /// Of two lines within three percent the nearest, if the window separates them, and both otherwise.
+    #[test]
+    fn lines_that_the_window_separates_are_not_both_named() {
+        let lines = [("inner", 100.0), ("ball", 103.0)];
+        let lines = lines.map(|(name, f)| NamedLine::new(name, f, 1).expect("a valid line"));
+        let count = |resolution_hz| lines_at(101.4, &lines, resolution_hz).len();
+        assert_eq!((count(2.9), count(3.1)), (1, 2));
+    }
+
+    /// Two names for one frequency are both said, however fine the resolution.
+    #[test]
+    fn lines_that_coincide_are_all_named() {
+        let lines = [("shaft", 20.0), ("outer", 60.0)];
+        let lines = lines.map(|(name, f)| NamedLine::new(name, f, 3).expect("a valid line"));
+        let found = lines_at(60.01, &lines, 1e-3);
+        let labels: Vec<String> = found.iter().map(LineMatch::label).collect();
+        assert_eq!(labels, ["3 x shaft", "1 x outer"]);
+    }
+
     #[test]
     fn json_is_flat() {
         let peak = EnvelopePeak {
             frequency_hz: 55.0,
             amplitude: 5.0,
             line: match_line(55.0, &lines()),
+            labels: Vec::new(),
         };
         let json = serde_json::to_value(&peak).expect("serialises");
         assert_eq!(json["nearest"], "outer");

@@ -52,7 +52,10 @@ pub use envelope_analysis::{
 pub use error::SignalError;
 pub use frequency_axis::FrequencyAxis;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
-pub use lines::{EnvelopePeak, LineMatch, NamedLine, PeakSearch, envelope_peaks, match_line};
+pub use lines::{
+    EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at,
+    match_line,
+};
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
 pub use scalogram::{Scalogram, WaveletTransform};

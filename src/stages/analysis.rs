@@ -6,8 +6,8 @@ use crate::diagnosis::{Diagnosis, DiagnosisError, Fault, FaultOrders, judged_env
 use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
-    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, band_limit,
-    envelope_peaks,
+    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch,
+    band_limit, envelope_peaks,
 };
 
 /// Harmonics of each fault line that peaks are matched to.
@@ -16,9 +16,6 @@ const HARMONICS: u32 = 3;
 /// Highest frequency of the envelope spectrum that is looked at, in shaft orders; the third
 /// harmonic of the highest fault order of usual bearings lies below.
 const HIGHEST_ORDER: f64 = 25.0;
-
-/// How far a peak may be from the line that it is said to belong to.
-const LINE_TOLERANCE: f64 = 0.03;
 
 /// Points of a window's signal, and of its envelope, that are kept to be shown.
 const SHOWN_POINTS: usize = 4000;
