@@ -301,6 +301,33 @@ fn a_ball_shows_beside_its_harmonics() {
     assert_eq!(line_name(Fault::Ball, 2, -1), "2 x ball -1 x cage");
 }
 
+/// How strong lines are that noise makes is no evidence, and is not said.
+#[test]
+fn burst_strength_is_said_of_what_is_seen_alone() {
+    let orders = bearing();
+    let strong = "times as strong as a jump has them";
+    let values = struck(1.2, steady, orders.outer, |_| 1.0);
+    let found = judged(&with_noise(&values, 0.1, 3), steady, &orders, 0.0);
+    let outer = verdict(&found, Fault::OuterRace);
+    assert!(outer.why.contains(strong), "{}", outer.why);
+    let mut noise = Noise(9);
+    let found = signal(1.2, steady, |_, _| noise.normal());
+    let found = judged(&found, steady, &orders, 0.0);
+    let of = |conclusion| {
+        let faults = found.faults.iter();
+        faults.filter(move |verdict| verdict.conclusion == conclusion)
+    };
+    assert!(of(Conclusion::NotSeen).count() > 0, "{}", found.sentence());
+    for unseen in of(Conclusion::NotSeen) {
+        assert!(!unseen.why.contains(strong), "{}", unseen.why);
+        assert!(
+            unseen.why.contains("free harmonics stand out; noise"),
+            "{}",
+            unseen.why
+        );
+    }
+}
+
 #[test]
 fn short_windows_say_so() {
     let orders = bearing();

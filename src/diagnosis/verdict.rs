@@ -118,8 +118,14 @@ pub(super) fn conclude(verdict: &FaultVerdict, chance: f64) -> (Conclusion, Stri
     let (free, seen) = (verdict.harmonics_free, verdict.harmonics_seen);
     let sides = verdict.side_lines.iter().filter(|line| line.seen).count();
     let strength = verdict.burst_strength.unwrap_or(0.0);
+    // the strength of what noise makes is no evidence
+    let strong = if seen == 0 || chance >= UNSEEN_ABOVE {
+        String::new()
+    } else {
+        format!(", {strength:.1} times as strong as a jump has them")
+    };
     let mut found = format!(
-        "{seen} of {free} free harmonics stand out, {strength:.1} times as strong as a jump has them; noise would do it with probability {chance:.0e}"
+        "{seen} of {free} free harmonics stand out{strong}; noise would do it with probability {chance:.0e}"
     );
     if !verdict.side_lines.is_empty() {
         let all = verdict.side_lines.len();
