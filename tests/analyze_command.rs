@@ -1,34 +1,16 @@
 //! `plummer analyze` from outside, and the verdicts on the example cases.
 
+mod program;
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use plummer::case::Case;
 use plummer::stages::{Unwatched, WindowAnalysis, compute_run};
+use program::{errors, plummer, scratch};
 use serde_json::Value;
-
-/// An empty folder of this test's own.
-fn scratch(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn plummer(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .unwrap()
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 fn json(output: &Output) -> Value {
     assert_eq!(output.status.code(), Some(0), "{}", errors(output));

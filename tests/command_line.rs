@@ -1,29 +1,19 @@
 //! The program from outside: exit codes, where text goes, and that nothing is overwritten.
 
+mod program;
+
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
+
+use program::{errors, plummer};
 
 /// A folder of this test's own with a small case file in it.
 fn scratch(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
+    let folder = program::scratch(name);
     let ring = "title = \"ring\"\n\n[ring]\nsections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n";
     fs::write(folder.join("ring.toml"), ring).unwrap();
     folder
-}
-
-fn plummer(folder: &PathBuf, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .unwrap()
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 #[test]

@@ -1,27 +1,17 @@
 //! `plummer verify` from outside: it needs no file, and says what it compared with what.
 
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Output;
 
 use plummer::verification::BEAM_CASE;
+use program::{errors, plummer, scratch};
 use serde_json::Value;
 
-/// An empty folder of this test's own.
-fn scratch(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("verify_{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
 fn verify(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .current_dir(folder)
-        .arg("verify")
-        .args(words)
-        .output()
-        .unwrap()
+    plummer(folder, &[&["verify"], words].concat())
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -30,9 +20,9 @@ fn text(bytes: &[u8]) -> String {
 
 #[test]
 fn every_check_passes_in_an_empty_folder_and_stands_in_the_result() {
-    let folder = scratch("passes");
+    let folder = scratch("verify-passes");
     let output = verify(&folder, &[]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let shown = text(&output.stdout);
     assert!(shown.contains("The paper's numbers: checks"), "{shown}");
     let json = fs::read_to_string(folder.join("out/verify/verify.json")).unwrap();
@@ -69,7 +59,7 @@ fn every_check_passes_in_an_empty_folder_and_stands_in_the_result() {
 
 #[test]
 fn an_earlier_result_is_not_replaced_and_json_is_all_there_is() {
-    let folder = scratch("again");
+    let folder = scratch("verify-again");
     fs::create_dir_all(folder.join("o")).unwrap();
     fs::write(folder.join("o/verify.json"), "{}").unwrap();
     let again = verify(&folder, &["--out", "o"]);
