@@ -8,7 +8,9 @@ use super::plot::{CurveStyle, Plot};
 use super::shapes::{self, LegendEntry, ModeShapeView, Packed, ShapeFigures, Still, Surface};
 use super::svg_plot::COLOURS;
 use super::table::{Cell, Column, Table};
-use super::{ReportError, bars, csv, embed, matrix, spans, step_map, svg_drawing, svg_plot};
+use super::{
+    ReportError, bars, csv, embed, family, matrix, spans, step_map, svg_drawing, svg_plot,
+};
 
 /// Bytes that the shapes of a report may take for its script, beside still pictures (2 MB at most for a view), plots and
 /// the library: the file stays below 15 MB.
@@ -47,6 +49,9 @@ enum BlockView<'a> {
         svg: String,
         data: String,
         legend: Vec<Entry<'a>>,
+        /// Unit of the x axis as it is shown.
+        unit: String,
+        families: Vec<&'a str>,
     },
     Picture {
         number: usize,
@@ -132,7 +137,7 @@ impl Numbers {
     pub(super) fn new(sections: &[Section], table_files: Option<&TableFiles>) -> Self {
         let blocks = || sections.iter().flat_map(|s| &s.blocks);
         let plots = blocks().filter_map(|block| match block {
-            Block::Plot(plot) => Some(plot),
+            Block::Plot(plot) => Some(plot.as_ref()),
             _ => None,
         });
         Self {
@@ -279,6 +284,8 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
         svg: svg_plot::draw(plot, &layout, &format!("figure-{number}"))?,
         data: embed::json(plot, &layout, numbers.curve_share)?,
         legend: legend.collect(),
+        unit: layout.x.unit,
+        families: family::names(plot),
     })
 }
 

@@ -102,7 +102,7 @@ pub enum Block {
     /// A table.
     Table(Table),
     /// A plot of curves.
-    Plot(Plot),
+    Plot(Box<Plot>),
     /// A drawing of the model.
     Drawing(Drawing),
     /// A structure in space with its mode shapes.
@@ -183,7 +183,7 @@ impl Section {
     /// The section with a plot more.
     #[must_use]
     pub fn plot(self, plot: Plot) -> Self {
-        self.block(Block::Plot(plot))
+        self.block(Block::Plot(Box::new(plot)))
     }
 
     /// The section with a drawing more.

@@ -6,8 +6,9 @@ use serde::Serialize;
 
 use super::ReportError;
 use super::decimate;
-use super::layout::{Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
-use super::plot::{Abscissa, Curve, CurveStyle, Plot};
+use super::family::{self, FamilyData};
+use super::layout::{AxisView, Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
+use super::plot::{Abscissa, Axis, Curve, CurveStyle, Plot};
 use super::svg_plot::{COLOURS, colour};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
@@ -28,10 +29,12 @@ struct PlotData<'a> {
     rows: usize,
     row: f64,
     character: f64,
-    x: AxisData,
-    y: AxisData,
+    x: AxisData<'a>,
+    y: AxisData<'a>,
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    families: Vec<FamilyData<'a>>,
     levels: Vec<LevelData<'a>>,
     /// Edges of the picture, whose address the script takes from the SVG.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,10 +49,21 @@ struct RasterData {
 }
 
 #[derive(Debug, Serialize)]
-struct AxisData {
+struct AxisData<'a> {
     log: bool,
     low: f64,
     high: f64,
+    unit: &'a str,
+    /// Of an axis over time or frequency: what one over a difference of shown values is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reciprocal: Option<Reciprocal>,
+}
+
+/// 1 / difference = factor / difference of shown values, in `unit`.
+#[derive(Debug, Serialize)]
+struct Reciprocal {
+    unit: &'static str,
+    factor: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -125,11 +139,6 @@ pub(super) fn share<'a>(plots: impl Iterator<Item = &'a Plot>) -> usize {
 
 /// The data of one plot as JSON that may stand inside a script element; each curve takes at most `share` bytes.
 pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String, ReportError> {
-    let axis = |view: &super::layout::AxisView| AxisData {
-        log: view.log,
-        low: view.low,
-        high: view.high,
-    };
     let curves = plot.curves.iter().enumerate();
     let levels = plot.levels.iter().filter(|level| level.at.is_finite());
     let markers = plot.markers.iter().filter(|m| m.at.is_finite());
@@ -144,8 +153,8 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
         rows: layout.rows,
         row: MARKER_ROW,
         character: MARKER_CHARACTER,
-        x: axis(&layout.x),
-        y: axis(&layout.y),
+        x: axis_data(&plot.x, &layout.x),
+        y: axis_data(&plot.y, &layout.y),
         curves: curves
             .map(|(k, c)| curve_data(c, layout, k, share))
             .collect(),
@@ -156,6 +165,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
                 colour: marker.family % COLOURS,
             })
             .collect(),
+        families: family::data(plot, &layout.x),
         levels: levels
             .map(|level| LevelData {
                 at: level.at / layout.y.factor,
@@ -173,6 +183,24 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
     })?;
     // "</script" or "<!--" in a name would end the element.
     Ok(json.replace('<', "\\u003c"))
+}
+
+fn axis_data<'a>(axis: &Axis, view: &'a AxisView) -> AxisData<'a> {
+    let unit = match axis.unit.as_str() {
+        "s" => Some("Hz"),
+        "Hz" => Some("s"),
+        _ => None,
+    };
+    AxisData {
+        log: view.log,
+        low: view.low,
+        high: view.high,
+        unit: &view.unit,
+        reciprocal: unit.map(|unit| Reciprocal {
+            unit,
+            factor: 1.0 / view.factor,
+        }),
+    }
 }
 
 fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
@@ -220,7 +248,7 @@ fn base64(bytes: impl Iterator<Item = u8>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plot::{Axis, Marker};
+    use super::super::plot::Marker;
     use super::*;
 
     fn plot(points: usize) -> Plot {
@@ -259,6 +287,29 @@ mod tests {
         let data = embedded(&plot(100_000), 40_000);
         assert_eq!(numbers(&data["curves"][0]["y"]).len(), 10_000);
         assert!((data["curves"][0]["step"].as_f64().expect("step") - 1e-4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_over_a_difference_has_its_unit() {
+        let reciprocal = |plot: &Plot| embedded(plot, BUDGET)["x"]["reciprocal"].clone();
+        let mut short = plot(1000);
+        assert_eq!(reciprocal(&short)["unit"], "Hz");
+        // from 2 s on; in milliseconds below 0.1 s
+        assert_eq!(reciprocal(&short)["factor"], 1.0);
+        short.x = Axis::new("Frequency", "Hz");
+        short.curves[0].x = Abscissa::Even {
+            start: 0.0,
+            step: 40.0,
+        };
+        let data = embedded(&short, BUDGET);
+        assert_eq!(data["x"]["unit"], "kHz");
+        assert_eq!(data["x"]["reciprocal"]["unit"], "s");
+        // 1 / 1 kHz
+        assert_eq!(data["x"]["reciprocal"]["factor"], 1e-3);
+        assert_eq!(data["y"]["unit"], "m/s²");
+        assert!(data["y"]["reciprocal"].is_null() && data["families"].is_null());
+        short.x = Axis::new("Order", "");
+        assert!(reciprocal(&short).is_null());
     }
 
     #[test]

@@ -18,6 +18,7 @@ const SHAPES: &str = include_str!("templates/shapes.html");
 const STYLE: &str = include_str!("templates/report.css");
 const SHAPES_STYLE: &str = include_str!("templates/shapes.css");
 const PLOT_SCRIPT: &str = include_str!("templates/plot.js");
+const CURSORS_SCRIPT: &str = include_str!("templates/cursors.js");
 const SHAPES_SCRIPT: &str = include_str!("templates/shapes.js");
 /// three.js r170 as published (npm package `three` 0.170.0, `build/three.module.min.js`), the last release whose module
 /// is one file.
@@ -82,11 +83,13 @@ impl Report {
             assumptions: &self.assumptions,
             warnings: &self.warnings,
             style: format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),
-            script: if live {
-                format!("{PLOT_SCRIPT}{SHAPES_SCRIPT}")
-            } else {
-                PLOT_SCRIPT.to_owned()
-            },
+            script: [
+                PLOT_SCRIPT,
+                CURSORS_SCRIPT,
+                if live { SHAPES_SCRIPT } else { "" },
+            ]
+            .map(lean)
+            .concat(),
             library: live.then(|| Library {
                 licence: LIBRARY_LICENCE,
                 packed: library(),
@@ -116,6 +119,13 @@ fn page_rule(report: &Report) -> String {
          @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }}",
         css_string(&report.title)
     )
+}
+
+/// A script without its indentation and lines of comment; the only texts in it that go over lines are shaders, to which that is nothing.
+fn lean(script: &str) -> String {
+    let lines = script.lines().map(str::trim_start);
+    let lines = lines.filter(|line| !line.starts_with("//"));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// The library for shapes, as the page carries it: zlib, then base64.

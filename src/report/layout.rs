@@ -36,6 +36,8 @@ pub(super) struct AxisView {
     pub(super) high: f64,
     /// Shown value = value / factor.
     pub(super) factor: f64,
+    /// Unit of the shown values ("" for none).
+    pub(super) unit: String,
     pub(super) title: String,
 }
 
@@ -91,6 +93,7 @@ impl AxisView {
             low: low / factor,
             high: high / factor,
             factor,
+            unit: text,
             title,
         }
     }

@@ -3,7 +3,7 @@
 //! The caller fills plain data ([`Report`] of [`Section`]s of paragraphs, [`Fact`]s, [`Table`]s, [`Plot`]s,
 //! [`Drawing`]s, [`Bars`], [`Spans`], [`Matrix`], [`StepMap`] and [`ModeShapeView`]s); [`Report::to_html`] checks it at one door and gives the
 //! file as a string. Plots are drawn as SVG, so that they print and show without scripts, and carry their data (thinned
-//! such that spikes survive) for a small script to zoom in. Mode shapes are still pictures in print and without WebGL;
+//! such that spikes survive) for a small script to zoom in and to put cursors on, harmonic ones too ([`Family`]). Mode shapes are still pictures in print and without WebGL;
 //! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped.
 //!
 //! **Limitations**: plots have one x axis and one y axis; drawings are plane; mode shapes are real.
@@ -17,6 +17,7 @@ mod document;
 mod drawing;
 mod embed;
 mod error;
+mod family;
 mod html;
 mod layout;
 mod matrix;
@@ -42,6 +43,7 @@ pub use document::{Document, MeshFile};
 pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub use embed::SIGNAL_POINTS;
 pub use error::ReportError;
+pub use family::{Family, Sides};
 pub use matrix::Matrix;
 pub use number::{fixed, pretty_unit, significant};
 pub use plot::{Abscissa, Axis, Curve, CurveStyle, Level, Marker, Plot, Scale, Symbol};

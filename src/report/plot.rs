@@ -1,6 +1,7 @@
 //! Plots as plain data: curves on two axes, with vertical lines.
 
 use super::decimate::Thinner;
+use super::family::Family;
 use super::raster::Raster;
 use crate::series::TimeSeries;
 use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
@@ -124,6 +125,8 @@ pub struct Plot {
     pub curves: Vec<Curve>,
     /// Vertical lines.
     pub markers: Vec<Marker>,
+    /// Lines with harmonics that the reader can mark.
+    pub families: Vec<Family>,
     /// Horizontal lines; the vertical range reaches them.
     pub levels: Vec<Level>,
     /// Whether it is taller than usual, for clouds of points.
@@ -307,6 +310,7 @@ impl Plot {
             y,
             curves: Vec::new(),
             markers: Vec::new(),
+            families: Vec::new(),
             levels: Vec::new(),
             tall: false,
             raster: None,

@@ -41,7 +41,7 @@ impl Report {
     pub fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
         let plots = blocks.filter_map(|block| match block {
-            Block::Plot(plot) => Some(plot),
+            Block::Plot(plot) => Some(plot.as_ref()),
             _ => None,
         });
         let file = |(number, plot): (usize, &Plot)| {

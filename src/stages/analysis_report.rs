@@ -2,10 +2,10 @@
 
 use super::WindowAnalysis;
 use super::band_search_report::{band_facts, kurtogram_plot};
-use crate::diagnosis::{Conclusion, Diagnosis, FaultVerdict, line_name};
+use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, line_name};
 use crate::report::{
-    Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Report, Section, Table, Verdict,
-    significant,
+    Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
+    Verdict, significant,
 };
 
 /// Highest order that is drawn at first: three harmonics of usual races.
@@ -152,8 +152,11 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     .curve(Curve::new("envelope", even, drawn).style(CurveStyle::Line))
     .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.");
     plot = plot.marker(Marker::new(1.0, "shaft").family(0));
+    for family in families(diagnosis, 1.0) {
+        plot = plot.family(family);
+    }
     for (family, verdict) in (1..).zip(&diagnosis.faults) {
-        let order = verdict.order.unwrap_or(verdict.expected_order);
+        let order = place(verdict);
         let name = verdict.fault.name();
         plot = plot.marker(Marker::new(order, name).family(family));
         for harmonic in verdict.harmonics.iter().filter(|h| h.side == 0).skip(1) {
@@ -164,6 +167,27 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
         }
     }
     plot
+}
+
+/// Order of a part's line: where it was found, else where it is expected.
+fn place(verdict: &FaultVerdict) -> f64 {
+    verdict.order.unwrap_or(verdict.expected_order)
+}
+
+/// The shaft's and the parts' lines for a plot whose x axis is the order times `scale`.
+fn families(diagnosis: &Diagnosis, scale: f64) -> Vec<Family> {
+    let of = |(family, verdict): (usize, &FaultVerdict)| {
+        let line = Family::new(verdict.fault.name(), place(verdict) * scale, family);
+        match (verdict.fault, verdict.side_spacing) {
+            (Fault::Ball, Some(spacing)) => line.sides("cage", spacing * scale),
+            (_, Some(spacing)) => line.sides("shaft", spacing * scale),
+            (_, None) => line,
+        }
+    };
+    let shaft = Family::new("shaft", scale, 0);
+    std::iter::once(shaft)
+        .chain((1..).zip(&diagnosis.faults).map(of))
+        .collect()
 }
 
 fn verdict_table(diagnosis: &Diagnosis) -> Table {
@@ -252,6 +276,13 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
             .within(0.0, top.max(1.0))
             .style(CurveStyle::Line),
     );
+    for family in window
+        .diagnosis
+        .iter()
+        .flat_map(|found| families(found, window.speed_hz))
+    {
+        plot = plot.family(family);
+    }
     for (family, line) in window.lines.iter().enumerate() {
         for harmonic in 1..=line.harmonics() {
             let at = f64::from(harmonic) * line.frequency_hz();
@@ -274,19 +305,20 @@ fn peak_table(window: &WindowAnalysis) -> Table {
         [
             Column::number("Frequency", "Hz"),
             Column::number("Amplitude", &window.unit),
-            Column::text("Nearest line"),
+            Column::text("Line"),
             Column::number("Expected", "Hz"),
             Column::number("Deviation", "%"),
         ],
     );
     for peak in &window.peaks {
-        let (name, expected, deviation) = match &peak.line {
+        let named = peak.line.as_ref().filter(|_| !peak.labels.is_empty());
+        let (name, expected, deviation) = match named {
             Some(line) => (
-                format!("{} x {}", line.harmonic, line.nearest),
+                peak.labels.join(", "),
                 Cell::number(line.expected_hz, 4),
                 Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
             ),
-            None => (String::new(), Cell::text(""), Cell::text("")),
+            None => ("-".to_owned(), Cell::text(""), Cell::text("")),
         };
         peaks = peaks.row([
             Cell::number(peak.frequency_hz, 4),

@@ -1,4 +1,4 @@
-// Zooms the plots of a report: draws them again from the data beside each picture. No library, no network.
+// Zooms and reads the plots of a report: draws them again from the data beside each picture. No library, no network.
 (() => {
   "use strict";
   document.documentElement.classList.add("scripted");
@@ -74,8 +74,9 @@
       this.x = { ...this.data.x };
       this.y = { ...this.data.y };
       this.zoomed = false;
-      if (this.data.curves.every((c) => c.visible)) this.view.innerHTML = this.whole;
-      else this.draw();
+      if (!this.data.curves.every((c) => c.visible)) { this.draw(); return; }
+      this.view.innerHTML = this.whole;
+      this.changed?.();
     }
 
     // Values to pixels and back; a logarithmic axis is even in the logarithm.
@@ -83,6 +84,10 @@
     value(axis, p) { return axis.log ? axis.low * (axis.high / axis.low) ** p : axis.low + p * (axis.high - axis.low); }
     xPixel(v) { const d = this.data; return d.left + this.part(this.x, v) * (d.right - d.left); }
     yPixel(v) { const d = this.data; return d.bottom - this.part(this.y, v) * (d.bottom - d.top); }
+
+    // A number with the digits that an axis can show; one of any size with so many digits.
+    number(axis, v) { return shown(v, axis.log ? Math.abs(v) : axis.high - axis.low); }
+    digits(v, count = 4) { return shown(v, Math.abs(v) * 10 ** (4 - count)); }
 
     // First point for which x > v (or >= v).
     find(curve, v, inclusive) {
@@ -167,6 +172,7 @@
       for (const curve of d.curves) if (curve.visible) this.drawCurve(out, curve);
       out.push("</g>");
       this.view.innerHTML = out.join("");
+      this.changed?.();
     }
 
     drawMarkers(out) {
@@ -240,6 +246,35 @@
       this.cover.innerHTML = html;
     }
 
+    // The point nearest to the pointer, by its height, among those under it; of curves without any there the next one aside.
+    nearest(at) {
+      const d = this.data, pixel = 1 / (d.right - d.left), v = this.value(this.x, at.part);
+      let best = Infinity, found = null;
+      for (const curve of d.curves) {
+        if (!curve.visible || !curve.rising || !curve.y.length) continue;
+        let first = this.find(curve, this.value(this.x, at.part - pixel), true), end = this.find(curve, this.value(this.x, at.part + pixel), false);
+        if (first === end) {
+          first = Math.min(first, curve.y.length - 1);
+          if (first > 0 && Math.abs(curve.at(first - 1) - v) < Math.abs(curve.at(first) - v)) first -= 1;
+          end = first + 1;
+        }
+        for (let k = first; k < end; k += 1) {
+          const far = Math.abs(this.yPixel(curve.y[k]) - at.y);
+          if (far < best) { best = far; found = { curve, k }; }
+        }
+      }
+      return found;
+    }
+
+    // What a curve has at an abscissa, straight between its points; NaN outside.
+    between(curve, x) {
+      const k = this.find(curve, x, true);
+      if (k === curve.y.length || curve.at(k) === x) return k < curve.y.length ? curve.y[k] : NaN;
+      if (k === 0) return NaN;
+      const from = curve.at(k - 1);
+      return curve.y[k - 1] + (x - from) / (curve.at(k) - from) * (curve.y[k] - curve.y[k - 1]);
+    }
+
     // The nearest labelled point within reach of the pointer.
     named(at) {
       const d = this.data;
@@ -256,20 +291,16 @@
       this.output.textContent = found ? found.text : "";
     }
 
-    // The nearest point of the first visible curve, under the pointer; of plots with labelled points the nearest of these.
+    // The point nearest to the pointer; of plots with labelled points the nearest of these.
     read(at) {
       if (this.data.curves.some((c) => c.labels)) { this.named(at); return; }
-      const d = this.data, curve = d.curves.find((c) => c.visible && c.rising && c.y.length);
-      if (!at.inside || !curve) { this.overlay(""); this.output.textContent = ""; return; }
-      const v = this.value(this.x, at.part);
-      let k = Math.min(this.find(curve, v, true), curve.y.length - 1);
-      if (k > 0 && Math.abs(curve.at(k - 1) - v) < Math.abs(curve.at(k) - v)) k -= 1;
-      const x = this.xPixel(curve.at(k)), y = this.yPixel(curve.y[k]);
+      const d = this.data, found = at.inside ? this.nearest(at) : null;
+      if (!found) { this.overlay(""); this.output.textContent = ""; return; }
+      const { curve, k } = found, x = this.xPixel(curve.at(k)), y = this.yPixel(curve.y[k]);
       if (!(Number.isFinite(x) && Number.isFinite(y)) || x < d.left - 1 || x > d.right + 1) return;
       const spot = y >= d.top && y <= d.bottom ? `<circle class="spot" cx="${x}" cy="${y}" r="3"/>` : "";
       this.overlay(`<line class="hair" x1="${x}" y1="${d.top}" x2="${x}" y2="${d.bottom}"/>${spot}`);
-      const width = (axis, v) => (axis.log ? v : axis.high - axis.low);
-      this.output.textContent = `${d.curves.length > 1 ? curve.name + ": " : ""}(${shown(curve.at(k), width(this.x, curve.at(k)))}; ${shown(curve.y[k], width(this.y, Math.abs(curve.y[k])))})`;
+      this.output.textContent = `${d.curves.length > 1 ? curve.name + ": " : ""}(${this.number(this.x, curve.at(k))}; ${this.number(this.y, curve.y[k])})`;
     }
 
     listen(figure) {
