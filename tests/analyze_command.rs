@@ -180,6 +180,23 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let command = "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
     assert!(report.contains(command), "the command line");
     assert!(report.contains("outer race"));
+    // six harmonics of 89.6 Hz; the fourth is within 3 % of three times the ball's 117.8 Hz too
+    let peaks = |window: &Value| window["envelope_peaks"].as_array().unwrap().clone();
+    for peak in peaks(window) {
+        let multiple = (peak["frequency_hz"].as_f64().unwrap() / 89.6).round();
+        let expected = [format!("{multiple} x outer race")];
+        assert_eq!(peak["labels"], serde_json::json!(expected), "{peak}");
+    }
+    let table = || {
+        let tables = folder.join("out/bench/tables/analysis-2-strongest-peaks.csv");
+        fs::read_to_string(tables).unwrap()
+    };
+    assert!(table().contains(",2 x outer race,"), "{}", table());
+    // the order spectrum and the envelope spectrum offer the shaft and four parts
+    for family in ["shaft", "outer race", "inner race", "ball", "cage"] {
+        let option = format!("\">{family}</option>");
+        assert_eq!(report.matches(&option).count(), 2, "{family}");
+    }
     // by orders alone, and a speed over time that is constant all the same
     let orders = [
         "--orders",
@@ -215,6 +232,11 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     // another speed, at which nothing strikes
     let found = json(&by(&["--speed", "31", "--json"]));
     assert_eq!(named(&found["windows"][0]), [""; 0]);
+    // the nearest line, three times the shaft's, is 3.7 % away
+    let strongest = &peaks(&found["windows"][0])[0];
+    assert_eq!(strongest["nearest"], "shaft", "{strongest}");
+    assert_eq!(strongest["labels"], serde_json::json!([]), "{strongest}");
+    assert!(table().contains(",–,,"), "{}", table());
 
     for (output, expected) in [
         (

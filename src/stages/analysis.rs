@@ -10,7 +10,8 @@ use crate::signal::{
     band_limit, envelope_peaks,
 };
 
-/// Harmonics of each fault line that peaks are matched to.
+/// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
+/// would name peaks by chance: within 3 % of k times a line are 6 k % of the distance of two of its harmonics.
 const HARMONICS: u32 = 3;
 
 /// Highest frequency of the envelope spectrum that is looked at, in shaft orders; the third
@@ -115,7 +116,11 @@ pub fn analyse(
             let envelope = envelope_of(&stretch)?;
             let part = stretch.window(from, to)?;
             let spectrum = filter.window_of(&envelope, from, to)?;
-            let lines = lines(speed_hz, &orders)?;
+            let turns = |time| kinematics.turns(time);
+            let diagnosis = judged_envelopes(&stretch, envelope_of)
+                .map_err(DiagnosisError::from)
+                .and_then(|envelopes| Diagnosis::of(&envelopes, window, turns, &orders));
+            let lines = lines(speed_hz, &orders, diagnosis.as_ref().ok())?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),
                 ..PeakSearch::default()
@@ -134,10 +139,6 @@ pub fn analyse(
                 )
             };
             let outer = orders.order(Fault::OuterRace).into_iter();
-            let turns = |time| kinematics.turns(time);
-            let diagnosis = judged_envelopes(&stretch, envelope_of)
-                .map_err(DiagnosisError::from)
-                .and_then(|envelopes| Diagnosis::of(&envelopes, window, turns, &orders));
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),
                 unit: stretch.unit().to_owned(),
@@ -172,16 +173,26 @@ fn thinned(name: &str, series: &TimeSeries) -> Curve {
 }
 
 /// The shaft's line and those of the faults whose order is known.
-fn lines(speed_hz: f64, orders: &FaultOrders) -> Result<Vec<NamedLine>, StageError> {
+fn lines(
+    speed_hz: f64,
+    orders: &FaultOrders,
+    diagnosis: Option<&Diagnosis>,
+) -> Result<Vec<NamedLine>, StageError> {
     if speed_hz <= 0.0 {
         return Ok(Vec::new());
     }
+    let harmonics = |fault: Fault| {
+        let mut named = diagnosis.into_iter().flat_map(Diagnosis::named);
+        let named = named.find(|verdict| verdict.fault == fault);
+        let last = named.and_then(|verdict| verdict.harmonics.last());
+        last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS))
+    };
     let faults = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
     let known = faults
         .into_iter()
-        .filter_map(|fault| Some((fault.name(), orders.order(fault)?)));
-    std::iter::once(("shaft", 1.0))
+        .filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
+    std::iter::once(("shaft", 1.0, HARMONICS))
         .chain(known)
-        .map(|(name, order)| Ok(NamedLine::new(name, order * speed_hz, HARMONICS)?))
+        .map(|(name, order, harmonics)| Ok(NamedLine::new(name, order * speed_hz, harmonics)?))
         .collect()
 }

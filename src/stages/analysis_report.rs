@@ -318,7 +318,7 @@ fn peak_table(window: &WindowAnalysis) -> Table {
                 Cell::number(line.expected_hz, 4),
                 Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
             ),
-            None => ("-".to_owned(), Cell::text(""), Cell::text("")),
+            None => ("–".to_owned(), Cell::text(""), Cell::text("")),
         };
         peaks = peaks.row([
             Cell::number(peak.frequency_hz, 4),
