@@ -18,8 +18,8 @@ use plummer::closed_form::race::BallRow;
 use plummer::diagnosis::FaultOrders;
 use plummer::series::{TimeSeries, TimeWindow};
 use plummer::stages::{
-    AnalysisSettings, Kinematics, ModelChoice, Scene, Simulation, Span, StructureStage, Unwatched,
-    analyse,
+    AnalysisSettings, AskedBand, Kinematics, ModelChoice, Scene, Simulation, Span, StructureStage,
+    Unwatched, analyse,
 };
 use rayon::prelude::*;
 
@@ -252,9 +252,8 @@ fn named(
         ])?,
     };
     let settings = AnalysisSettings {
-        high_pass_hz: Some(5e3),
+        band: Some(AskedBand::HighPass(5e3)),
         windows: vec![WINDOW],
-        ..AnalysisSettings::default()
     };
     let read = |window: TimeWindow, margin_s: f64| {
         let span = signal.span();
