@@ -211,6 +211,9 @@ pub struct Analysis {
     /// The band before the envelope, in the place of `high_pass_hz`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_hz: Option<EnvelopeBand>,
+    /// Whether the envelope spectra are those of the whitened signal's squared envelope.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub whiten: bool,
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
     pub envelope: Vec<Window>,

@@ -148,6 +148,7 @@ pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
         json!({
             "sensor": window.sensor,
             "unit": window.unit,
+            "whitened": window.whitened,
             "from": window.from,
             "to": window.to,
             "speed_hz": window.speed_hz,

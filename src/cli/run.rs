@@ -197,8 +197,9 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         for (harmonic, (expected, found)) in (1..).zip(&window.outer) {
             lines.push(match found {
                 Some((hz, amplitude)) => format!(
-                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} m/s^2",
-                    100.0 * (hz / expected - 1.0)
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} {}",
+                    100.0 * (hz / expected - 1.0),
+                    window.spectrum.unit
                 ),
                 None => format!(
                     "  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"

@@ -1,7 +1,7 @@
 //! The envelopes of a signal that a verdict is sought in.
 
 use crate::series::TimeSeries;
-use crate::signal::{Emphasis, SignalError, whiten};
+use crate::signal::{Emphasis, SignalError, squared, whiten};
 
 /// An envelope of a signal.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ pub fn judged_envelopes(
     envelope: impl Fn(&TimeSeries) -> Result<TimeSeries, SignalError>,
 ) -> Result<Vec<JudgedEnvelope>, SignalError> {
     let mut envelopes = Vec::with_capacity(4);
-    for (emphasis, name, squared) in [
+    for (emphasis, name, name_of_square) in [
         (
             Emphasis::Even,
             "envelope of the whitened signal",
@@ -40,11 +40,10 @@ pub fn judged_envelopes(
         ),
     ] {
         let series = envelope(&whiten(signal, emphasis)?)?;
-        let squares = series.values().iter().map(|value| value * value).collect();
-        let square = series.with_values(squares)?;
+        let square = squared(&series)?;
         envelopes.push(JudgedEnvelope { name, series });
         envelopes.push(JudgedEnvelope {
-            name: squared,
+            name: name_of_square,
             series: square,
         });
     }

@@ -78,7 +78,9 @@ fn lines(named: &FaultVerdict, spectrum: &EnvelopeOrderSpectrum) -> Vec<Known> {
         return Vec::new();
     };
     let mut lines = Vec::new();
-    for k in 1..=HARMONICS {
+    // bursts have more harmonics than are judged, and those of a part with a higher order lie among them
+    let count = (spectrum.highest / order).max(f64::from(HARMONICS)) as u32;
+    for k in 1..=count {
         let line = f64::from(k) * order;
         lines.push(Known {
             order: line,

@@ -328,6 +328,22 @@ fn burst_strength_is_said_of_what_is_seen_alone() {
     }
 }
 
+/// An inner race whose fifth harmonic is the ninth of the damaged outer race.
+#[test]
+fn harmonics_beyond_the_judged_ones_explain_lines_too() {
+    let outer = bearing().outer;
+    let orders = FaultOrders::new([Some(outer), Some(1.8 * outer), None, None], 0.0).unwrap();
+    let series = with_noise(&struck(1.2, steady, outer, |_| 1.0), 0.1, 3);
+    let settings = EnvelopeAnalysis::default();
+    let envelopes = judged_envelopes(&series, |signal| settings.envelope(signal)).unwrap();
+    let window = series.span();
+    let found = Diagnosis::of(&envelopes, window, steady, &orders).unwrap();
+    assert_eq!(named(&found), [Fault::OuterRace]);
+    let inner = verdict(&found, Fault::InnerRace);
+    let fifth = inner.harmonics.iter().find(|h| h.harmonic == 5).unwrap();
+    assert_eq!(fifth.coincides_with.as_deref(), Some("9 x outer race"));
+}
+
 #[test]
 fn short_windows_say_so() {
     let orders = bearing();

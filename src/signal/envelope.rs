@@ -22,6 +22,20 @@ pub fn envelope(series: &TimeSeries) -> Result<TimeSeries, SignalError> {
     Ok(series.with_values(envelope.collect())?)
 }
 
+/// The square of an envelope, in the square of its unit.
+///
+/// # Errors
+/// Values whose squares are not finite.
+pub fn squared(envelope: &TimeSeries) -> Result<TimeSeries, SignalError> {
+    let unit = match envelope.unit() {
+        "" => String::new(),
+        unit => format!("({unit})^2"),
+    };
+    let values = envelope.values().iter().map(|value| value * value);
+    let (start, step) = (envelope.start_s(), envelope.step_s());
+    Ok(TimeSeries::new(start, step, unit, values.collect())?)
+}
+
 /// Hilbert transform H x of values taken as periodic.
 pub(super) fn quadrature(x: &[f64]) -> Result<Vec<f64>, SignalError> {
     let points = x.len();

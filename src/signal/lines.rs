@@ -19,6 +19,8 @@ const FLOOR: f64 = 0.01;
 /// known move the line of a fault by 1 to 2 % (Randall & Antoni,
 /// Mechanical Systems and Signal Processing 25, 2011, 485-520).
 pub const LINE_TOLERANCE: f64 = 0.03;
+/// Resolutions 1 / T to each side of a peak whose median is its floor.
+const FLOOR_BINS: f64 = 5.0;
 
 /// A line that a spectrum may show at k f, k = 1 ..= harmonics.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -108,6 +110,8 @@ pub struct EnvelopePeak {
     pub frequency_hz: f64,
     /// Amplitude found, in the spectrum's unit.
     pub amplitude: f64,
+    /// Amplitude over the median of the amplitudes within five resolutions 1 / T to each side, dB.
+    pub above_median_db: f64,
     /// Nearest line; `None` only if no lines were given.
     #[serde(flatten)]
     pub line: Option<LineMatch>,
@@ -170,6 +174,7 @@ pub fn envelope_peaks(
         .map(|peak| EnvelopePeak {
             frequency_hz: peak.frequency_hz,
             amplitude: peak.amplitude,
+            above_median_db: above_median_db(spectrum, &peak, FLOOR_BINS / duration_s),
             line: match_line(peak.frequency_hz, lines),
             labels: lines_at(peak.frequency_hz, lines, spectrum.resolution_hz)
                 .iter()
@@ -177,6 +182,16 @@ pub fn envelope_peaks(
                 .collect(),
         })
         .collect()
+}
+
+/// A peak's amplitude over the median of those within `reach_hz`, dB.
+fn above_median_db(spectrum: &EnvelopeSpectrum, peak: &Peak, reach_hz: f64) -> f64 {
+    let near = spectrum.frequency_hz.iter().zip(&spectrum.amplitude);
+    let near = near.filter(|(hz, _)| (**hz - peak.frequency_hz).abs() <= reach_hz);
+    let mut near: Vec<f64> = near.map(|(_, amplitude)| *amplitude).collect();
+    let middle = near.len() / 2;
+    let median = *near.select_nth_unstable_by(middle, f64::total_cmp).1;
+    20.0 * (peak.amplitude / median).log10()
 }
 
 /// The lines that a peak at `frequency_hz` may be, nearest first: of the harmonics that are no farther than the larger of
@@ -382,6 +397,7 @@ mod tests {
         let peak = EnvelopePeak {
             frequency_hz: 55.0,
             amplitude: 5.0,
+            above_median_db: 12.0,
             line: match_line(55.0, &lines()),
             labels: Vec::new(),
         };

@@ -45,7 +45,7 @@ pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
 pub use band_limit::{band_limit, band_limit_edge_s};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
-pub use envelope::envelope;
+pub use envelope::{envelope, squared};
 pub use envelope_analysis::{
     EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum, usual_high_pass_hz,
 };

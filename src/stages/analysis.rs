@@ -6,8 +6,8 @@ use crate::diagnosis::{Diagnosis, DiagnosisError, Fault, FaultOrders, judged_env
 use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
-    EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch,
-    band_limit, envelope_peaks,
+    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
+    PeakSearch, band_limit, envelope_peaks, squared, whiten,
 };
 
 /// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
@@ -26,6 +26,8 @@ const SHOWN_POINTS: usize = 4000;
 pub struct AnalysisSettings {
     /// Band before the envelope; `None`: the signal as it is.
     pub band: Option<AskedBand>,
+    /// Whether the envelope spectra are those of the whitened signal's squared envelope; verdicts look at both anyway.
+    pub whiten: bool,
     /// Windows, s.
     pub windows: Vec<TimeWindow>,
 }
@@ -37,6 +39,7 @@ impl AnalysisSettings {
         let windows = case.analysis.envelope.iter();
         Self {
             band: AskedBand::of(case),
+            whiten: case.analysis.whiten,
             windows: windows
                 .map(|window| TimeWindow {
                     from: window.from,
@@ -70,6 +73,8 @@ pub struct WindowAnalysis {
     pub shown: [Curve; 2],
     /// Band that the envelope is of.
     pub band: UsedBand,
+    /// Whether that spectrum is of the whitened signal's squared envelope.
+    pub whitened: bool,
     /// Envelope spectrum.
     pub spectrum: EnvelopeSpectrum,
     /// Fault lines and the shaft's.
@@ -114,8 +119,13 @@ pub fn analyse(
                 None => filter.envelope(signal),
             };
             let envelope = envelope_of(&stretch)?;
+            let whitened = settings.whiten.then(|| {
+                let white = whiten(&stretch, Emphasis::Even)?;
+                squared(&envelope_of(&white)?)
+            });
+            let whitened = whitened.transpose()?;
             let part = stretch.window(from, to)?;
-            let spectrum = filter.window_of(&envelope, from, to)?;
+            let spectrum = filter.window_of(whitened.as_ref().unwrap_or(&envelope), from, to)?;
             let turns = |time| kinematics.turns(time);
             let diagnosis = judged_envelopes(&stretch, envelope_of)
                 .map_err(DiagnosisError::from)
@@ -152,6 +162,7 @@ pub fn analyse(
                     thinned(sensor, &part),
                     thinned("envelope", &envelope.window(from, to)?),
                 ],
+                whitened: settings.whiten,
                 outer: outer
                     .flat_map(|order| [near(1.0, order), near(2.0, order)])
                     .collect(),

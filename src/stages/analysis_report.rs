@@ -263,13 +263,18 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
     let top = 14.0 * window.speed_hz;
     let mut plot = Plot::new(
         format!(
-            "Envelope spectrum of {}, {}-{} s",
+            "{} of {}, {}-{} s",
+            if window.whitened {
+                "Squared envelope spectrum, whitened,"
+            } else {
+                "Envelope spectrum"
+            },
             window.sensor,
             round(window.from),
             round(window.to)
         ),
         Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
-        Axis::new("Amplitude", &window.unit),
+        Axis::new("Amplitude", &window.spectrum.unit),
     )
     .curve(
         Curve::of_envelope_spectrum("envelope", &window.spectrum)
@@ -304,7 +309,8 @@ fn peak_table(window: &WindowAnalysis) -> Table {
         "Strongest peaks",
         [
             Column::number("Frequency", "Hz"),
-            Column::number("Amplitude", &window.unit),
+            Column::number("Amplitude", &window.spectrum.unit),
+            Column::number("Above the median within 5 / T", "dB"),
             Column::text("Line"),
             Column::number("Expected", "Hz"),
             Column::number("Deviation", "%"),
@@ -323,6 +329,7 @@ fn peak_table(window: &WindowAnalysis) -> Table {
         peaks = peaks.row([
             Cell::number(peak.frequency_hz, 4),
             Cell::number(peak.amplitude, 3),
+            Cell::number(peak.above_median_db, 3),
             Cell::text(name),
             expected,
             deviation,

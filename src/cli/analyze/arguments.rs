@@ -54,6 +54,9 @@ pub struct AnalyzeArguments {
     /// band of each window, and the high-pass where noise may be as impulsive
     #[arg(long, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
     pub band: Option<EnvelopeBand>,
+    /// Show the spectrum of the whitened signal's squared envelope; verdicts look at both anyway
+    #[arg(long)]
+    pub whiten: bool,
     /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
     #[arg(long, value_name = "PART")]
     pub geometry_error: Option<f64>,

@@ -129,6 +129,9 @@ fn command(asked: &AnalyzeArguments) -> String {
     for window in &asked.window {
         push("window", format!("{}:{}", window.from, window.to));
     }
+    if asked.whiten {
+        words.push("--whiten".to_owned());
+    }
     words.join(" ")
 }
 

@@ -238,5 +238,6 @@ fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
     let typed = asked.high_pass.map(AskedBand::HighPass);
     let typed = typed.or(asked.band.map(AskedBand::from));
     settings.band = typed.or(settings.band);
+    settings.whiten |= asked.whiten;
     settings
 }
