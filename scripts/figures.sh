@@ -19,4 +19,7 @@ for case in healthy outer-dent inner-dent ball-flat; do
     cp "$from"/run-*-acceleration-at-p1.svg "$to/$case-signal.svg"
     cp "$from"/run-*-envelope-spectrum-of-p1-2-300-*.svg "$to/$case-envelope.svg"
     cp "$from"/run-*-scalogram-of-p1-*.svg "$to/$case-scalogram.svg"
+    # the same window of the whitened signal's squared envelope
+    "$plummer" analyze "$out/$case" --window "2.3:$end" --whiten --out "$out/$case/whitened" --force || test $? = 1
+    cp "$out/$case"/whitened/figures/analysis-*-squared-envelope-*.svg "$to/$case-whitened.svg"
 done

@@ -229,6 +229,23 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         "the command line"
     );
     assert!(report.contains("Kurtogram of P1") && report.contains("Kurtosis of that band"));
+    // the whitened signal's squared envelope: a number without unit, and what is drawn of it
+    assert_eq!(window["whitened"], false);
+    let found = json(&by(&["--speed", "25", "--json", "--whiten"]));
+    let window = &found["windows"][0];
+    assert_eq!(
+        (&window["whitened"], named(window)),
+        (&Value::from(true), vec!["outer race"])
+    );
+    let strongest = &peaks(window)[0];
+    assert_eq!(strongest["labels"][0], "1 x outer race", "{strongest}");
+    assert!(
+        strongest["above_median_db"].as_f64().unwrap() > 12.0,
+        "{strongest}"
+    );
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    assert!(report.contains("Squared envelope spectrum, whitened, of P1"));
+    assert!(report.contains("--speed 25 --whiten"), "the command line");
     // another speed, at which nothing strikes
     let found = json(&by(&["--speed", "31", "--json"]));
     assert_eq!(named(&found["windows"][0]), [""; 0]);

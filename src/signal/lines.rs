@@ -256,6 +256,7 @@ fn stands_out(
 mod tests {
     use super::*;
     use crate::series::TimeSeries;
+    use crate::series::TimeWindow;
     use crate::signal::envelope_spectrum;
     use std::f64::consts::PI;
 
@@ -342,6 +343,26 @@ mod tests {
             })
             .is_empty()
         );
+    }
+
+    #[test]
+    fn a_peak_is_so_far_above_the_median_about_it() {
+        // a second of noise, resolved to 2 Hz: its floor reaches 5 Hz to each side
+        let frequency_hz: Vec<f64> = (0..400).map(|k| 0.25 * f64::from(k)).collect();
+        let floor = |hz: &f64| match (hz - 50.0).abs() {
+            away if away < 0.1 => 20.0,
+            away if away <= 5.0 => 2.0,
+            _ => 1.0,
+        };
+        let spectrum = EnvelopeSpectrum {
+            amplitude: frequency_hz.iter().map(floor).collect(),
+            frequency_hz,
+            window: TimeWindow { from: 2.0, to: 3.0 },
+            ..spectrum(WindowFunction::Boxcar)
+        };
+        let peaks = envelope_peaks(&spectrum, &[], &PeakSearch::default());
+        assert!((peaks[0].frequency_hz - 50.0).abs() < 1e-9, "{peaks:?}");
+        assert!((peaks[0].above_median_db - 20.0).abs() < 1e-9, "{peaks:?}");
     }
 
     #[test]
