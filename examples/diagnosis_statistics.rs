@@ -153,6 +153,18 @@ fn table(housing: &str, runs: u32) -> Result<(), Failure> {
         }
         writeln!(out)?;
     }
+    for ((state, run), verdicts) in jobs.iter().zip(&names) {
+        let part = STATES[*state].0;
+        for (condition, named) in CONDITIONS.iter().zip(verdicts) {
+            for wrong in named.iter().filter(|name| **name != part) {
+                let disturbed = condition.name;
+                writeln!(
+                    out,
+                    "run {run}, damaged: {part}, disturbed by: {disturbed}: {wrong} named"
+                )?;
+            }
+        }
+    }
     Ok(())
 }
 
@@ -253,6 +265,7 @@ fn named(
     };
     let settings = AnalysisSettings {
         band: Some(AskedBand::HighPass(5e3)),
+        whiten: false,
         windows: vec![WINDOW],
     };
     let read = |window: TimeWindow, margin_s: f64| {

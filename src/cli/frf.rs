@@ -215,14 +215,15 @@ fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, 
         let values = result
             .response
             .path(sensor, load, FrfQuantity::Receptance)?;
-        responses.push(FrequencyResponse {
+        let response = FrequencyResponse {
             name: format!("{} to {}", path.from, path.to),
             frequency_hz: result.response.frequencies_hz().to_vec(),
             value: values.iter().map(|h| [h.re, h.im]).collect(),
             kind: ResponseKind::Receptance,
             from: point(&path.from),
             to: point(&path.to),
-        });
+        };
+        responses.push(response.told_apart());
     }
     Ok(responses)
 }

@@ -68,6 +68,27 @@ fn assert_close(found: &FrequencyResponse, expected: &FrequencyResponse) {
 }
 
 #[test]
+fn what_six_digits_do_not_tell_apart_is_left_out() {
+    let close = vec![1.0, 39_053.516_2, 39_053.516_3, 39_053.7, 39_054.0];
+    let thinned = oscillator(close.clone()).told_apart();
+    assert_eq!(
+        thinned.frequency_hz,
+        [1.0, 39_053.516_2, 39_053.7, 39_054.0]
+    );
+    let all = oscillator(close);
+    assert_eq!(
+        thinned.value[1..],
+        [all.value[1], all.value[3], all.value[4]]
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("close.uff");
+    write_responses_uff(&path, "", &[thinned]).unwrap();
+    // even steps need no digits of their own
+    let even: Vec<f64> = (0..5).map(|k| 1e5 + 0.125 * f64::from(k)).collect();
+    assert_eq!(oscillator(even.clone()).told_apart().frequency_hz, even);
+}
+
+#[test]
 fn responses_come_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frf.uff");

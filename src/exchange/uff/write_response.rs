@@ -65,6 +65,27 @@ pub fn write_responses_uff(
     })
 }
 
+impl FrequencyResponse {
+    /// Without the frequencies that the six digits of the format do not tell from the one before, as those of two resonances
+    /// close together; evenly spaced ones stay as they are.
+    #[must_use]
+    pub fn told_apart(mut self) -> Self {
+        if spacing(&self.frequency_hz).is_some() {
+            return self;
+        }
+        let mut last = f64::NEG_INFINITY;
+        let pairs = self.frequency_hz.iter().copied().zip(self.value);
+        (self.frequency_hz, self.value) = pairs
+            .filter(|&(hz, _)| {
+                let new = rounded(hz) > last;
+                last = last.max(rounded(hz));
+                new
+            })
+            .unzip();
+        self
+    }
+}
+
 /// As it comes back from the file.
 fn rounded(value: f64) -> f64 {
     format!("{value:.DIGITS$e}").parse().unwrap_or(value)
