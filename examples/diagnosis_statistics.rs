@@ -239,6 +239,7 @@ fn with_noise(signal: &TimeSeries, noise_db: Option<f64>, run: u32) -> Result<Ti
 }
 
 /// The parts that are named by somebody who has the signal, the shaft's speed and the bearing as given.
+#[allow(clippy::result_large_err)] // the library's own error
 fn named(
     signal: &TimeSeries,
     bearing: &(u32, f64, f64),

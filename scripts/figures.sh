@@ -1,5 +1,6 @@
 #!/bin/sh
-# Figures 9 to 16 of Tadina & Boltezar (2011) by four cases, into docs/figures/paper; `make figures` calls it.
+# Figures 9 to 16 of Tadina & Boltezar (2011) by four cases, into docs/figures/paper, and those of the transfer path's tutorial, into
+# docs/figures/path; `make figures` calls it.
 #   PLUMMER=path/to/plummer sh scripts/figures.sh
 set -eu
 cd "$(dirname "$0")/.."
@@ -22,4 +23,16 @@ for case in healthy outer-dent inner-dent ball-flat; do
     # the same window of the whitened signal's squared envelope
     "$plummer" analyze "$out/$case" --window "2.3:$end" --whiten --out "$out/$case/whitened" --force || test $? = 1
     cp "$out/$case"/whitened/figures/analysis-*-squared-envelope-*.svg "$to/$case-whitened.svg"
+done
+
+to=docs/figures/path
+mkdir -p "$to"
+for housing in ring pillow_block end_shield; do
+    "$plummer" frf "examples/housings/$housing.toml" --out "out/path/$housing-frf" --force \
+        --set 'frf={from=[{ring_deg=270,direction=[0,-1,0]}],to=["P1"],band_hz=[100,50000]}'
+    "$plummer" run "examples/housings/$housing.toml" --out "out/path/$housing" --force
+    "$plummer" analyze "out/path/$housing" --band kurtogram --out "out/path/$housing-kurtogram" --force
+    cp "out/path/$housing-frf"/figures/frf-*-accelerance-magnitude.svg "$to/$housing-path.svg"
+    cp "out/path/$housing"/figures/run-*-p1-and-its-envelope.svg "$to/$housing-signal.svg"
+    cp "out/path/$housing"/figures/run-*-envelope-spectrum-of-p1-*.svg "$to/$housing-envelope.svg"
 done

@@ -12,6 +12,15 @@ pub struct JudgedEnvelope {
     pub series: TimeSeries,
 }
 
+/// The envelopes of a signal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Envelopes {
+    /// Of the signal itself: whether what is found has the shape of bursts is asked of it too.
+    pub plain: TimeSeries,
+    /// Those that a verdict is sought in.
+    pub judged: Vec<JudgedEnvelope>,
+}
+
 /// Envelopes of a signal, `envelope` being what filters it and takes its envelope: of the whitened signal, and of that with its
 /// impulsive frequencies emphasised; each as it is and squared.
 ///
@@ -25,8 +34,8 @@ pub struct JudgedEnvelope {
 pub fn judged_envelopes(
     signal: &TimeSeries,
     envelope: impl Fn(&TimeSeries) -> Result<TimeSeries, SignalError>,
-) -> Result<Vec<JudgedEnvelope>, SignalError> {
-    let mut envelopes = Vec::with_capacity(4);
+) -> Result<Envelopes, SignalError> {
+    let mut judged = Vec::with_capacity(4);
     for (emphasis, name, name_of_square) in [
         (
             Emphasis::Even,
@@ -41,11 +50,12 @@ pub fn judged_envelopes(
     ] {
         let series = envelope(&whiten(signal, emphasis)?)?;
         let square = squared(&series)?;
-        envelopes.push(JudgedEnvelope { name, series });
-        envelopes.push(JudgedEnvelope {
+        judged.push(JudgedEnvelope { name, series });
+        judged.push(JudgedEnvelope {
             name: name_of_square,
             series: square,
         });
     }
-    Ok(envelopes)
+    let plain = envelope(signal)?;
+    Ok(Envelopes { plain, judged })
 }

@@ -11,9 +11,9 @@ use super::{
 const SIDES: i32 = 2;
 const SIDED_HARMONICS: usize = 3;
 
-/// Verdicts on all faults in one spectrum of `trials`.
+/// Verdicts on all faults in one spectrum of `trials`, and in that of the signal's own envelope.
 pub(super) fn faults(
-    spectrum: &EnvelopeOrderSpectrum,
+    [spectrum, plain]: [&EnvelopeOrderSpectrum; 2],
     speed_hz: f64,
     orders: &FaultOrders,
     trials: usize,
@@ -27,6 +27,7 @@ pub(super) fn faults(
         let judge = Judge {
             orders,
             spectrum,
+            plain,
             speed_hz,
             trials,
             known: &known,
@@ -116,6 +117,8 @@ pub(super) fn carrier(fault: Fault) -> &'static str {
 struct Judge<'a> {
     orders: &'a FaultOrders,
     spectrum: &'a EnvelopeOrderSpectrum,
+    /// That of the signal's own envelope.
+    plain: &'a EnvelopeOrderSpectrum,
     speed_hz: f64,
     /// Spectra that are judged, of which the best is shown.
     trials: usize,
@@ -148,7 +151,10 @@ impl Judge<'_> {
         verdict.frequency_hz = Some(comb.order * self.speed_hz);
         verdict.harmonics = self.harmonics(&comb);
         (verdict.harmonics_free, verdict.harmonics_seen) = (comb.free, comb.seen);
-        verdict.burst_strength = burst_strength(&verdict.harmonics);
+        // balls that pass under a load with play may sound like bursts in a whitened signal, and swell and ebb in the signal
+        let own = burst_strength(&verdict.harmonics, |harmonic| harmonic.amplitude);
+        let plain = burst_strength(&verdict.harmonics, |harmonic| self.plain.at(harmonic.order));
+        verdict.burst_strength = own.zip(plain).map(|(own, plain)| own.min(plain));
         verdict.side_lines = self.side_lines(&comb, verdict.side_spacing);
         (verdict.conclusion, verdict.why) = conclude(&verdict, chance);
         verdict
@@ -240,8 +246,8 @@ impl Judge<'_> {
     }
 }
 
-/// See [`BURST_STRENGTH`]; lines beside a harmonic are compared with those beside the first.
-fn burst_strength(harmonics: &[Harmonic]) -> Option<f64> {
+/// See [`BURST_STRENGTH`](super::BURST_STRENGTH); lines beside a harmonic are compared with those beside the first.
+fn burst_strength(harmonics: &[Harmonic], amplitude: impl Fn(&Harmonic) -> f64) -> Option<f64> {
     let (first, others): (Vec<&Harmonic>, Vec<&Harmonic>) = harmonics
         .iter()
         .partition(|harmonic| harmonic.harmonic == 1);
@@ -250,8 +256,8 @@ fn burst_strength(harmonics: &[Harmonic]) -> Option<f64> {
         let Some(first) = first.iter().find(|first| first.side == harmonic.side) else {
             continue;
         };
-        found += harmonic.amplitude.powi(2);
-        jump += (first.amplitude / f64::from(harmonic.harmonic)).powi(2);
+        found += amplitude(harmonic).powi(2);
+        jump += (amplitude(first) / f64::from(harmonic.harmonic)).powi(2);
     }
     (jump > 0.0).then(|| found / jump)
 }

@@ -34,7 +34,7 @@ mod window;
 /// Harmonics of a part's line that are judged, the line itself included.
 pub const JUDGED_HARMONICS: u32 = comb::HARMONICS;
 
-pub use envelopes::{JudgedEnvelope, judged_envelopes};
+pub use envelopes::{Envelopes, JudgedEnvelope, judged_envelopes};
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use judge::line_name;

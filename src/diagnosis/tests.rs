@@ -257,17 +257,22 @@ fn a_resonance_that_hums_hides_no_bursts() {
         high_pass_hz: Some(5e3),
         ..EnvelopeAnalysis::default()
     };
+    let own = settings.envelope(&series).unwrap();
     let plain = JudgedEnvelope {
         name: "envelope",
-        series: settings.envelope(&series).unwrap(),
+        series: own.clone(),
     };
     let window = TimeWindow {
         from: 0.0,
         to: series.end_s(),
     };
-    let of = |envelopes: &[JudgedEnvelope]| {
+    let of = |judged: &[JudgedEnvelope]| {
         let orders = FaultOrders::of(&orders, 0.01).unwrap();
-        Diagnosis::of(envelopes, window, steady, &orders)
+        let envelopes = Envelopes {
+            plain: own.clone(),
+            judged: judged.to_vec(),
+        };
+        Diagnosis::of(&envelopes, window, steady, &orders)
     };
     let alone = of(std::slice::from_ref(&plain)).unwrap();
     assert_eq!(named(&alone), [], "{:#?}", alone.faults);

@@ -102,7 +102,7 @@ pub struct FaultVerdict {
     pub harmonics_free: usize,
     /// Those of them that noise would show, with their side lines where these count, less than once in a hundred.
     pub harmonics_seen: usize,
-    /// Strength of the harmonics beyond the fundamental, 1 and more for bursts, see [`BURST_STRENGTH`]; `None` without any that
+    /// Strength of the harmonics beyond the fundamental, the lesser of that in the judged envelope and in the signal's own, 1 and more for bursts, see [`BURST_STRENGTH`]; `None` without any that
     /// is free.
     pub burst_strength: Option<f64>,
     /// Distance of side lines in orders: the shaft's for the inner race, the cage's for a ball.
@@ -154,6 +154,10 @@ pub(super) fn conclude(verdict: &FaultVerdict, chance: f64) -> (Conclusion, Stri
             "Bursts show in at least {LEAST_HARMONICS} harmonics that are as strong as those of a jump; fewer or weaker ones are what balls passing under the load make without any damage"
         );
         return (Conclusion::NotEnough, reason(&text));
+    }
+    if verdict.fault == Fault::OuterRace {
+        let text = "Balls that strike as they enter the load zone through the play do so at this order too: compare with an earlier signal";
+        return (Conclusion::Named, reason(text));
     }
     (Conclusion::Named, found)
 }

@@ -3,7 +3,7 @@
 use super::comb::HARMONICS;
 use super::judge::faults;
 use super::{
-    Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict, JudgedEnvelope,
+    Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Envelopes, FaultOrders, FaultVerdict,
 };
 use crate::series::TimeWindow;
 
@@ -23,7 +23,7 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// Judges a window (s) of a signal by its `envelopes`, at least one; `turns` is the shaft's angle at a time, in turns.
+    /// Judges a window (s) of a signal by its `envelopes`, at least one judged; `turns` is the shaft's angle at a time, in turns.
     ///
     /// Each envelope is judged by itself; the verdict is that of the one with the least probability under noise, of those that name a
     /// fault if there are any. Probabilities are those of the best of all envelopes by chance, at most their number times as large.
@@ -32,21 +32,23 @@ impl Diagnosis {
     /// # Errors
     /// [`DiagnosisError`]: a shaft that rests or turns back, a window outside the envelope or without samples.
     pub fn of(
-        envelopes: &[JudgedEnvelope],
+        envelopes: &Envelopes,
         window: TimeWindow,
         turns: impl Fn(f64) -> f64,
         orders: &FaultOrders,
     ) -> Result<Self, DiagnosisError> {
-        let judged = envelopes.iter().map(|envelope| {
-            // room for the floor beside the highest harmonic
-            let highest = (f64::from(HARMONICS) + 1.0) * orders.highest();
+        // room for the floor beside the highest harmonic
+        let highest = (f64::from(HARMONICS) + 1.0) * orders.highest();
+        let plain = EnvelopeOrderSpectrum::new(&envelopes.plain, window, &turns, highest)?;
+        let trials = envelopes.judged.len();
+        let judged = envelopes.judged.iter().map(|envelope| {
             let spectrum = EnvelopeOrderSpectrum::new(&envelope.series, window, &turns, highest)?;
             let speed_hz = spectrum.turns / (window.to - window.from);
             Ok(Self {
                 speed_hz,
                 envelope: envelope.name,
-                envelopes: envelopes.len(),
-                faults: faults(&spectrum, speed_hz, orders, envelopes.len()),
+                envelopes: trials,
+                faults: faults([&spectrum, &plain], speed_hz, orders, trials),
                 spectrum,
             })
         });

@@ -101,11 +101,15 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         Fact::new(
             "Window",
             format!(
-                "{} s, zero-padded {} times",
+                "{} s: separates {} Hz",
                 significant(window.to - window.from, 3),
-                significant(window.spectrum.zero_padding, 3)
+                significant(window.spectrum.resolution_hz, 3)
             ),
-        ),
+        )
+        .note(format!(
+            "zero-padded {} times, which draws finer and separates no more",
+            significant(window.spectrum.zero_padding, 3)
+        )),
     ];
     section = section
         .plot(envelope_plot(window))
