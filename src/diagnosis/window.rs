@@ -18,7 +18,7 @@ pub struct Diagnosis {
     pub envelopes: usize,
     /// Spectrum of that envelope over the shaft's angle.
     pub spectrum: EnvelopeOrderSpectrum,
-    /// One verdict a fault whose order is known, in the order of [`Fault::ALL`].
+    /// One verdict a fault whose order is known, in the order of [`Fault::ALL`](super::Fault::ALL).
     pub faults: Vec<FaultVerdict>,
 }
 
