@@ -22,7 +22,7 @@ for case in healthy outer-dent inner-dent ball-flat; do
     cp "$from"/run-*-scalogram-of-p1-*.svg "$to/$case-scalogram.svg"
     # the same window of the whitened signal's squared envelope
     "$plummer" analyze "$out/$case" --window "2.3:$end" --whiten --out "$out/$case/whitened" --force || test $? = 1
-    cp "$out/$case"/whitened/figures/analysis-*-squared-envelope-*.svg "$to/$case-whitened.svg"
+    cp "$out/$case"/whitened/figures/analysis-*-squared-envelope-spectrum-*.svg "$to/$case-whitened.svg"
 done
 
 to=docs/figures/path
@@ -31,7 +31,6 @@ for housing in ring pillow_block end_shield; do
     "$plummer" frf "examples/housings/$housing.toml" --out "out/path/$housing-frf" --force \
         --set 'frf={from=[{ring_deg=270,direction=[0,-1,0]}],to=["P1"],band_hz=[100,50000]}'
     "$plummer" run "examples/housings/$housing.toml" --out "out/path/$housing" --force
-    "$plummer" analyze "out/path/$housing" --band kurtogram --out "out/path/$housing-kurtogram" --force
     cp "out/path/$housing-frf"/figures/frf-*-accelerance-magnitude.svg "$to/$housing-path.svg"
     cp "out/path/$housing"/figures/run-*-p1-and-its-envelope.svg "$to/$housing-signal.svg"
     cp "out/path/$housing"/figures/run-*-envelope-spectrum-of-p1-*.svg "$to/$housing-envelope.svg"
