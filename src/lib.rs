@@ -8,7 +8,7 @@
 //!
 //! The data flows one way:
 //!
-//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside.
+//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside; [`files`] that a user named.
 //! 2. [`mesh`]: gmsh import with physical names and a validator.
 //! 3. [`material`], [`element`]: plane and solid elements and the curved beam; [`model`]: properties,
 //!    supports, links, the ring and the tie of the bore to its interpolation.
@@ -21,7 +21,8 @@
 //!    each part.
 //! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
 //!     self-contained HTML page, commands.
-//! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation.
+//! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation;
+//!     [`sweep`]: many runs of one case.
 //!
 //! ```no_run
 //! use plummer::case::Case;
@@ -48,6 +49,7 @@ pub mod diagnosis;
 pub mod dynamics;
 pub mod element;
 pub mod exchange;
+pub mod files;
 mod lanes;
 pub mod linalg;
 pub mod material;
@@ -59,6 +61,7 @@ pub mod report;
 pub mod series;
 pub mod signal;
 pub mod stages;
+pub mod sweep;
 pub mod system;
 pub mod transient;
 pub mod units;

@@ -44,7 +44,7 @@ impl Case {
     /// breaks a rule of [`Case::validate`]; the same for any of its variants.
     pub fn load(path: impl AsRef<Path>, set: &[String]) -> Result<Self, CaseError> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read {
+        let text = crate::files::read_text(path).map_err(|source| CaseError::Read {
             path: path.to_owned(),
             source,
         })?;

@@ -75,8 +75,7 @@ impl SetProblem {
 /// # Errors
 /// [`SetProblem`] when the argument is malformed or leads through a value without parts.
 pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), SetProblem> {
-    let at = equals_sign(argument).ok_or(SetProblem::NoEquals)?;
-    let (key, value) = (argument[..at].trim(), argument[at + 1..].trim());
+    let (key, value) = split_argument(argument).ok_or(SetProblem::NoEquals)?;
     let steps = parse_path(key).ok_or_else(|| SetProblem::Key {
         found: key.to_owned(),
     })?;
@@ -87,6 +86,13 @@ pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), S
     }
     *node = value;
     Ok(())
+}
+
+/// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
+#[must_use]
+pub fn split_argument(argument: &str) -> Option<(&str, &str)> {
+    let at = equals_sign(argument)?;
+    Some((argument[..at].trim(), argument[at + 1..].trim()))
 }
 
 /// Returns the offset of the first `=` outside quotes.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use super::AnalyzeArguments;
 use super::progress::Visibility;
+use super::{AnalyzeArguments, SweepArguments};
 use crate::case::Case;
 use crate::chart::Effort;
 use crate::stages::CHECKPOINT_S;
@@ -108,6 +108,30 @@ Files:
   op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA of the condensed housing, interface first (pyyeti.nastran.op4)
   mbdyn  superelement.fem: data of MBDyn's modal joint";
 
+const SWEEP_EXAMPLE: &str = "\
+Examples: play and dent of the paper's bearing on all cores; the frequencies over the springs' stiffness; the first on a cluster
+  plummer sweep examples/tadina2011/outer-dent.toml --vary bearing.radial_play=1e-6:4e-6:4 --vary 'bearing.defects[0].depth=5e-6,15e-6'
+  plummer sweep examples/tadina2011/beam.toml --command modes --vary ring.nodes=36,72,144
+  plummer sweep examples/tadina2011/outer-dent.toml --vary bearing.radial_play=1e-6:4e-6:4 --out out/play --slurm && sh out/play/sweep/submit.sh
+
+Points that fail are listed and do not stop the others: the exit code is 0 if any point has a result. Ctrl-C keeps checkpoints;
+--resume goes on. Each point is a process with a folder of its own, DIR/sweep/NUMBER, as `plummer run` or `plummer modes` leaves it.
+
+Files:
+  sweep.csv    a row a point: values, state, wall time, figures of its result
+  sweep.npz    the same as arrays (numpy.load); shape: the lengths of the axes, for reshape
+  sweep.json   the axes; state, exit code and message of each point
+  report.html  plots over what was varied, points that are not done, the table";
+
+const COMPLETIONS_EXAMPLE: &str = "\
+Example: for bash, from the next shell on
+  plummer completions bash > ~/.local/share/bash-completion/completions/plummer";
+
+const MAN_EXAMPLE: &str = "\
+Examples: to read it; the pages of all commands, for man
+  plummer man | man -l -
+  plummer man --out ~/.local/share/man/man1";
+
 const VERIFY_EXAMPLE: &str = "\
 Examples: every built-in check; the same, and which readings of the paper give its frequencies (minutes)
   plummer verify
@@ -196,6 +220,9 @@ pub enum Command {
     /// Which part of a bearing is damaged, by a run's signal or a measured one
     #[command(after_help = ANALYZE_EXAMPLE)]
     Analyze(Box<AnalyzeArguments>),
+    /// Many runs of one case with other values of its keys, one table; on all cores or on a cluster
+    #[command(after_help = SWEEP_EXAMPLE)]
+    Sweep(Box<SweepArguments>),
     /// Matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
@@ -206,6 +233,16 @@ pub enum Command {
         #[arg(long, value_name = "FORMAT", value_enum)]
         to: ExportFormat,
     },
+    /// Completions of this command line for a shell, on standard output
+    #[command(after_help = COMPLETIONS_EXAMPLE)]
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL", value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// The manual page, on standard output; with --out a page a command
+    #[command(after_help = MAN_EXAMPLE)]
+    Man,
     /// Built-in checks against published numbers and closed forms; needs no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
@@ -280,6 +317,9 @@ impl Command {
             Self::Chart { .. } => "chart",
             Self::Analyze(_) => "analyze",
             Self::Inspect { .. } => "inspect",
+            Self::Sweep(_) => "sweep",
+            Self::Completions { .. } => "completions",
+            Self::Man => "man",
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
         }

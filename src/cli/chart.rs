@@ -57,7 +57,7 @@ pub(super) fn chart(
         // after the chart itself
         report.sections.insert(1, stability_section(stability));
     }
-    let files = ReportFiles::write(&folder, "chart", case, report)?;
+    let files = ReportFiles::write(&folder, "chart", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("chart", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), json!(files.tables));

@@ -43,7 +43,7 @@ pub fn condense(
         command.push_str(" --compare-full");
     }
     let report = condense_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "condense", case, report)?;
+    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let element = folder.path().join("superelement.npz");
     let record = match &result.interface {
         Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
@@ -86,7 +86,7 @@ fn check_imported(
     let folder = OutputFolder::of(case, options);
     let command = options.command_line("condense", case);
     let report = imported_report(case, imported, &command);
-    let files = ReportFiles::write(&folder, "condense", case, report)?;
+    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("condense", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), serde_json::json!(files.tables));

@@ -9,6 +9,7 @@ use super::{AnalyzeError, ExportError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
 use crate::stages::StageError;
+use crate::sweep::SweepError;
 use crate::verification::VerificationError;
 
 /// Why a command did not end well.
@@ -35,12 +36,14 @@ pub enum CliError {
         "--resume goes on with a run, --force begins it anew: expected one of them, found both"
     )]
     ResumeAnew,
-    /// The run was asked to stop and has kept a checkpoint.
-    #[error("{what}; the signals so far and a checkpoint are in {}", folder.display())]
+    /// The command was asked to stop and can go on.
+    #[error("{what}; {kept} in {}", folder.display())]
     Interrupted {
         /// How far it came.
         what: String,
-        /// The folder of the unfinished run.
+        /// What it left, with a verb.
+        kept: &'static str,
+        /// The folder with that.
         folder: PathBuf,
         /// The command line that goes on.
         command: String,
@@ -87,6 +90,9 @@ pub enum CliError {
     /// A chart could not be made.
     #[error(transparent)]
     Chart(Box<ChartError>),
+    /// A sweep cannot be planned or not go on.
+    #[error(transparent)]
+    Sweep(Box<SweepError>),
     /// A built-in check could not be carried out.
     #[error(transparent)]
     Verification(Box<VerificationError>),
@@ -95,6 +101,12 @@ pub enum CliError {
 impl From<VerificationError> for CliError {
     fn from(error: VerificationError) -> Self {
         Self::Verification(Box::new(error))
+    }
+}
+
+impl From<SweepError> for CliError {
+    fn from(error: SweepError) -> Self {
+        Self::Sweep(Box::new(error))
     }
 }
 
@@ -130,6 +142,7 @@ impl CliError {
             Self::Stage(error) if error.is_input() => 2,
             Self::Export(error) if error.is_input() => 2,
             Self::Chart(error) if error.is_input() => 2,
+            Self::Sweep(error) if error.is_input() => 2,
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
@@ -138,6 +151,7 @@ impl CliError {
             | Self::Stage(_)
             | Self::Export(_)
             | Self::Chart(_)
+            | Self::Sweep(_)
             | Self::Verification(_) => 1,
         }
     }
@@ -151,6 +165,7 @@ impl CliError {
             Self::Export(error) => error.help(),
             Self::Analyze(error) => error.help(),
             Self::Chart(error) => error.help(),
+            Self::Sweep(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
@@ -183,7 +198,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{AnalyzeError, ChartError, CliError, ExportError, VerificationError};
+    use super::{AnalyzeError, ChartError, CliError, ExportError, SweepError, VerificationError};
     use crate::case::Case;
     use crate::exchange::DofTableError;
     use crate::stages::{StageError, UnfinishedError};
@@ -246,6 +261,7 @@ mod tests {
             (
                 CliError::Interrupted {
                     what: "interrupted at t = 1.25 s of 4 s".to_owned(),
+                    kept: "the signals so far and a checkpoint are",
                     folder: path(),
                     command: "plummer run a.toml --resume".to_owned(),
                 },
@@ -333,6 +349,38 @@ mod tests {
                 1,
                 "error: the reference by dop853 failed at the start at 2.3 s: the solution blew up\n\
                  help: `plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere\n",
+            ),
+            (
+                CliError::from(SweepError::InTheWay { folder: path() }),
+                2,
+                "error: out/a holds a sweep\n\
+                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
+            ),
+            (
+                CliError::from(SweepError::Changed {
+                    folder: path(),
+                    changes: vec!["another text of the case file".to_owned()],
+                }),
+                2,
+                "error: the sweep in out/a was begun with something else: another text of the case file\n\
+                 help: go on with what it was begun with, or begin anew with --force\n",
+            ),
+            (
+                CliError::from(SweepError::NoPlan {
+                    folder: path(),
+                    plan: PathBuf::from("out/a/sweep/plan.json"),
+                }),
+                2,
+                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
+                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
+            ),
+            (
+                CliError::from(SweepError::Io {
+                    path: path(),
+                    source: source(),
+                }),
+                1,
+                "error: out/a: full\n",
             ),
             (
                 CliError::from(VerificationError::NoBearing),

@@ -20,7 +20,7 @@ pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     let folder = OutputFolder::of(case, options);
     let command = options.command_line("frf", case);
     let report = frf_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "frf", case, report)?;
+    let files = ReportFiles::write(&folder, "frf", case, report, progress)?;
     let uff = folder.path().join("frf.uff");
     write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(StageError::from)?;
     let wall_s = started.elapsed().as_secs_f64();

@@ -20,7 +20,9 @@ mod progress;
 mod report_files;
 mod results;
 mod run;
+mod shell;
 mod stability;
+mod sweep;
 mod verify;
 
 use std::io::{self, Write};
@@ -36,6 +38,7 @@ pub use failure::CliError;
 pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
+pub use sweep::{Share, SweepArguments};
 
 use crate::case::{Case, Purpose};
 
@@ -72,6 +75,8 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
             .build_global();
     }
     let outcome = match &arguments.command {
+        Command::Completions { shell } => return shell::completions(*shell, to),
+        Command::Man => return shell::man(options, to),
         Command::Run { case, .. } => compute(case, Purpose::Run, arguments),
         Command::Modes { case } => compute(case, Purpose::Modes, arguments),
         Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
@@ -79,6 +84,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Chart { case, .. } => compute(case, Purpose::Chart, arguments),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
+        Command::Sweep(asked) => sweep::sweep(asked, options),
         Command::Verify { full } => verify::verify(*full, options),
         Command::Inspect {
             mesh,

@@ -18,7 +18,7 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     let folder = OutputFolder::of(case, options);
     let command = options.command_line("modes", case);
     let report = modes_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "modes", case, report)?;
+    let files = ReportFiles::write(&folder, "modes", case, report, progress)?;
     let shapes = write_modes(&folder, &result)?;
     let json = modes_json(
         case,

@@ -92,7 +92,7 @@ impl OutputFolder {
     #[must_use]
     pub fn report_name(&self, command: &str) -> String {
         let others = [
-            "run", "modes", "condense", "frf", "chart", "analysis", "verify",
+            "run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify",
         ]
         .into_iter()
         .filter(|&other| other != command);

@@ -6,6 +6,8 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
+use crate::stages::MeshDigest;
+
 /// Whether progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Visibility {
@@ -34,6 +36,7 @@ const WITH_END: &str = "{spinner} {msg} {bar:30} {percent} %, {eta} left";
 pub struct Progress {
     bar: ProgressBar,
     stages: Mutex<Vec<(String, Instant)>>,
+    files: Mutex<Vec<MeshDigest>>,
 }
 
 impl Progress {
@@ -50,6 +53,7 @@ impl Progress {
         Self {
             bar: ProgressBar::with_draw_target(None, target),
             stages: Mutex::new(Vec::new()),
+            files: Mutex::new(Vec::new()),
         }
     }
 
@@ -80,6 +84,13 @@ impl Progress {
         self.bar.set_position(position);
     }
 
+    /// The meshes that were read, with each content that they had.
+    #[must_use]
+    pub fn files(&self) -> Vec<MeshDigest> {
+        let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        files.clone()
+    }
+
     /// Takes the bar off the terminal.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
@@ -108,6 +119,13 @@ impl Progress {
 
 /// The templates are constants that a test reads; indicatif's own style stands in if one were wrong.
 impl crate::stages::Watch for Progress {
+    fn read(&self, file: &MeshDigest) {
+        let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        if !files.contains(file) {
+            files.push(file.clone());
+        }
+    }
+
     fn stage(&self, name: &str) {
         Progress::stage(self, name);
     }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{CliError, OutputFolder};
+use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
 use crate::report::{Document, MeshFile, Report};
 use crate::stages::{MeshDigest, StageError, mesh_digests};
@@ -28,14 +28,16 @@ impl ReportFiles {
     /// `figures/COMMAND-NUMBER-TITLE.svg`; the meshes go into the report's head. Those of an earlier report of this command are removed.
     ///
     /// # Errors
-    /// [`CliError`] when a mesh cannot be read, the report's contents do not fit together or a file cannot be written.
+    /// [`CliError`] when a mesh cannot be read or has changed since it was, the report's contents do not fit together or a file cannot be written.
     pub(super) fn write(
         folder: &OutputFolder,
         command: &str,
         case: &Case,
         report: Report,
+        progress: &Progress,
     ) -> Result<Self, CliError> {
         let meshes = mesh_digests(case)?;
+        unchanged(&meshes, &progress.files())?;
         let mut report = report;
         let head = report
             .document
@@ -90,6 +92,23 @@ impl ReportFiles {
     }
 }
 
+/// Checks that the meshes are still those that were read: the report names their content.
+///
+/// # Errors
+/// [`StageError::MeshChanged`].
+fn unchanged(now: &[MeshDigest], read: &[MeshDigest]) -> Result<(), StageError> {
+    let other = |file: &&MeshDigest| {
+        let same_path = now.iter().find(|now| now.path == file.path);
+        same_path.is_some_and(|now| now.sha256 != file.sha256)
+    };
+    match read.iter().find(other) {
+        Some(file) => Err(StageError::MeshChanged {
+            path: file.path.clone(),
+        }),
+        None => Ok(()),
+    }
+}
+
 /// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
 fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
     let failed = |source| CliError::Folder {
@@ -122,7 +141,17 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_of_report;
+    use super::{MeshDigest, StageError, is_of_report, unchanged};
+
+    #[test]
+    fn a_mesh_that_changed_is_named() {
+        let file = |path: &str, content: &[u8]| MeshDigest::of_bytes(path.as_ref(), content);
+        let now = [file("a.msh", b"1"), file("b.msh", b"2")];
+        assert!(unchanged(&now, &now[..1]).is_ok());
+        let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();
+        assert!(matches!(&error, StageError::MeshChanged { path } if path.ends_with("b.msh")));
+        assert!(!error.is_input());
+    }
 
     #[test]
     fn only_files_of_the_command_are_told() {

@@ -12,7 +12,7 @@ use crate::transient::BlowUp;
 use std::time::Duration;
 
 /// Folder of an unfinished run, in that of the results.
-const PARTIAL: &str = ".run.partial";
+pub(super) const PARTIAL: &str = ".run.partial";
 
 /// Checks that there is an unfinished run to go on with.
 ///
@@ -56,6 +56,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     let result = result.map_err(|error| match error {
         StageError::Interrupted { .. } => CliError::Interrupted {
             what: error.to_string(),
+            kept: "the signals so far and a checkpoint are",
             folder: unfinished.folder().to_owned(),
             command: again(case, arguments),
         },
@@ -66,7 +67,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     arrays.extend(write_scalograms(&folder, &result.scalograms)?);
     let command = options.command_line("run", case);
     let report = run_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "run", case, report)?;
+    let files = ReportFiles::write(&folder, "run", case, report, progress)?;
     let json = run_json(
         case,
         &result,

@@ -31,7 +31,7 @@ pub(super) fn alone(
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let report = stability_report(case, &stability, command);
-    let files = ReportFiles::write(&folder, "stability", case, report)?;
+    let files = ReportFiles::write(&folder, "stability", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut head = common("chart", case, progress, wall_s, &files.meshes);
     head.insert("tables".to_owned(), json!(files.tables));

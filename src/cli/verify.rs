@@ -4,9 +4,7 @@ use super::report_files::ReportFiles;
 use super::results::stages_s;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::report::Report;
-use crate::stages::Watch;
-use crate::verification::readings::Grid;
-use crate::verification::{Check, SectionResult, paper_numbers, reading_study};
+use crate::verification::{Check, SectionResult, suite};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -23,20 +21,13 @@ pub fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
     folder.claim("verify", options.force)?;
     let progress = Progress::new(options.visibility());
     let started = std::time::Instant::now();
-    let outcome = suite(full, &progress).and_then(|sections| {
+    let sections = suite(full, &progress).map_err(CliError::from);
+    let outcome = sections.and_then(|sections| {
         let wall_s = started.elapsed().as_secs_f64();
         conclude(&sections, full, &folder, &progress, wall_s)
     });
     progress.finish();
     outcome
-}
-
-fn suite(full: bool, watch: &(impl Watch + Sync)) -> Result<Vec<SectionResult>, CliError> {
-    let mut sections = vec![paper_numbers(watch)?];
-    if full {
-        sections.push(reading_study(Grid::full(), watch)?);
-    }
-    Ok(sections)
 }
 
 /// Writes what the sections hand on, and judges.

@@ -1,10 +1,11 @@
 //! What is wrong with any file that is read as lines: the file itself, or a line of it.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use crate::files;
 
 /// Why a file of lines cannot be read.
 #[derive(Debug, Error)]
@@ -36,7 +37,7 @@ pub enum FileError {
 /// # Errors
 /// [`FileError::Read`].
 pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(|source| FileError::Read {
+    files::read(path).map_err(|source| FileError::Read {
         path: path.to_owned(),
         source,
     })

@@ -2,6 +2,25 @@
 
 use thiserror::Error;
 
+/// What a factor exceeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum FactorLimit {
+    /// Memory.
+    #[error("{} GB of memory are free", gigabytes(*.free))]
+    Memory {
+        /// Memory that the system can give, in bytes.
+        free: u64,
+    },
+    /// Places that 32 bits can count.
+    #[error("more than 2^31 entries cannot be counted")]
+    Places,
+}
+
+/// In 10^9 bytes, a digit behind the point.
+fn gigabytes(bytes: u64) -> String {
+    format!("{:.1}", bytes as f64 / 1e9)
+}
+
 /// Failure of a numerical linear algebra step.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LinalgError {
@@ -32,6 +51,21 @@ pub enum LinalgError {
         order: usize,
         /// What the library said.
         reason: &'static str,
+    },
+    /// A factor that is too large, found before it is computed.
+    #[error(
+        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
+        gigabytes(*.bytes)
+    )]
+    TooLarge {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Entries of the factor that are not zero.
+        entries: u64,
+        /// Memory that it takes at least, in bytes.
+        bytes: u64,
+        /// What it exceeds.
+        limit: FactorLimit,
     },
     /// A factorisation went through, but its factor does not solve the system.
     #[error(

@@ -16,7 +16,7 @@ pub(super) const LARGEST_CONTRACTION: f64 = 0.1;
 const DULL: f64 = 1e-8;
 
 /// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
-const SMALL: usize = 1 << 22;
+pub(super) const SMALL: usize = 1 << 22;
 
 /// Vectors with which the contraction is measured, and how often it is applied to them: the first time brings out
 /// the factor's worst directions, the second measures them.

@@ -23,6 +23,7 @@ mod harmonic;
 mod idle;
 mod lowest;
 mod lu;
+mod memory;
 #[allow(unsafe_code)]
 mod metis;
 mod numeric;
@@ -41,7 +42,7 @@ pub use dense::{
     symmetric_generalised_eigen,
 };
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
-pub use error::LinalgError;
+pub use error::{FactorLimit, LinalgError};
 pub use harmonic::{
     ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution,
     HarmonicTimes, complex_columns, complex_solve,

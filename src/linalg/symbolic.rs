@@ -1,7 +1,9 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
 
-use super::LinalgError;
+use super::error::FactorLimit;
+use super::factor::SMALL;
 use super::symmetric::SymmetricMatrix;
+use super::{LinalgError, memory};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
@@ -28,7 +30,8 @@ impl Symbolic {
     /// Analyses the pattern of a matrix in the order in which it is factorised.
     ///
     /// # Errors
-    /// [`LinalgError::Factorisation`] if the factor has more than 2^31 entries or memory does not suffice.
+    /// [`LinalgError::TooLarge`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
+    /// if memory does not suffice for the analysis.
     pub fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
@@ -42,6 +45,8 @@ impl Symbolic {
         let stack = MemStack::new(&mut buffer);
         let (mut tree, mut counts) = (vec![0; order], vec![0; order]);
         let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
+        let entries = counts.iter().map(|&count| u64::from(count)).sum();
+        affordable(order, entries, memory::available())?;
         let parameters = SymbolicSupernodalParams {
             relax: Some(RELAXATION),
         };
@@ -55,6 +60,26 @@ impl Symbolic {
     pub fn entries(&self) -> usize {
         self.supernodes.len_val()
     }
+}
+
+/// Checks that a factor fits: in single precision where it is large, which is tried first.
+///
+/// # Errors
+/// [`LinalgError::TooLarge`].
+fn affordable(order: usize, entries: u64, free: Option<u64>) -> Result<(), LinalgError> {
+    let large = entries > SMALL as u64;
+    let bytes = entries * if large { 4 } else { 8 };
+    let limit = match free {
+        _ if entries > i32::MAX as u64 => FactorLimit::Places,
+        Some(free) if bytes > free => FactorLimit::Memory { free },
+        _ => return Ok(()),
+    };
+    Err(LinalgError::TooLarge {
+        order,
+        entries,
+        bytes,
+        limit,
+    })
 }
 
 /// Upper triangle in compressed columns: the transposed pattern.
@@ -76,4 +101,35 @@ fn upper_pattern(a: &SymmetricMatrix) -> (Vec<u32>, Vec<u32>) {
         }
     }
     (offsets, columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FactorLimit, LinalgError, affordable};
+
+    #[test]
+    fn a_factor_that_does_not_fit_is_refused_with_its_size() {
+        assert_eq!(affordable(10, 1 << 20, Some(1 << 23)), Ok(()));
+        assert_eq!(affordable(10, 1 << 30, None), Ok(()));
+        let (order, entries, bytes) = (3_000_000, 2_000_000_000, 8_000_000_000);
+        let free = 4_000_000_000;
+        let error = affordable(order, entries, Some(free)).unwrap_err();
+        let limit = FactorLimit::Memory { free };
+        let expected = LinalgError::TooLarge {
+            order,
+            entries,
+            bytes,
+            limit,
+        };
+        assert_eq!(error, expected);
+        assert_eq!(
+            error.to_string(),
+            "the factor of a 3000000 x 3000000 matrix has 2000000000 entries, at least 8.0 GB: 4.0 GB of memory are free; expected a coarser mesh, or elements of lower order"
+        );
+        let places = affordable(order, 1 << 31, Some(u64::MAX)).unwrap_err();
+        assert!(
+            places.to_string().contains("more than 2^31 entries"),
+            "{places}"
+        );
+    }
 }

@@ -40,6 +40,12 @@ pub enum StageError {
     /// The mesh file.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// A mesh has another content than when it was read.
+    #[error("{} was changed while it was used: the result belongs to what it was before", path.display())]
+    MeshChanged {
+        /// The mesh.
+        path: PathBuf,
+    },
     /// Mesh and case do not fit.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -394,6 +400,9 @@ impl StageError {
             Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(
                 "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned(),
             ),
+            Self::MeshChanged { .. } => {
+                Some("run the command again when the mesh is complete".to_owned())
+            }
             _ => None,
         }
     }
@@ -417,7 +426,11 @@ impl StageError {
             Self::Signal(_) => true,
             Self::Unfinished(error) => error.is_input(),
             Self::Interrupted { .. } | Self::Columns(ColumnError::Io { .. }) => false,
-            Self::Series(_) | Self::Npz(_) | Self::Uff(_) | Self::Report(_) => false,
+            Self::MeshChanged { .. }
+            | Self::Series(_)
+            | Self::Npz(_)
+            | Self::Uff(_)
+            | Self::Report(_) => false,
             _ => true,
         }
     }

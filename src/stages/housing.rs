@@ -1,5 +1,6 @@
 //! Mesh to matrices of a housing, as the case asks for them.
 
+use super::mesh_digest::read_mesh;
 use super::{StageError, Watch};
 use crate::assembly::SystemMatrices;
 use crate::case::{self, Case, Hold, Joint, PerNodeOrGroup};
@@ -33,7 +34,7 @@ impl HousingStage {
             return Ok(None);
         };
         watch.stage("read");
-        let mesh = Mesh::read_gmsh(&housing.mesh, housing.length_unit)?;
+        let mesh = read_mesh(housing, watch)?;
         let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
         case.check_groups(&groups)?;
         watch.stage("assemble");

@@ -1,15 +1,15 @@
 //! Which mesh files a case rests on, told apart by their content.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::StageError;
-use crate::case::Case;
-use crate::mesh::MeshError;
+use super::{StageError, Watch};
+use crate::case::{Case, Housing};
+use crate::files;
+use crate::mesh::{Mesh, MeshError};
 use crate::report::MeshFile;
 
 /// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
@@ -28,7 +28,7 @@ impl MeshDigest {
     /// What the system says when the file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
         let mut hasher = Sha256::new();
-        let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+        let mut file = BufReader::with_capacity(1 << 16, files::open(path)?);
         loop {
             let piece = file.fill_buf()?;
             if piece.is_empty() {
@@ -38,15 +38,23 @@ impl MeshDigest {
             let read = piece.len();
             file.consume(read);
         }
-        let digits = hasher
-            .finalize()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
-        Ok(Self {
+        Ok(Self::of_hash(path, hasher))
+    }
+
+    /// The digest of a file's content that is at hand.
+    #[must_use]
+    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
+        let mut hasher = Sha256::new();
+        hasher.update(bytes);
+        Self::of_hash(path, hasher)
+    }
+
+    fn of_hash(path: &Path, hasher: Sha256) -> Self {
+        let bytes = hasher.finalize();
+        Self {
             path: path.to_owned(),
-            sha256: digits,
-        })
+            sha256: bytes.iter().map(|byte| format!("{byte:02x}")).collect(),
+        }
     }
 }
 
@@ -57,6 +65,20 @@ impl From<&MeshDigest> for MeshFile {
             hash: Some(format!("SHA-256 {}", digest.sha256)),
         }
     }
+}
+
+/// Reads the mesh of a housing and tells which content it had.
+///
+/// # Errors
+/// [`StageError::Mesh`].
+pub(super) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, StageError> {
+    let path = &housing.mesh;
+    let bytes = files::read(path).map_err(|cause| MeshError::Read {
+        path: path.clone(),
+        cause,
+    })?;
+    watch.read(&MeshDigest::of_bytes(path, &bytes));
+    Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
 }
 
 /// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a

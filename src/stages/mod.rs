@@ -130,6 +130,8 @@ pub trait Watch {
     fn stage(&self, name: &str);
     /// Part of the stage that is done, 0 to 1; the first is where it begins.
     fn fraction(&self, done: f64);
+    /// A mesh was read, and this was its content.
+    fn read(&self, _file: &MeshDigest) {}
 }
 
 /// Watches nothing.

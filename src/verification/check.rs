@@ -26,6 +26,32 @@ pub struct Check {
     pub reason: String,
 }
 
+/// What all checks of a kind have in common.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kind<'a> {
+    pub(super) unit: &'a str,
+    pub(super) source: &'a str,
+    pub(super) assumptions: &'a str,
+    pub(super) reason: &'a str,
+}
+
+impl Kind<'_> {
+    /// A check of this kind; its section is told by [`SectionResult::of_checks`](super::SectionResult).
+    pub(super) fn check(&self, name: &str, computed: f64, reference: f64, limit: f64) -> Check {
+        Check {
+            name: name.to_owned(),
+            section: String::new(),
+            computed,
+            reference,
+            unit: self.unit.to_owned(),
+            source: self.source.to_owned(),
+            assumptions: self.assumptions.to_owned(),
+            limit,
+            reason: self.reason.to_owned(),
+        }
+    }
+}
+
 /// A number that is told, and not judged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Information {

@@ -5,11 +5,18 @@ use crate::case::CaseError;
 use crate::closed_form::hertz::HertzError;
 use crate::closed_form::impact::ImpactError;
 use crate::closed_form::race::RaceError;
+use crate::closed_form::ring::RingError as RingFormulaError;
+use crate::linalg::LinalgError;
 use crate::material::{MaterialError, SectionError};
-use crate::model::RingError;
+use crate::mesh::MeshError;
+use crate::model::{ModelError, RingError};
+use crate::reduction::ReductionError;
 use crate::report::ReportError;
+use crate::series::SeriesError;
+use crate::signal::SignalError;
 use crate::stages::StageError;
 use crate::system::SystemError;
+use crate::transient::TransientError;
 use thiserror::Error;
 
 /// Why a check could not be carried out.
@@ -42,6 +49,30 @@ pub enum VerificationError {
     /// An impact that cannot be computed.
     #[error(transparent)]
     Impact(#[from] ImpactError),
+    /// A ring in closed form that cannot be computed.
+    #[error(transparent)]
+    RingFormula(#[from] RingFormulaError),
+    /// A built-in mesh that cannot be read.
+    #[error(transparent)]
+    Mesh(Box<MeshError>),
+    /// A built-in model that cannot be built.
+    #[error(transparent)]
+    Model(Box<ModelError>),
+    /// Eigenvalues or a factorisation that failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+    /// A condensation that failed.
+    #[error(transparent)]
+    Reduction(Box<ReductionError>),
+    /// A simulation that failed.
+    #[error(transparent)]
+    Transient(Box<TransientError>),
+    /// A signal that cannot be formed.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    /// A signal that cannot be analysed.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
     /// Kinematics that cannot be formed.
     #[error(transparent)]
     Race(#[from] RaceError),
@@ -56,6 +87,30 @@ pub enum VerificationError {
 impl From<CaseError> for VerificationError {
     fn from(error: CaseError) -> Self {
         Self::Case(Box::new(error))
+    }
+}
+
+impl From<MeshError> for VerificationError {
+    fn from(error: MeshError) -> Self {
+        Self::Mesh(Box::new(error))
+    }
+}
+
+impl From<ModelError> for VerificationError {
+    fn from(error: ModelError) -> Self {
+        Self::Model(Box::new(error))
+    }
+}
+
+impl From<ReductionError> for VerificationError {
+    fn from(error: ReductionError) -> Self {
+        Self::Reduction(Box::new(error))
+    }
+}
+
+impl From<TransientError> for VerificationError {
+    fn from(error: TransientError) -> Self {
+        Self::Transient(Box::new(error))
     }
 }
 

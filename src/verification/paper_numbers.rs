@@ -1,5 +1,6 @@
 //! The first section: what Tadina and Boltezar (2011) print, and what it rests on.
 
+use super::check::Kind;
 use super::paper::{BEARING, GRAVITY, PAPER, PaperFrequencies};
 use super::paper_report::paper_report;
 use super::section::SectionResult;
@@ -70,16 +71,14 @@ pub fn paper_numbers(watch: &impl Watch) -> Result<SectionResult, VerificationEr
         information.extend(consistent_frequencies(two));
     }
     Ok(SectionResult {
-        title: TITLE.to_owned(),
         report: vec![paper_report(&stiffness, &rows)],
         values: vec![
             ("table_1_stiffness".to_owned(), json!(stiffness)),
             ("formulations".to_owned(), json!(rows)),
         ],
-        files: Vec::new(),
         lines: lines(&stiffness, &rows),
-        checks,
         information,
+        ..SectionResult::of_checks(TITLE, checks)
     })
 }
 
@@ -133,30 +132,6 @@ impl FormulationRow {
             frequencies_hz: own.map(|mode| mode.frequency_hz).collect(),
             stable: equilibria.all(|rest| rest.is_stable()),
             ..self.clone()
-        }
-    }
-}
-
-/// What all checks of a kind have in common.
-struct Kind<'a> {
-    unit: &'a str,
-    source: &'a str,
-    assumptions: &'a str,
-    reason: &'a str,
-}
-
-impl Kind<'_> {
-    fn check(&self, name: &str, computed: f64, reference: f64, limit: f64) -> Check {
-        Check {
-            name: name.to_owned(),
-            section: TITLE.to_owned(),
-            computed,
-            reference,
-            unit: self.unit.to_owned(),
-            source: self.source.to_owned(),
-            assumptions: self.assumptions.to_owned(),
-            limit,
-            reason: self.reason.to_owned(),
         }
     }
 }

@@ -24,6 +24,22 @@ pub struct SectionResult {
 }
 
 impl SectionResult {
+    /// A section of checks alone.
+    pub(super) fn of_checks(title: &str, mut checks: Vec<Check>) -> Self {
+        for check in &mut checks {
+            title.clone_into(&mut check.section);
+        }
+        Self {
+            title: title.to_owned(),
+            checks,
+            information: Vec::new(),
+            report: Vec::new(),
+            values: Vec::new(),
+            files: Vec::new(),
+            lines: Vec::new(),
+        }
+    }
+
     /// The checks as a table for the report and the terminal.
     #[must_use]
     pub fn check_table(&self) -> Table {

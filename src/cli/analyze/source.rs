@@ -1,6 +1,5 @@
 //! What is analysed, by which orders and speed.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{AnalyzeArguments, AnalyzeError};
@@ -10,6 +9,7 @@ use crate::cli::{CliError, Options};
 use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
 use crate::diagnosis::{Fault, FaultOrders};
 use crate::exchange::{MeasuredSignal, SignalRequest, read_signals};
+use crate::files;
 use crate::series::TimeSeries;
 use crate::stages::{
     AnalysisSettings, AskedBand, Kinematics, StageError, bearing_geometry, bearing_setup,
@@ -145,7 +145,7 @@ fn case_of_run(folder: &Path, options: &Options) -> Result<Case, CliError> {
         path: path.clone(),
         found,
     };
-    let text = fs::read_to_string(&path).map_err(|error| damaged(error.to_string()))?;
+    let text = files::read_text(&path).map_err(|error| damaged(error.to_string()))?;
     let json: serde_json::Value =
         serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
     let case = json["case"].as_str();

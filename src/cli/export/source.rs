@@ -1,6 +1,5 @@
 //! Where an export takes its data from: a case file, or a folder with results of `plummer modes`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -9,6 +8,7 @@ use super::{CliError, ExportError};
 use crate::case::Case;
 use crate::cli::{Options, Progress};
 use crate::exchange::{ModeShapes, read_modes_npz};
+use crate::files;
 use crate::mesh::Mesh;
 use crate::stages::{StageError, compute_mode_shapes};
 
@@ -96,7 +96,7 @@ fn named_case(folder: &Path) -> Result<(PathBuf, Vec<String>), ExportError> {
         expected,
         found,
     };
-    let text = fs::read_to_string(&path)
+    let text = files::read_text(&path)
         .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;
     let json: Value = serde_json::from_str(&text)
         .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;

@@ -9,6 +9,7 @@ use zip::ZipArchive;
 use super::NpzReadError;
 use super::decoder::{Decoder, real, text, whole};
 use super::header::{Header, parse};
+use crate::files;
 
 /// An array that was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +43,7 @@ impl NpzReader {
     /// # Errors
     /// [`NpzReadError::Io`], [`NpzReadError::Archive`].
     pub fn open(path: &Path) -> Result<Self, NpzReadError> {
-        let file = File::open(path).map_err(|source| NpzReadError::Io {
+        let file = files::open(path).map_err(|source| NpzReadError::Io {
             path: path.to_owned(),
             source,
         })?;

@@ -1,12 +1,12 @@
 //! Reads files: which kind it is, then its matrices.
 
-use std::fs;
 use std::path::Path;
 
 use super::ascii::read_ascii;
 use super::binary::{Words, read_binary};
 use super::error::Fault;
 use super::{Op4Error, Op4Matrix, Op4Place};
+use crate::files;
 
 /// Reads the matrices of a file, binary or ASCII, in their order. Names may be there twice. Memory stays below 16 times
 /// the file's size and 1 MiB; [`Op4Matrix::dense`] has a bound of its own.
@@ -14,7 +14,7 @@ use super::{Op4Error, Op4Matrix, Op4Place};
 /// # Errors
 /// [`Op4Error::Read`]; [`Op4Error::Content`] with the place, what was found and what was expected.
 pub fn read_op4(path: &Path) -> Result<Vec<Op4Matrix>, Op4Error> {
-    let bytes = fs::read(path).map_err(|source| Op4Error::Read {
+    let bytes = files::read(path).map_err(|source| Op4Error::Read {
         path: path.to_owned(),
         source,
     })?;

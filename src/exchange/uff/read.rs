@@ -1,7 +1,6 @@
 //! Reads mode shapes: datasets 55, with nodes from 2411, 781 or 15 and the unit of length from 164.
 
 use std::collections::{HashMap, HashSet};
-use std::fs;
 use std::path::Path;
 
 use super::super::ModeShapes;
@@ -9,6 +8,7 @@ use super::UffError;
 use super::binary::read_binary;
 use super::cursor::{Cursor, Fault, Line};
 use super::mode::{Mode, read_mode};
+use crate::files;
 
 /// What a file has gathered so far.
 #[derive(Default)]
@@ -36,7 +36,7 @@ struct Content {
 /// [`UffError`] with file and line, what was found and what was expected; without modes; and for displacements along axes
 /// that datasets 18, 2420 turn against the global ones.
 pub fn read_modes_uff(path: &Path) -> Result<ModeShapes, UffError> {
-    let bytes = fs::read(path).map_err(|source| UffError::Read {
+    let bytes = files::read(path).map_err(|source| UffError::Read {
         path: path.to_owned(),
         source,
     })?;

@@ -1,6 +1,5 @@
 //! Reads dataset 58, functions at nodal degrees of freedom.
 
-use std::fs;
 use std::path::Path;
 
 use super::super::fortran::{columns, real};
@@ -10,6 +9,7 @@ use super::cursor::{Cursor, Fault, Line};
 use super::read::skip;
 use super::response::{FrequencyResponse, ResponseKind, ResponsePoint};
 use super::write_response::{REFERENCE, RESPONSE};
+use crate::files;
 
 /// Reads the frequency responses of a universal file: datasets 58 of function type 4 whose abscissa is a frequency, whose
 /// numerator is a displacement, velocity or acceleration along an axis and whose denominator is a force. Others, and all
@@ -23,7 +23,7 @@ use super::write_response::{REFERENCE, RESPONSE};
 /// [`UffError`] with file and line, what was found and what was expected; without frequency responses; for binary ones
 /// (dataset 58b); for accelerations in g.
 pub fn read_responses_uff(path: &Path) -> Result<Vec<FrequencyResponse>, UffError> {
-    let bytes = fs::read(path).map_err(|source| UffError::Read {
+    let bytes = files::read(path).map_err(|source| UffError::Read {
         path: path.to_owned(),
         source,
     })?;

@@ -1,6 +1,5 @@
 //! Reads signals over time: datasets 58 and 58b of function type 1.
 
-use std::fs;
 use std::path::Path;
 
 use super::UffError;
@@ -8,6 +7,7 @@ use super::binary::read_binary;
 use super::cursor::{Cursor, Fault, Line};
 use super::read::skip;
 use super::read_response::{FunctionHead, Units, axis_unit, named, next_dataset, other_dataset};
+use crate::files;
 
 /// Instants of a signal.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +45,7 @@ pub struct TimeResponse {
 /// [`UffError`] with file and line, what was found and what was expected; without signals; for complex values; for binary
 /// numbers that are not of IEEE 754.
 pub fn read_times_uff(path: &Path) -> Result<Vec<TimeResponse>, UffError> {
-    let bytes = fs::read(path).map_err(|source| UffError::Read {
+    let bytes = files::read(path).map_err(|source| UffError::Read {
         path: path.to_owned(),
         source,
     })?;

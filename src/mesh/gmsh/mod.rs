@@ -44,22 +44,26 @@ impl Mesh {
     /// [`MeshError::Read`] if the file cannot be read, [`MeshError::Gmsh`] with section, place, what was
     /// found and what was expected if its content cannot be used.
     pub fn read_gmsh(path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
-        let bytes = std::fs::read(path).map_err(|cause| MeshError::Read {
+        let bytes = crate::files::read(path).map_err(|cause| MeshError::Read {
             path: path.to_path_buf(),
             cause,
         })?;
-        let found = sections::read(&bytes, unit.to_metres());
-        // blocks and groups can have this room
-        drop(bytes);
-        mesh(found, path)
+        Self::from_gmsh_bytes(bytes, path, unit)
     }
 
     /// The same from the content of a file; `path` is what messages call it.
     ///
     /// # Errors
     /// [`MeshError::Gmsh`], as from [`Self::read_gmsh`].
-    pub fn from_gmsh_bytes(bytes: &[u8], path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
-        mesh(sections::read(bytes, unit.to_metres()), path)
+    pub fn from_gmsh_bytes(
+        bytes: impl AsRef<[u8]>,
+        path: &Path,
+        unit: LengthUnit,
+    ) -> Result<Self, MeshError> {
+        let found = sections::read(bytes.as_ref(), unit.to_metres());
+        // blocks and groups can have this room
+        drop(bytes);
+        mesh(found, path)
     }
 }
 

@@ -40,7 +40,8 @@ impl RunIdentity {
     }
 
     /// What is not the same now, in words.
-    pub(super) fn changes(&self, now: &Self) -> Vec<String> {
+    #[must_use]
+    pub fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = Vec::new();
         if self.plummer != now.plummer {
             changes.push(format!(

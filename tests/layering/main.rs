@@ -8,6 +8,9 @@
 //!   `#[cfg(test)]`; so are comments, `lib.rs` and `main.rs`.
 //! Parameters: none; there is no tolerance.
 
+mod picture;
+
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +31,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (0, "units", RowsAbove),
     (0, "error", RowsAbove),
     (0, "lanes", RowsAbove),
+    (0, "files", RowsAbove),
     (1, "linalg", RowsAbove),
     (1, "closed_form", Only(&[])),
     (1, "series", Only(&[])),
@@ -50,6 +54,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (12, "stages", RowsAbove),
     (13, "verification", RowsAbove),
     (13, "chart", RowsAbove),
+    (13, "sweep", RowsAbove),
     (14, "cli", RowsAbove),
 ];
 
@@ -307,6 +312,42 @@ fn imports_go_up_and_unsafe_stays_where_it_is() {
             "{file}"
         );
     }
+}
+
+/// The picture is made again with `PLUMMER_WRITE=1 cargo test --test layering`.
+#[test]
+fn the_picture_is_that_of_the_code() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let src = root.join("src");
+    let mut files = Vec::new();
+    rust_files(&src, &mut files);
+    files.sort();
+    let (mut graph, mut lines) = (picture::Graph::new(), BTreeMap::new());
+    for file in &files {
+        let below = file.strip_prefix(&src).unwrap();
+        let names: Vec<_> = below.iter().map(|name| name.to_str().unwrap()).collect();
+        let path = names.join("/");
+        let Some(module) = module_of(&path).filter(|_| !is_test_file(&path)) else {
+            continue;
+        };
+        let code = code_lines(&fs::read_to_string(file).unwrap());
+        *lines.entry(module.to_owned()).or_insert(0) += code.len();
+        let imports = graph.entry(module.to_owned()).or_default();
+        let others = imported_modules(&path, &code).into_iter();
+        imports.extend(others.map(|(_, name)| name).filter(|name| name != module));
+    }
+    let rows: Vec<(u32, &str)> = LAYERS.iter().map(|&(row, name, _)| (row, name)).collect();
+    let made = picture::svg(&rows, &graph, &lines);
+    let file = root.join("docs/figures/architecture.svg");
+    if std::env::var_os("PLUMMER_WRITE").is_some() {
+        fs::write(&file, &made).unwrap();
+    }
+    let kept = fs::read_to_string(&file).unwrap_or_default();
+    assert!(
+        kept == made,
+        "{} is not that of the code: PLUMMER_WRITE=1 cargo test --test layering",
+        file.display()
+    );
 }
 
 #[test]
