@@ -28,8 +28,13 @@ pub fn svg(rows: &[(u32, &str)], graph: &Graph, lines: &BTreeMap<String, usize>)
             .map(|row| row.1)
             .collect();
         for (place, name) in names.iter().enumerate() {
+            let share = match names.len() {
+                // alternately left and right of the middle, or lines to the rows below would run through boxes
+                1 => [0.4, 0.6][row as usize % 2],
+                count => (place as f64 + 1.0) / (count as f64 + 1.0),
+            };
             let spot = Spot {
-                x: WIDTH * (place as f64 + 1.0) / (names.len() as f64 + 1.0),
+                x: WIDTH * share,
                 y: 40.0 + ROW * f64::from(row),
                 lines: lines.get(*name).copied().unwrap_or(0),
             };
