@@ -29,7 +29,6 @@ use Imports::{Only, RowsAbove};
 /// cases too.
 const LAYERS: &[(u32, &str, Imports)] = &[
     (0, "units", RowsAbove),
-    (0, "error", RowsAbove),
     (0, "lanes", RowsAbove),
     (0, "files", RowsAbove),
     (1, "linalg", RowsAbove),
