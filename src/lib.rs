@@ -14,7 +14,8 @@
 //!    supports, links, the ring and the tie of the bore to its interpolation.
 //! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, eigenpairs with a proof, dense problems.
 //! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
-//! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`closed_form`]: known answers.
+//! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`catalogue`]: bearings that can be bought; [`closed_form`]: known
+//!    answers.
 //! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
 //! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and the integrators.
 //! 9. [`series`], [`signal`], [`diagnosis`]: recorded signals; filters, spectra, scalograms, orders, kurtograms; verdicts on
@@ -42,6 +43,7 @@
 pub mod assembly;
 pub mod bearing;
 pub mod case;
+pub mod catalogue;
 pub mod chart;
 pub mod cli;
 pub mod closed_form;

@@ -1,10 +1,11 @@
 //! Units at the edges: what a file uses, turned into SI on the way in.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Unit of length of the coordinates in a file. Inside the program every length is in metres.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 pub enum LengthUnit {
     /// m
     #[serde(rename = "m")]

@@ -1,14 +1,17 @@
 //! `[bearing]`: balls, races and contacts.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::defect::{Defect, RaceName};
+use super::schema::{any_of, table, text, together, words};
 use super::slip::Slip;
 use super::union::{Loose, Mismatch, written_as};
 
 /// A deep-groove ball bearing, its outer ring fixed to the housing. Lengths in m.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("not" = together(&["ball_mass", "density"])))]
 pub struct Bearing {
     /// Number of balls, 3 to 40.
     pub balls: usize,
@@ -67,7 +70,7 @@ pub struct Bearing {
 }
 
 /// A wave round a race: h = amplitude cos(order angle + phase), outwards positive.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wave {
     /// The race that carries it.
@@ -125,7 +128,7 @@ impl Bearing {
 }
 
 /// How balls follow their radial motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BallsInertia {
     /// With their mass.
@@ -135,7 +138,7 @@ pub enum BallsInertia {
 }
 
 /// Which equations of motion.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
     /// Ball positions from the fixed centre: symmetric, keeps energy.
@@ -163,14 +166,18 @@ impl Default for RaceMaterial {
     }
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct InnerAndOuter<T> {
+    /// Of the inner race.
     inner: T,
+    /// Of the outer race.
     outer: T,
 }
 
-written_as!(RaceMaterial, Loose<InnerAndOuter<String>>);
+written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, |generator| any_of(
+    &[text(), table::<InnerAndOuter<String>>(generator)]
+));
 
 impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
     type Error = Mismatch;
@@ -213,7 +220,9 @@ pub enum ContactStiffness {
     },
 }
 
-written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>);
+written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| any_of(
+    &[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)]
+));
 
 impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
     type Error = Mismatch;

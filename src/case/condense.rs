@@ -1,11 +1,13 @@
 //! `[condense]`: what a condensed housing is attached by, and how many vectors a reduction keeps.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::schema::{any_of, one_of, table, whole, words};
 use super::union::{Loose, Mismatch, written_as};
 
 /// How the housing is condensed onto the ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Condense {
     /// What the condensed housing is attached by.
@@ -45,16 +47,22 @@ pub enum Interface {
     Nodes(Vec<u64>),
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["group", "nodes"])))]
 struct InterfaceForm {
+    /// The nodes of this physical group of the mesh, each with its displacements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
+    /// Nodes of the mesh by gmsh's tags, each with its displacements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     nodes: Option<Vec<u64>>,
 }
 
-written_as!(Interface, Loose<InterfaceForm>);
+written_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[
+    words(&["ring"]),
+    table::<InterfaceForm>(generator),
+]));
 
 impl TryFrom<Loose<InterfaceForm>> for Interface {
     type Error = Mismatch;
@@ -112,7 +120,11 @@ pub enum InterfaceModes {
     UpToHz(f64),
 }
 
-written_as!(InterfaceModes, Loose<UpToForm>);
+written_as!(InterfaceModes, Loose<UpToForm>, |generator| any_of(&[
+    words(&["none"]),
+    whole(),
+    table::<UpToForm>(generator),
+]));
 
 impl TryFrom<Loose<UpToForm>> for InterfaceModes {
     type Error = Mismatch;
@@ -153,13 +165,18 @@ pub enum FixedInterfaceModes {
     UpToHz(f64),
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct UpToForm {
+    /// All up to this frequency in Hz, > 0.
     up_to_hz: f64,
 }
 
-written_as!(FixedInterfaceModes, Loose<UpToForm>);
+written_as!(FixedInterfaceModes, Loose<UpToForm>, |generator| any_of(&[
+    words(&["auto"]),
+    whole(),
+    table::<UpToForm>(generator),
+]));
 
 impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
     type Error = Mismatch;

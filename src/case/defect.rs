@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
+use super::schema::{any_of, one_of, table, words};
 use super::union::{Loose, Mismatch, written_as};
 
 /// Damage in the plane of the bearing. Lengths in m.
@@ -77,7 +80,7 @@ pub enum DentProfile {
 }
 
 /// A race.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RaceName {
     /// The inner race: turns with the shaft.
@@ -87,7 +90,7 @@ pub enum RaceName {
 }
 
 /// Curvature that enters the stiffness of the contact on a defect.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DefectCurvature {
     /// That of the profile as it is.
@@ -107,17 +110,21 @@ impl Defect {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Place {
+    /// The inner race: turns with the shaft.
     Inner,
+    /// The outer race: fixed in space.
     Outer,
+    /// A ball.
     Ball,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ProfileFile<T> {
+    /// Table of arc length and depth, with the header `arc_length_m,depth_m`.
     csv: T,
 }
 
@@ -131,7 +138,10 @@ enum Profile {
 const IN_PLANE: &str = "in-plane";
 const SURFACE: &str = "surface";
 
-written_as!(Profile, Loose<ProfileFile<PathBuf>>);
+written_as!(Profile, Loose<ProfileFile<PathBuf>>, |generator| any_of(&[
+    words(&[IN_PLANE, SURFACE]),
+    table::<ProfileFile<PathBuf>>(generator),
+]));
 
 impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
     type Error = Mismatch;
@@ -160,31 +170,69 @@ impl From<Profile> for Loose<ProfileFile<PathBuf>> {
     }
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = kinds()))]
+/// Damage: a dent in a race, a measured profile of a race, or a flat on a ball. Lengths in m.
 struct DefectForm {
+    /// What carries it.
     on: Place,
+    /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero; of a flat from
+    /// the ball's outward radius vector, 0 unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     angle_deg: Option<f64>,
+    /// Of a dent: extent along the rolling direction, > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     length: Option<f64>,
+    /// Of a dent: extent across the rolling direction, > 0; needed by `profile = "surface"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
+    /// Greatest depth, > 0 and below the ball's radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
+    /// What of a dent is felt, or the file of a measured profile.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     profile: Option<Profile>,
+    /// Radius by which the edge is rounded; 0.05e-3 unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     rim_radius: Option<f64>,
+    /// Curvature of the contact on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     curvature: Option<DefectCurvature>,
+    /// Of a flat: the ball, from 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ball: Option<usize>,
+    /// Of a flat: its radius in the rolling direction, above the ball's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     flat_radius: Option<f64>,
 }
 
 written_as!(Defect, DefectForm);
+
+/// Dent, measured profile or flat, each with its keys.
+fn kinds() -> Value {
+    let race = json!({ "enum": ["inner", "outer"] });
+    let dent = json!({ "enum": [IN_PLANE, SURFACE] });
+    let none_of = |keys: &[&str]| json!({ "anyOf": one_of(keys) });
+    json!([
+        {
+            "properties": { "on": race, "profile": dent },
+            "required": ["angle_deg", "length", "depth"],
+            "not": none_of(&["ball", "flat_radius"]),
+            "anyOf": [{ "properties": { "profile": { "enum": [IN_PLANE] } } }, { "required": ["width"] }],
+        },
+        {
+            "properties": { "on": race, "profile": { "type": "object" } },
+            "required": ["angle_deg", "profile"],
+            "not": none_of(&["ball", "flat_radius", "length", "width", "depth", "rim_radius", "curvature"]),
+        },
+        {
+            "properties": { "on": { "enum": ["ball"] }, "profile": { "enum": [IN_PLANE] } },
+            "required": ["ball", "flat_radius", "depth"],
+            "not": none_of(&["length", "width"]),
+        },
+    ])
+}
 
 /// A choice of this program: the source paper's dents and flats end at an edge.
 const RIM_RADIUS: f64 = 0.05e-3;

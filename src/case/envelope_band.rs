@@ -5,6 +5,7 @@ use std::fmt;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
 use serde::ser::{Serialize, Serializer};
 
+use super::schema::{any_of, words};
 use super::union::Mismatch;
 
 /// The word for a band that the signal decides.
@@ -31,6 +32,17 @@ impl Serialize for EnvelopeBand {
             Self::Between(edges) => edges.serialize(to),
             Self::Kurtogram => to.serialize_str(KURTOGRAM),
         }
+    }
+}
+
+impl schemars::JsonSchema for EnvelopeBand {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "EnvelopeBand".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let edges = generator.subschema_for::<[f64; 2]>();
+        any_of(&[edges, words(&[KURTOGRAM])])
     }
 }
 

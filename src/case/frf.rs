@@ -1,13 +1,15 @@
 //! `[frf]`: transfer paths from where forces act to sensors.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
 use super::sensor::{SensorSpot, SpotKeys};
+use super::schema::one_of;
 use super::union::{Mismatch, written_as};
 
 /// Transfer paths: from every force to every sensor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Frf {
     /// Where unit forces act, one at a time; at least one.
@@ -38,19 +40,27 @@ pub struct Push {
     pub direction: [f64; 3],
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["group", "ring_deg", "node", "point"])))]
+/// A unit force at exactly one of `group`, `ring_deg`, `node`, `point`.
 struct PushForm {
+    /// Its name in results.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     name: Option<String>,
+    /// Shared evenly by the nodes of this physical group of the mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
+    /// On the ring, at an angle in degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ring_deg: Option<f64>,
+    /// A node of the mesh, by gmsh's tag.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     node: Option<u64>,
+    /// The mesh's node nearest to this point, in m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
+    /// Direction in the mesh's frame, any length but zero.
     direction: [f64; 3],
 }
 

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::units::LengthUnit;
 
 use super::link::Link;
+use super::schema::{one_of, together};
 use super::union::{Mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
@@ -33,7 +35,7 @@ pub struct Housing {
 }
 
 /// What a plane mesh assumes across its plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Which stress or strain vanishes.
@@ -43,7 +45,7 @@ pub struct Plane {
 }
 
 /// What vanishes across a plane model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlaneAssumption {
     /// Stress across the plane is zero: a sheet.
@@ -53,7 +55,7 @@ pub enum PlaneAssumption {
 }
 
 /// How the stiffness of ten-noded tetrahedra is integrated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integration {
     /// With enough points for curved edges.
@@ -65,7 +67,7 @@ pub enum Integration {
 }
 
 /// How four-noded quadrilaterals and eight-noded hexahedra are formulated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LinearElements {
     /// With incompatible modes: no locking in bending.
@@ -76,7 +78,7 @@ pub enum LinearElements {
 }
 
 /// A group of elements and its material.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
     /// Name of a physical group of the mesh.
@@ -86,7 +88,7 @@ pub struct Part {
 }
 
 /// A direction of the mesh's frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
     /// First coordinate.
@@ -129,7 +131,7 @@ pub enum Hold {
 }
 
 /// Spring stiffnesses along the axes in N/m, each >= 0 and at least one > 0.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spring {
     /// Along x.
@@ -144,7 +146,7 @@ pub struct Spring {
 }
 
 /// Whether a stiffness stands at each node of a group or is shared by all of them.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PerNodeOrGroup {
     /// Each node has a spring of this stiffness, so the sum grows with the mesh.
@@ -154,16 +156,23 @@ pub enum PerNodeOrGroup {
     Group,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["fixed", "spring", "radial"]), "not" = together(&["fixed", "per"])))]
+/// What holds a group of nodes: `fixed`, `spring` or `radial`.
 struct SupportForm {
+    /// Name of a physical group of the mesh.
     group: String,
+    /// These displacements are zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     fixed: Option<Vec<Axis>>,
+    /// Stiffnesses of springs to the ground along the axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     spring: Option<Spring>,
+    /// Stiffness in N/m of springs to the ground along the radius from the bearing's axis, > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     radial: Option<f64>,
+    /// What the stiffness belongs to; not beside `fixed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     per: Option<PerNodeOrGroup>,
 }
@@ -219,7 +228,7 @@ impl From<Support> for SupportForm {
 }
 
 /// A mass without size, spread over the nodes of a group.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointMass {
     /// Name of a physical group of the mesh.

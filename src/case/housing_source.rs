@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::union::{Mismatch, written_as};
 use super::{Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support};
@@ -56,27 +58,43 @@ impl Case {
     }
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = json!([
+    { "required": ["superelement"], "maxProperties": 1 },
+    { "required": ["mesh", "length_unit", "parts"], "not": { "required": ["superelement"] } },
+])))]
+/// The housing: `mesh` with its keys, or `superelement` alone.
 struct SourceForm {
+    /// File of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's OUTPUT4
+    /// (`.op4`), relative to the case file; without any other key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     superelement: Option<PathBuf>,
+    /// Mesh file (gmsh MSH 4.1 or 2.2), relative to the case file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     mesh: Option<PathBuf>,
+    /// Unit of the mesh's coordinates.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     length_unit: Option<LengthUnit>,
+    /// How a plane mesh stands for a solid; plane meshes only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     plane: Option<Plane>,
+    /// Integration of the stiffness of ten-noded tetrahedra.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     integration: Option<Integration>,
+    /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     linear: Option<LinearElements>,
+    /// Which group is made of what; at least one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     parts: Option<Vec<Part>>,
+    /// What holds the housing; may be empty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     supports: Option<Vec<Support>>,
+    /// Masses without size, each spread over a group; may be empty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     masses: Option<Vec<PointMass>>,
+    /// Connections between its groups; may be empty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     links: Option<Vec<Link>>,
 }

@@ -1,8 +1,10 @@
 //! Connections between groups of a housing.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::housing::{PerNodeOrGroup, Spring};
+use super::schema::{one_of, together};
 use super::union::{Mismatch, written_as};
 
 /// A connection between two groups. Nodes of one are connected to the nearest points of the other, so the meshes of
@@ -36,16 +38,24 @@ pub enum Joint {
     Tie,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["spring", "radial", "tie"]), "not" = together(&["tie", "per"])))]
+/// A connection between two groups: `spring`, `radial` or `tie = true`.
 struct LinkForm {
+    /// Names of two physical groups of the mesh.
     between: [String; 2],
+    /// Stiffnesses of springs along the axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     spring: Option<Spring>,
+    /// Stiffness in N/m of springs along the radius from the bearing's axis, > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     radial: Option<f64>,
+    /// Rigidly: two surfaces (curves in a plane housing) move as one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("enum" = [true]))]
     tie: Option<bool>,
+    /// What the stiffness belongs to, in the first group; not beside `tie`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     per: Option<PerNodeOrGroup>,
 }

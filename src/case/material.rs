@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
+use super::schema::one_of;
 use super::union::{Mismatch, OneOrThree, written_as};
 
 /// An elastic material.
@@ -86,23 +89,46 @@ impl Material {
     }
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = either()))]
+/// An elastic material: isotropic with one number each for `young` and `poisson`, orthotropic with three each and `shear`.
 struct MaterialForm {
+    /// Young's modulus in Pa, > 0; or along the material's x, y, z.
     young: OneOrThree,
+    /// Poisson's ratio, > -1 and < 0.5; or xy, yz, xz: `nu_ij` is the contraction along j under a pull along i.
     poisson: OneOrThree,
+    /// Density in kg/m^3, > 0.
     density: f64,
+    /// Structural loss factor, >= 0 and < 2; 0 unless given. For frequency responses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     loss_factor: Option<f64>,
+    /// Shear moduli xy, yz, xz in Pa, each > 0; orthotropic materials only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shear: Option<[f64; 3]>,
+    /// The material's x in the mesh's axes; orthotropic materials only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     x_axis: Option<[f64; 3]>,
+    /// A direction in the material's x-y plane, in the mesh's axes; orthotropic materials only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     y_axis: Option<[f64; 3]>,
 }
 
 written_as!(Material, MaterialForm);
+
+/// Isotropic or orthotropic, never half of each.
+fn either() -> Value {
+    json!([
+        {
+            "properties": { "young": { "type": "number" }, "poisson": { "type": "number" } },
+            "not": { "anyOf": one_of(&["shear", "x_axis", "y_axis"]) },
+        },
+        {
+            "properties": { "young": { "type": "array" }, "poisson": { "type": "array" } },
+            "required": ["shear"],
+        },
+    ])
+}
 
 impl TryFrom<MaterialForm> for Material {
     type Error = Mismatch;

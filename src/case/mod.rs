@@ -42,6 +42,7 @@ mod path;
 mod ring;
 #[cfg(test)]
 mod samples;
+mod schema;
 mod sensor;
 mod set;
 mod slip;
@@ -53,6 +54,7 @@ mod union;
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bearing::{
@@ -88,8 +90,9 @@ pub use transient::{
 };
 
 /// One case: everything that a command computes from, but the mesh.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring"])))]
 pub struct Case {
     /// What the case is about; the file's name where the file says nothing.
     #[serde(default)]

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Modes of another program, or measured ones, that this case must have too.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedModes {
     /// File of mode shapes (`.npz`, `.csv`, `.uff`, `.unv`). Relative paths in a case file are relative to that file; here
@@ -48,7 +49,7 @@ impl ComparedModes {
 }
 
 /// Meshes of other element sizes that tell how far this case's mesh is from an infinitely fine one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConvergenceMeshes {
     /// The other meshes, coarser or finer, in any order, with the groups of the case's own; at least one. Relative paths in

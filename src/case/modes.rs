@@ -1,8 +1,11 @@
 //! `[modes]`: which eigenfrequencies.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::mode_checks::{ComparedModes, ConvergenceMeshes};
+use super::schema::together;
 use super::union::{Mismatch, written_as};
 
 /// What the `modes` command computes and checks.
@@ -53,7 +56,7 @@ impl Default for Modes {
 }
 
 /// A frequency that must be found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
     /// In Hz, > 0.
@@ -66,7 +69,7 @@ pub struct Expected {
 }
 
 /// Whether the bearing's contacts act on the modes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Linearise {
     /// Housing and ring alone.
@@ -77,7 +80,7 @@ pub enum Linearise {
 }
 
 /// The same case with some keys set to other values.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// What differs, in words.
@@ -86,25 +89,40 @@ pub struct Variant {
     pub set: Vec<String>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("not" = json!({ "anyOf": [
+    together(&["count", "up_to_hz"]),
+    together(&["count", "band_hz"]),
+    together(&["up_to_hz", "band_hz"]),
+] })))]
+/// What `plummer modes` computes and checks: `count` modes (20 unless given), those below `up_to_hz` or those in `band_hz`.
 struct ModesForm {
+    /// The lowest so many, at least 1; 20 unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     count: Option<usize>,
+    /// All below this frequency in Hz, > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     up_to_hz: Option<f64>,
+    /// All between two frequencies in Hz, 0 <= low < high.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     band_hz: Option<[f64; 2]>,
+    /// Frequencies to be found among them; may be empty.
     #[serde(default)]
     expected: Vec<Expected>,
+    /// Whether the bearing's contacts act.
     #[serde(default)]
     linearise: Linearise,
+    /// The same case with other keys set, shown beside; may be empty.
     #[serde(default)]
     variants: Vec<Variant>,
+    /// Modes from elsewhere that these are compared with; may be empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     compare: Vec<ComparedModes>,
+    /// Other meshes of the housing that tell the discretisation's error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     convergence: Option<ConvergenceMeshes>,
+    /// Whether loaded modes are followed over a ball pass and over the load; with `linearise = "static"`.
     #[serde(default)]
     ball_pass: bool,
 }

@@ -1,11 +1,14 @@
 //! `[shaft]`, `[damping]`, `[speed]`: what moves and what slows it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
+use super::schema::one_of;
 use super::union::{Mismatch, written_as};
 
 /// The rigid shaft with the inner ring. x to the right, y up.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shaft {
     /// Mass in kg, > 0.
@@ -35,7 +38,7 @@ pub enum Load {
 }
 
 /// A force at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadPoint {
     /// In s.
@@ -44,11 +47,15 @@ pub struct LoadPoint {
     pub force: [f64; 2],
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["force", "profile"])))]
+/// A force on the shaft: constant, or over time.
 struct LoadForm {
+    /// Always the same, along x and y in N.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     force: Option<[f64; 2]>,
+    /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     profile: Option<Vec<LoadPoint>>,
 }
@@ -96,7 +103,7 @@ pub enum Damping {
 }
 
 /// A damping ratio at a frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RatioAt {
     /// In Hz, > 0.
@@ -105,15 +112,24 @@ pub struct RatioAt {
     pub ratio: f64,
 }
 
-#[derive(Default, Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "oneOf" = one_of(&["ratios", "alpha", "modal"]),
+    "dependencies" = json!({ "alpha": ["beta"], "beta": ["alpha"] })
+))]
+/// Damping of housing and ring: exactly one of `ratios`, `alpha` with `beta`, `modal`.
 struct DampingForm {
+    /// Proportional damping through two points of the damping ratio over frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ratios: Option<[RatioAt; 2]>,
+    /// Damping proportional to mass in 1/s, >= 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     alpha: Option<f64>,
+    /// Damping proportional to stiffness in s, >= 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     beta: Option<f64>,
+    /// The same damping ratio for every mode, >= 0 and < 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     modal: Option<f64>,
 }
@@ -158,7 +174,7 @@ impl From<Damping> for DampingForm {
 }
 
 /// Shaft speed over time: straight lines between points, constant before the first and after the last.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Speed {
     /// At least one point, times increasing.
@@ -166,7 +182,7 @@ pub struct Speed {
 }
 
 /// Speed at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedPoint {
     /// In s.

@@ -1,11 +1,12 @@
 //! `[ring]`: the outer ring as curved beam elements, its supports and its tie to the housing.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::housing::Spring;
 
 /// The ring. Angles are counted from +x towards +y, the ring's first node stands at 0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
     /// Number of nodes and of elements, 8 to 2000.
@@ -45,7 +46,7 @@ fn default_nodes() -> usize {
 }
 
 /// The cross-section of one ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
     /// Name of a material.
@@ -73,7 +74,7 @@ fn default_shear_coefficient() -> f64 {
 }
 
 /// How rings fitted into each other act together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bond {
     /// In radial contact, free to slide: bending stiffnesses add up.
@@ -84,7 +85,7 @@ pub enum Bond {
 }
 
 /// On which radius sections that slip bend.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RadiusRule {
     /// Each on its own.
@@ -95,7 +96,7 @@ pub enum RadiusRule {
 }
 
 /// The ring element's interpolation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RingElement {
     /// Solves the unloaded circular arc exactly.
@@ -106,7 +107,7 @@ pub enum RingElement {
 }
 
 /// Springs at the ring's nodes from one angle to another.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RingSupport {
     /// First angle in degrees; a node there has a spring.
@@ -124,7 +125,7 @@ pub struct RingSupport {
 }
 
 /// Whether a stiffness stands at each node or is shared by all.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PerNodeOrTotal {
     /// Each node has a spring of this stiffness.
@@ -135,7 +136,7 @@ pub enum PerNodeOrTotal {
 }
 
 /// The ring's connection to the housing's bore.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
     /// Name of the mesh's physical group of the bore.
@@ -163,7 +164,7 @@ fn axis_x() -> [f64; 3] {
 }
 
 /// What the bore follows.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fit {
     /// The ring's section in all directions.

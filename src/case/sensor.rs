@@ -1,7 +1,9 @@
 //! `[[sensors]]`: where acceleration is recorded.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::schema::{one_of, together};
 use super::union::{Mismatch, written_as};
 
 /// An accelerometer.
@@ -31,20 +33,33 @@ pub enum SensorSpot {
     Recovered(String),
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "oneOf" = one_of(&["group", "ring_deg", "node", "point", "recovered"]),
+    "anyOf" = one_of(&["recovered", "direction"]),
+    "not" = together(&["recovered", "direction"])
+))]
+/// An accelerometer at exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`.
 struct SensorForm {
+    /// Name of its signal; unique.
     name: String,
+    /// The mean over this physical group of the mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
+    /// On the ring, at an angle in degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ring_deg: Option<f64>,
+    /// A node of the mesh, by gmsh's tag.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     node: Option<u64>,
+    /// The mesh's node nearest to this point, in m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
+    /// What this row of the superelement's sensors gives; without `direction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     recovered: Option<String>,
+    /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     direction: Option<[f64; 3]>,
 }

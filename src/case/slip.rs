@@ -1,7 +1,10 @@
 //! Slip of the cage: a number, or a table over time or speed.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
+use super::schema::{any_of, number, table};
 use super::union::{Loose, Mismatch, written_as};
 
 /// Share of the cage's rolling speed that is lost, >= 0 and < 1; straight lines between points, constant beyond them.
@@ -22,7 +25,7 @@ impl Default for Slip {
 }
 
 /// Slip at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SlipAtTime {
     /// In s.
@@ -32,7 +35,7 @@ pub struct SlipAtTime {
 }
 
 /// Slip at a speed of the shaft.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SlipAtSpeed {
     /// Revolutions per second, either way.
@@ -41,23 +44,40 @@ pub struct SlipAtSpeed {
     pub slip: f64,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("anyOf" = one_axis()))]
 struct SlipForm {
+    /// Straight lines between points, constant before the first and after the last; at least one, in increasing order.
     profile: Vec<SlipPoint>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SlipPoint {
+    /// In s; in every point, or in none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     time: Option<f64>,
+    /// Speed of the shaft in Hz, >= 0; in every point, or in none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     hz: Option<f64>,
+    /// Share of the cage's rolling speed that is lost, >= 0 and < 1.
     slip: f64,
 }
 
-written_as!(Slip, Loose<SlipForm>);
+written_as!(Slip, Loose<SlipForm>, |generator| any_of(&[
+    number(),
+    table::<SlipForm>(generator)
+]));
+
+/// Every point over time, or every point over speed.
+fn one_axis() -> Value {
+    let over = |key, other| {
+        let point = json!({ "required": [key], "not": { "required": [other] } });
+        json!({ "properties": { "profile": { "items": point } } })
+    };
+    json!([over("time", "hz"), over("hz", "time")])
+}
 
 impl TryFrom<Loose<SlipForm>> for Slip {
     type Error = Mismatch;

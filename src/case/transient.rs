@@ -1,12 +1,14 @@
 //! `[accuracy]`, `[transient]` and `[analysis]`: what is simulated, how finely, and what is made of the signals.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::EnvelopeBand;
+use super::schema::{any_of, number, together, whole, words};
 use super::union::{Loose, Mismatch, NoTable, written_as};
 
 /// What the signals must be good for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// Lowest and highest frequency of interest in Hz, 0 <= lowest < highest.
@@ -21,7 +23,7 @@ fn one_percent() -> f64 {
 }
 
 /// The simulation in time. It begins in static equilibrium at the start time's speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Transient {
     /// In s, >= 0.
@@ -58,7 +60,7 @@ pub struct Transient {
 
 /// Runs of one scene from starts that differ, spread over a ball pass from the start time on. A run whose statistics are
 /// taken is perturbed beside: every coordinate and velocity by a part of itself, at random.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ensemble {
     /// How many, 2 to 10 000.
@@ -98,7 +100,7 @@ impl Default for Ensemble {
 }
 
 /// How time is stepped.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The program's choice.
@@ -130,7 +132,10 @@ pub enum StepLength {
     Seconds(f64),
 }
 
-written_as!(StepLength, Loose<NoTable>);
+written_as!(StepLength, Loose<NoTable>, |_| any_of(&[
+    words(&["auto"]),
+    number()
+]));
 
 impl TryFrom<Loose<NoTable>> for StepLength {
     type Error = Mismatch;
@@ -171,7 +176,10 @@ pub enum ModesKept {
     Count(usize),
 }
 
-written_as!(ModesKept, Loose<NoTable>);
+written_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
+    words(&["auto", "all"]),
+    whole()
+]));
 
 impl TryFrom<Loose<NoTable>> for ModesKept {
     type Error = Mismatch;
@@ -201,8 +209,9 @@ impl From<ModesKept> for Loose<NoTable> {
 }
 
 /// What is made of the signals.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("not" = together(&["high_pass_hz", "band_hz"])))]
 pub struct Analysis {
     /// Corner of the high-pass filter before the envelope in Hz, > 0 and below half the sampling rate; `None`, without
     /// `band_hz` either: no filter.
@@ -227,7 +236,7 @@ pub struct Analysis {
 }
 
 /// What a scalogram shows: amplitude over time and frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScalogramWindow {
     /// In s.
@@ -246,7 +255,7 @@ fn usual_cycles() -> f64 {
 }
 
 /// A stretch of time within the simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Window {
     /// In s.

@@ -44,9 +44,23 @@ impl Mismatch {
 }
 
 /// Reads and writes a type by way of the type that mirrors its form in the file
-/// (`TryFrom<Form, Error = Mismatch>` and `From<Type>`).
+/// (`TryFrom<Form, Error = Mismatch>` and `From<Type>`). Its schema is that of the form, or what the function returns for a form
+/// whose type does not say it.
 macro_rules! written_as {
     ($type:ty, $form:ty) => {
+        crate::case::union::written_as!($type, $form, crate::case::schema::table::<$form>);
+    };
+    ($type:ty, $form:ty, $schema:expr) => {
+        impl schemars::JsonSchema for $type {
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                stringify!($type).into()
+            }
+
+            fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                $schema(generator)
+            }
+        }
+
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
                 let form = <$form as serde::Deserialize>::deserialize(from)?;
@@ -192,8 +206,28 @@ impl<'de> Visitor<'de> for OneOrThreeVisitor {
         Ok(OneOrThree::One(number))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<Self::Value, A::Error> {
-        let items = de::value::SeqAccessDeserializer::new(items);
-        <[f64; 3]>::deserialize(items).map(OneOrThree::Three)
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = items.next_element()? {
+            numbers.push(number);
+        }
+        <[f64; 3]>::try_from(numbers)
+            .map(OneOrThree::Three)
+            .map_err(|numbers| de::Error::invalid_length(numbers.len(), &self))
+    }
+}
+
+impl schemars::JsonSchema for OneOrThree {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "OneOrThree".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let three = generator.subschema_for::<[f64; 3]>();
+        super::schema::any_of(&[super::schema::number(), three])
     }
 }

@@ -142,6 +142,14 @@ Files:
   report.html   the same as tables; with --full the charts of the study
   readings.csv  with --full: every reading and its frequencies (readings-that-fit.csv: those that give all three)";
 
+const SCHEMA_EXAMPLE: &str = "\
+Example: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML
+  plummer schema > plummer.schema.json
+
+The first line of a case file names the schema, relative to the case: #:schema plummer.schema.json
+Keys, kinds of values, options, and keys that exclude each other are in it; ranges and what needs the mesh are checked by every
+command that reads a case.";
+
 /// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "plummer", version, after_help = EXAMPLES, arg_required_else_help = true)]
@@ -250,6 +258,9 @@ pub enum Command {
         #[arg(long)]
         full: bool,
     },
+    /// JSON Schema of the case file, for editors, on standard output
+    #[command(after_help = SCHEMA_EXAMPLE)]
+    Schema,
 }
 
 /// A part of `plummer chart`.
@@ -322,6 +333,7 @@ impl Command {
             Self::Man => "man",
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
+            Self::Schema => "schema",
         }
     }
 
@@ -488,6 +500,7 @@ mod tests {
             "plummer analyze --help",
             "plummer export --help",
             "plummer verify --help",
+            "plummer schema --help",
         ] {
             let help = parse(words).unwrap_err().to_string();
             assert!(help.contains("Example"), "{words}");

@@ -86,6 +86,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Sweep(asked) => sweep::sweep(asked, options),
         Command::Verify { full } => verify::verify(*full, options),
+        Command::Schema => return emit(to, &format!("{:#}", Case::schema())),
         Command::Inspect {
             mesh,
             length_unit,

@@ -37,6 +37,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (1, "dynamics", RowsAbove),
     (2, "mesh", Only(&[])),
     (2, "material", Only(&[])),
+    (2, "catalogue", Only(&[])),
     (3, "element", RowsAbove),
     (4, "model", RowsAbove),
     (5, "assembly", RowsAbove),
