@@ -197,6 +197,28 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         let option = format!("\">{family}</option>");
         assert_eq!(report.matches(&option).count(), 2, "{family}");
     }
+    // by the name of its bearing, with the maker's numbers
+    let named_bearing = ["--bearing", "6205", "--speed", "25"];
+    let found = json(&analyze(&[&named_bearing[..], &["--json"]].concat()));
+    assert_eq!(named(&found["windows"][0]), ["outer race"]);
+    let order = found["defect_orders"]["outer"].as_f64().unwrap();
+    assert!(
+        (order / (4.5 * (1.0 - 7.938 / 39.1)) - 1.0).abs() < 1e-12,
+        "{order}"
+    );
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    assert!(report.contains("9 balls of 7.938 mm on a circle of 39.10 mm (GMN, "));
+    assert!(report.contains("--bearing 6205"), "the command line");
+    // a file of that name goes first
+    fs::write(folder.join("6205"), "[bearing]\n").unwrap();
+    let file = analyze(&named_bearing);
+    assert_eq!(file.status.code(), Some(2));
+    assert!(
+        errors(&file).starts_with("error: 6205:1: "),
+        "{}",
+        errors(&file)
+    );
+    fs::remove_file(folder.join("6205")).unwrap();
     // by orders alone, and a speed over time that is constant all the same
     let orders = [
         "--orders",
@@ -262,7 +284,11 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         ),
         (
             analyze(&["--speed", "25"]),
-            "error: nothing says which bearing it is\nhelp: --bearing CASE.toml, or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+            "error: nothing says which bearing it is\nhelp: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+        ),
+        (
+            analyze(&["--speed", "25", "--bearing", "no/6205"]),
+            "error: cannot read the case file no/6205: No such file or directory (os error 2)\n",
         ),
         (
             by(&["--speed", "25", "--channel", "P2"]),
@@ -288,6 +314,14 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         assert_eq!(output.status.code(), Some(2), "{expected}");
         assert_eq!(errors(&output), expected);
     }
+    let unknown = analyze(&["--speed", "25", "--bearing", "6299"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    let expected = "error: --bearing: found \"6299\", expected a case file or a bearing of the catalogue\nhelp: bearings: 625, ";
+    assert!(
+        errors(&unknown).starts_with(expected),
+        "{}",
+        errors(&unknown)
+    );
     let still = by(&["--speed", "0"]);
     assert_eq!(still.status.code(), Some(1));
     assert!(

@@ -175,9 +175,9 @@ struct InnerAndOuter<T> {
     outer: T,
 }
 
-written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, |generator| any_of(
-    &[text(), table::<InnerAndOuter<String>>(generator)]
-));
+written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, |generator| {
+    any_of(&[text(), table::<InnerAndOuter<String>>(generator)])
+});
 
 impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
     type Error = Mismatch;
@@ -220,9 +220,9 @@ pub enum ContactStiffness {
     },
 }
 
-written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| any_of(
-    &[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)]
-));
+written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
+    any_of(&[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)])
+});
 
 impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
     type Error = Mismatch;

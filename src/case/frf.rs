@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
-use super::sensor::{SensorSpot, SpotKeys};
 use super::schema::one_of;
+use super::sensor::{SensorSpot, SpotKeys};
 use super::union::{Mismatch, written_as};
 
 /// Transfer paths: from every force to every sensor.

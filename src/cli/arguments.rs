@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
-use super::{AnalyzeArguments, SweepArguments};
+use super::{AnalyzeArguments, InitArguments, SweepArguments};
 use crate::case::Case;
 use crate::chart::Effort;
 use crate::stages::CHECKPOINT_S;
@@ -33,6 +33,18 @@ Examples: the dented bearing with a deeper dent, in a folder of its own; the sam
 Long runs: memory does not grow with the simulated time; signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
 keeps a checkpoint and ends with exit code 1, a second Ctrl-C ends at once. --resume goes on to the same signals, to the last
 bit, as without a stop, if program, case, --set and meshes are the same.";
+
+const INIT_EXAMPLE: &str = "\
+Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings that the program knows
+  plummer init housing.msh --length-unit mm
+  plummer init housing.msh --length-unit mm --bearing 6205 --out motor.toml
+  plummer init --list-bearings
+
+The file says of every value whether it is from the mesh, the catalogue, usual or a guess; what could not be told is there as a
+template, commented out. plummer modes FILE runs at once where the mesh allows it.
+
+Bore: the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports: groups
+named like a foot, base, bolt, clamp or support.";
 
 const INSPECT_EXAMPLE: &str = "\
 Example: a solid housing drawn in millimetres
@@ -78,9 +90,10 @@ Files:
 Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
 
 const ANALYZE_EXAMPLE: &str = "\
-Examples: a run of this program; a recorder's table, with a bearing by its drawing; a run-up of a bearing with orders of a catalogue
+Examples: a run of this program; a recorder's table, with a bearing by its drawing, and by its name; a run-up of a bearing with orders of a catalogue
   plummer analyze out/outer-dent --window 1.0:2.6
   plummer analyze bench.csv --channel P1 --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 29.95
+  plummer analyze bench.csv --channel P1 --bearing 6205 --speed 29.95
   plummer analyze rise.wav --orders outer=3.585,inner=5.415,ball=4.713,cage=0.398 --speed 0:10,8:50 --band 6000:12000
 
 Signals: .npz (an array time_s, time or t, or a rate fs), .csv or .txt (a column time; units in the header: P1 (m/s^2); decimal
@@ -180,6 +193,9 @@ pub enum Command {
         #[arg(long, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
         checkpoint_every: f64,
     },
+    /// A commented case file from a mesh: bore, bearing, parts and supports by its named groups
+    #[command(after_help = INIT_EXAMPLE)]
+    Init(InitArguments),
     /// What a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
     #[command(after_help = INSPECT_EXAMPLE)]
     Inspect {
@@ -331,6 +347,7 @@ impl Command {
             Self::Sweep(_) => "sweep",
             Self::Completions { .. } => "completions",
             Self::Man => "man",
+            Self::Init(_) => "init",
             Self::Export { .. } => "export",
             Self::Verify { .. } => "verify",
             Self::Schema => "schema",
@@ -366,7 +383,7 @@ impl Command {
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
     /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; analyze: the run's own
-    /// folder, or out/ and the file's name; inspect writes only if named)
+    /// folder, or out/ and the file's name; inspect writes only if named); of init: the case file
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
@@ -479,6 +496,9 @@ mod tests {
             "plummer analyze a.csv --balls 9",
             "plummer analyze a.csv --orders outer=3.6 --bearing a.toml",
             "plummer analyze a.csv --rate 0",
+            "plummer init",
+            "plummer init a.msh --length-unit feet",
+            "plummer init a.msh --list-bearings",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }
@@ -497,6 +517,7 @@ mod tests {
             "plummer frf --help",
             "plummer chart --help",
             "plummer inspect --help",
+            "plummer init --help",
             "plummer analyze --help",
             "plummer export --help",
             "plummer verify --help",

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{AnalyzeError, ExportError};
+use super::{AnalyzeError, ExportError, InitError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
 use crate::stages::StageError;
@@ -87,6 +87,9 @@ pub enum CliError {
     /// There is nothing to analyse, or nothing to analyse it by.
     #[error(transparent)]
     Analyze(#[from] AnalyzeError),
+    /// No case file could be made.
+    #[error(transparent)]
+    Init(Box<InitError>),
     /// A chart could not be made.
     #[error(transparent)]
     Chart(Box<ChartError>),
@@ -107,6 +110,12 @@ impl From<VerificationError> for CliError {
 impl From<SweepError> for CliError {
     fn from(error: SweepError) -> Self {
         Self::Sweep(Box::new(error))
+    }
+}
+
+impl From<InitError> for CliError {
+    fn from(error: InitError) -> Self {
+        Self::Init(Box::new(error))
     }
 }
 
@@ -135,6 +144,7 @@ impl CliError {
         match self {
             Self::Case(_)
             | Self::Analyze(_)
+            | Self::Init(_)
             | Self::ResultExists { .. }
             | Self::Folder { .. }
             | Self::Finished { .. }
@@ -164,6 +174,7 @@ impl CliError {
             Self::Stage(error) => error.help(),
             Self::Export(error) => error.help(),
             Self::Analyze(error) => error.help(),
+            Self::Init(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::Sweep(error) => error.help(),
             Self::ResultExists { .. } => {
@@ -198,7 +209,9 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{AnalyzeError, ChartError, CliError, ExportError, SweepError, VerificationError};
+    use super::{
+        AnalyzeError, ChartError, CliError, ExportError, InitError, SweepError, VerificationError,
+    };
     use crate::case::Case;
     use crate::exchange::DofTableError;
     use crate::stages::{StageError, UnfinishedError};
@@ -320,6 +333,13 @@ mod tests {
                  help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
             ),
             (
+                CliError::from(InitError::Exists {
+                    path: PathBuf::from("a.toml"),
+                }),
+                2,
+                "error: a.toml exists\nhelp: replace it with --force, or name another file with --out\n",
+            ),
+            (
                 CliError::from(AnalyzeError::NoSpeed),
                 2,
                 "error: nothing says how fast the shaft turns\nhelp: --speed HZ, or --speed T:HZ,T:HZ,...\n",
@@ -328,7 +348,7 @@ mod tests {
                 CliError::from(AnalyzeError::NoBearing),
                 2,
                 "error: nothing says which bearing it is\n\
-                 help: --bearing CASE.toml, or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+                 help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
             ),
             (
                 CliError::from(ChartError::TooShort {

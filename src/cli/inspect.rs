@@ -54,17 +54,22 @@ pub fn inspect(
         summary: summary(path, &found, density),
         result,
         written,
-        verdict: match found.invalid.first() {
-            None => Verdict::Good,
-            Some(first) => Verdict::Bad {
-                what: format!(
-                    "{} elements are inverted, folded or without size (the first is element {})",
-                    found.invalid_elements, first.tag
-                ),
-                help: Some("mesh again, or look at them in gmsh (Tools, Visibility)".to_owned()),
-            },
-        },
+        verdict: verdict(&found),
     })
+}
+
+/// A mesh is good unless elements of it are folded.
+pub(super) fn verdict(found: &Inspection) -> Verdict {
+    match found.invalid.first() {
+        None => Verdict::Good,
+        Some(first) => Verdict::Bad {
+            what: format!(
+                "{} elements are inverted, folded or without size (the first is element {})",
+                found.invalid_elements, first.tag
+            ),
+            help: Some("mesh again, or look at them in gmsh (Tools, Visibility)".to_owned()),
+        },
+    }
 }
 
 fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {

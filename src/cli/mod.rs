@@ -10,6 +10,7 @@ mod condense;
 mod export;
 mod failure;
 mod frf;
+mod init;
 mod inspect;
 mod interrupt;
 mod mode_checks;
@@ -35,6 +36,7 @@ pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
 pub use export::ExportError;
 pub use failure::CliError;
+pub use init::{InitArguments, InitError};
 pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
@@ -87,6 +89,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Sweep(asked) => sweep::sweep(asked, options),
         Command::Verify { full } => verify::verify(*full, options),
         Command::Schema => return emit(to, &format!("{:#}", Case::schema())),
+        Command::Init(asked) => init::init(asked, options),
         Command::Inspect {
             mesh,
             length_unit,

@@ -64,6 +64,12 @@ impl Inspection {
     /// [`MeshError`] if it cannot be read.
     pub fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
         let mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+        Ok(Self::of_mesh(&mesh, unit))
+    }
+
+    /// Looks at a mesh that was read with this unit, as metres without one.
+    #[must_use]
+    pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
         let mut found = Self {
             length_unit: unit,
@@ -74,9 +80,9 @@ impl Inspection {
             invalid: Vec::new(),
             inventory,
         };
-        let all = elements_of(&mesh, found.inventory.dimension);
-        found.size = size(&mesh, all.clone());
-        all.for_each(|id| found.look_at(&mesh, id));
+        let all = elements_of(mesh, found.inventory.dimension);
+        found.size = size(mesh, all.clone());
+        all.for_each(|id| found.look_at(mesh, id));
         found.group_sizes = mesh
             .groups
             .iter()
@@ -84,10 +90,10 @@ impl Inspection {
             .map(|group| GroupSize {
                 name: group.name.clone(),
                 dimension: group.dimension,
-                size: size(&mesh, group.elements.iter().copied()),
+                size: size(mesh, group.elements.iter().copied()),
             })
             .collect();
-        Ok(found)
+        found
     }
 
     fn look_at(&mut self, mesh: &Mesh, id: ElementId) {

@@ -22,6 +22,7 @@ mod condensed;
 mod convergence;
 mod damping;
 mod dent_drops;
+mod draft;
 mod drawing;
 mod energy_tables;
 mod error;
@@ -85,6 +86,7 @@ pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense}
 pub use condense_report::condense_report;
 pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
+pub use draft::{Draft, DraftError, DraftRequest, FoundCylinder, UnitFrom};
 pub use error::StageError;
 pub use free_system::FreeSystem;
 pub use frf::{

@@ -35,7 +35,9 @@ pub(in crate::case) fn any_of(forms: &[Schema]) -> Schema {
 
 /// A table with exactly one of these keys, for `oneOf`.
 pub(in crate::case) fn one_of(keys: &[&str]) -> Value {
-    keys.iter().map(|key| json!({ "required": [key] })).collect()
+    keys.iter()
+        .map(|key| json!({ "required": [key] }))
+        .collect()
 }
 
 /// A table that has all of these keys, for `not`.

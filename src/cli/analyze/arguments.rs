@@ -22,8 +22,9 @@ pub struct AnalyzeArguments {
     /// Sampling rate in Hz, in the place of what the file says
     #[arg(long, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
-    /// Case file whose bearing it is; without --speed the shaft turns as it says
-    #[arg(long, value_name = "CASE.toml")]
+    /// Case file whose bearing it is (without --speed the shaft turns as it says), or a bearing of the catalogue: 6205 (plummer
+    /// init --list-bearings); a file of that name goes first
+    #[arg(long, value_name = "CASE.toml|NAME")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
     #[arg(long, value_name = "N", requires_all = ["pitch_diameter", "ball_diameter"], conflicts_with = "bearing")]

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::cli::init::bearing_names;
+
 /// Why there is nothing to analyse, or nothing to analyse it by.
 #[derive(Debug, Error)]
 pub enum AnalyzeError {
@@ -27,6 +29,12 @@ pub enum AnalyzeError {
         /// The case file.
         path: PathBuf,
     },
+    /// A name that is neither a file's nor a bearing's.
+    #[error("--bearing: found \"{found}\", expected a case file or a bearing of the catalogue")]
+    UnknownBearing {
+        /// As typed.
+        found: String,
+    },
     /// Nothing says how often parts strike.
     #[error("nothing says which bearing it is")]
     NoBearing,
@@ -41,8 +49,9 @@ impl AnalyzeError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::NoBearing => Some(
-                "--bearing CASE.toml, or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..".to_owned(),
+                "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..".to_owned(),
             ),
+            Self::UnknownBearing { .. } => Some(format!("bearings: {}", bearing_names())),
             Self::NoSpeed => Some("--speed HZ, or --speed T:HZ,T:HZ,...".to_owned()),
             Self::Damaged { .. } => Some(
                 "name the file of signals itself, with --bearing and --speed".to_owned(),

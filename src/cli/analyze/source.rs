@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{AnalyzeArguments, AnalyzeError};
 use crate::bearing::SpeedProfile;
 use crate::case::Case;
+use crate::catalogue::CatalogueBearing;
 use crate::cli::{CliError, Options};
 use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
 use crate::diagnosis::{Fault, FaultOrders};
@@ -86,10 +87,10 @@ impl Source {
             }
             (asked.input.join("signals.npz"), Some(case))
         } else {
-            let case = asked.bearing.as_ref();
-            let case = case
-                .map(|path| Case::load(path, &options.set))
-                .transpose()?;
+            let case = match named_bearing(asked)? {
+                Some(Named::Case(path)) => Some(Case::load(path, &options.set)?),
+                Some(Named::Catalogue(_)) | None => None,
+            };
             (asked.input.clone(), case)
         };
         let (motion, mut assumptions) = motion(asked, is_run, case.as_ref(), options)?;
@@ -163,12 +164,13 @@ fn motion(
     case: Option<&Case>,
     options: &Options,
 ) -> Result<(Motion, Vec<String>), CliError> {
-    let typed = asked.orders.is_some() || asked.balls.is_some();
     // a folder's case may be told another bearing
-    let other = match &asked.bearing {
-        Some(path) if is_run => Some(Case::load(path, &options.set)?),
-        _ => None,
+    let (other, catalogue) = match named_bearing(asked)? {
+        Some(Named::Catalogue(bearing)) => (None, Some(bearing)),
+        Some(Named::Case(path)) if is_run => (Some(Case::load(path, &options.set)?), None),
+        _ => (None, None),
     };
+    let typed = asked.orders.is_some() || asked.balls.is_some() || catalogue.is_some();
     let bearing = other.as_ref().or(case);
     if let (Some(case), false, None) = (bearing, typed, &asked.speed)
         && case.speed.is_some()
@@ -184,20 +186,24 @@ fn motion(
         return Ok((Motion::Simulated { setup, error }, Vec::new()));
     }
     let error = asked.geometry_error.unwrap_or(GEOMETRY_ERROR);
-    let orders = match (&asked.orders, asked.balls, bearing) {
-        (Some(given), _, _) => FaultOrders::new(given.0, error),
-        (None, Some(_), _) => FaultOrders::of(
-            &row(asked).map_err(|error| CliError::from(StageError::Geometry(error.into())))?,
-            error,
-        ),
-        (None, None, Some(case)) => {
+    let mut notes = Vec::new();
+    let in_row = |row: Result<DefectOrders, RaceError>| {
+        row.map_err(|error| CliError::from(StageError::Geometry(error.into())))
+    };
+    let orders = match (&asked.orders, asked.balls, catalogue, bearing) {
+        (Some(given), ..) => FaultOrders::new(given.0, error),
+        (None, Some(_), ..) => FaultOrders::of(&in_row(row(asked))?, error),
+        (None, None, Some(bearing), _) => {
+            notes.push(described(bearing));
+            FaultOrders::of(&in_row(catalogue_row(bearing))?, error)
+        }
+        (None, None, None, Some(case)) => {
             let geometry = bearing_geometry(case)?.ok_or_else(|| without_bearing(case))?;
             FaultOrders::of(&geometry.orders(), error)
         }
-        (None, None, None) => return Err(AnalyzeError::NoBearing.into()),
+        (None, None, None, None) => return Err(AnalyzeError::NoBearing.into()),
     }
     .map_err(StageError::from)?;
-    let mut notes = Vec::new();
     let speed = match (&asked.speed, case) {
         (Some(speed), _) => {
             notes.push("The shaft turns as --speed says.".to_owned());
@@ -210,6 +216,55 @@ fn motion(
         _ => return Err(AnalyzeError::NoSpeed.into()),
     };
     Ok((Motion::Given { orders, speed }, notes))
+}
+
+/// What `--bearing` names.
+enum Named<'a> {
+    Case(&'a Path),
+    Catalogue(&'static CatalogueBearing),
+}
+
+/// A file goes before a bearing of the catalogue that has its name.
+fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>>, AnalyzeError> {
+    let Some(path) = asked.bearing.as_deref() else {
+        return Ok(None);
+    };
+    if path.exists() {
+        return Ok(Some(Named::Case(path)));
+    }
+    let name = path.to_string_lossy();
+    if let Some(bearing) = CatalogueBearing::named(&name) {
+        return Ok(Some(Named::Catalogue(bearing)));
+    }
+    // what looks like a file is one that is missing, which its reader says
+    if path.extension().is_some() || path.components().count() > 1 {
+        return Ok(Some(Named::Case(path)));
+    }
+    Err(AnalyzeError::UnknownBearing {
+        found: name.into_owned(),
+    })
+}
+
+/// What is taken for granted of a bearing of the catalogue.
+fn described(bearing: &CatalogueBearing) -> String {
+    format!(
+        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm ({}).",
+        bearing.name,
+        bearing.balls,
+        1e3 * bearing.ball_diameter,
+        1e3 * bearing.pitch_diameter,
+        bearing.source.citation()
+    )
+}
+
+fn catalogue_row(bearing: &CatalogueBearing) -> Result<DefectOrders, RaceError> {
+    let row = BallRow::new(
+        bearing.balls,
+        bearing.ball_diameter,
+        bearing.pitch_diameter,
+        0.0,
+    )?;
+    Ok(row.orders())
 }
 
 fn without_bearing(case: &Case) -> AnalyzeError {

@@ -1,0 +1,360 @@
+//! `plummer init` from outside: every mesh of the repository, and meshes made for what housings can be.
+//!
+//! Goal: the file loads, says the right bore and bearing, and `plummer modes` runs on it; what is in the way or wrong is exit code 2.
+
+mod program;
+mod tube;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use plummer::case::{Case, Purpose, Source};
+use serde_json::Value;
+
+use program::{errors, plummer, scratch};
+use tube::Tube;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn meshes() -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for folder in ["meshes", "tests/data"] {
+        for entry in fs::read_dir(root().join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|ending| ending == "msh") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Runs `init` in a folder and returns what it says as JSON.
+fn init(folder: &Path, words: &[&str]) -> Value {
+    let output = plummer(folder, &[&["init", "--json"], words].concat());
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{words:?}: {}",
+        errors(&output)
+    );
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Everything that is commented out as a value switched on.
+fn switched_on(text: &str) -> String {
+    let value = |line: &str| {
+        line.starts_with('#') && !line.starts_with("# ") && !line.starts_with("#:") && line != "#"
+    };
+    let lines = text
+        .lines()
+        .map(|line| if value(line) { &line[1..] } else { line });
+    lines.collect::<Vec<_>>().join("\n") + "\n"
+}
+
+#[test]
+fn every_mesh_makes_a_case_that_loads() {
+    let folder = scratch("init-every");
+    let all = meshes();
+    assert!(all.len() > 35, "{}", all.len());
+    for mesh in all {
+        let name = mesh.file_stem().unwrap().to_string_lossy().into_owned();
+        let file = folder.join(format!("{name}.toml"));
+        init(&folder, &[mesh.to_str().unwrap()]);
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.starts_with("#:schema plummer.schema.json\n"), "{name}");
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 160),
+            "{name}"
+        );
+        let case = Case::load(&file, &[]).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        case.ready_for(Purpose::Modes).unwrap();
+        // relative to the case, and there
+        let found = &case.meshed_housing().unwrap().mesh;
+        assert_eq!(
+            fs::canonicalize(found).unwrap(),
+            fs::canonicalize(&mesh).unwrap()
+        );
+        let whole = Case::from_source(Source {
+            path: file.clone(),
+            text: switched_on(&text),
+            set: Vec::new(),
+        });
+        let whole = whole.unwrap_or_else(|error| panic!("{name}: {error}\n{}", switched_on(&text)));
+        assert!(
+            whole
+                .bearing
+                .is_some_and(|bearing| !bearing.defects.is_empty()),
+            "{name}"
+        );
+        assert!(whole.ring.is_some_and(|ring| ring.tie.is_some()), "{name}");
+        // the same mesh, the same file
+        init(&folder, &[mesh.to_str().unwrap(), "--force"]);
+        assert_eq!(fs::read_to_string(&file).unwrap(), text, "{name}");
+    }
+}
+
+/// Lowest elastic frequencies (Hz) of the meshes of the repository with their first guesses, and what they are compared with: the
+/// ring of another bearing, scaled, in place of the examples'.
+#[test]
+fn modes_run_on_the_shipped_housings() {
+    let folder = scratch("init-modes");
+    for (name, bore, rigid, lowest) in [
+        // examples/scenes/pedestal.toml without its bearing: 6601 Hz
+        ("pedestal", "bore", 0, [5000.0, 8000.0]),
+        ("pillow_block", "bore", 0, [4000.0, 12_000.0]),
+        ("end_shield", "bore", 0, [1000.0, 10_000.0]),
+        ("ring_6_9", "bore", 3, [20_000.0, 45_000.0]),
+    ] {
+        let mesh = root().join(format!("meshes/{name}.msh"));
+        let found = init(&folder, &[mesh.to_str().unwrap(), "--length-unit", "mm"]);
+        assert_eq!(found["bore"]["group"], bore, "{name}");
+        assert!(
+            (found["bore"]["radius_m"].as_f64().unwrap() / 6e-3 - 1.0).abs() < 1e-6,
+            "{name}"
+        );
+        assert!(
+            found["bearing"].is_null(),
+            "{name}: no bearing of 12 mm is in the catalogue"
+        );
+        let case = format!("{name}.toml");
+        let modes = plummer(&folder, &["modes", &case, "--json", "--threads", "1"]);
+        assert_eq!(modes.status.code(), Some(0), "{name}: {}", errors(&modes));
+        let modes: Value = serde_json::from_slice(&modes.stdout).unwrap();
+        let hz = modes["frequencies_hz"].as_array().unwrap();
+        let hz: Vec<f64> = hz.iter().map(|hz| hz.as_f64().unwrap()).collect();
+        assert_eq!(modes["rigid_modes"], rigid, "{name}: {hz:?}");
+        let first = hz[rigid];
+        assert!((lowest[0]..lowest[1]).contains(&first), "{name}: {hz:?}");
+    }
+}
+
+#[test]
+fn a_bearing_that_fits_is_taken_and_a_run_can_be_explained() {
+    let folder = scratch("init-6205");
+    let tube = Tube {
+        inner: 26.0,
+        outer: 40.0,
+        length: 15.0,
+        ..Tube::default()
+    };
+    fs::write(folder.join("housing.msh"), tube.msh()).unwrap();
+    let found = init(&folder, &["housing.msh"]);
+    assert_eq!(found["length_unit"], "mm");
+    assert_eq!(found["bearing"], "6205");
+    assert_eq!(found["supports"], serde_json::json!(["base"]));
+    let case = Case::load(folder.join("housing.toml"), &[]).unwrap();
+    case.ready_for(Purpose::Run).unwrap();
+    let bearing = case.bearing.as_ref().unwrap();
+    assert_eq!(bearing.balls, 9);
+    // GMN: 39.1 and 7.938 mm
+    assert!((bearing.outer_race_radius - 0.5e-3 * (39.1 + 7.938)).abs() < 1e-9);
+    assert!(
+        (bearing.play() - 6.25e-6).abs() < 1e-9,
+        "{}",
+        bearing.play()
+    );
+    for (set, code) in [(None, 0), (Some("modes.linearise=static"), 0)] {
+        let mut words = vec![
+            "modes",
+            "housing.toml",
+            "--force",
+            "--quiet",
+            "--threads",
+            "1",
+        ];
+        if let Some(set) = set {
+            words.extend(["--set", set]);
+        }
+        let output = plummer(&folder, &words);
+        assert_eq!(
+            output.status.code(),
+            Some(code),
+            "{set:?}: {}",
+            errors(&output)
+        );
+    }
+    let explained = plummer(
+        &folder,
+        &["run", "housing.toml", "--explain", "--threads", "1"],
+    );
+    assert_eq!(explained.status.code(), Some(0), "{}", errors(&explained));
+}
+
+/// Half a split housing, its bore along x and away from the origin, in a mesh whose nodes are off by 0.1 %.
+#[test]
+fn half_a_noisy_bore_along_x_away_from_the_origin() {
+    let folder = scratch("init-half");
+    let tube = Tube {
+        inner: 26.0,
+        outer: 40.0,
+        length: 30.0,
+        from: 180.0,
+        to: 360.0,
+        noise: 0.026,
+        axes: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        centre: [100.0, 250.0, -70.0],
+    };
+    fs::write(folder.join("lower.msh"), tube.msh()).unwrap();
+    let found = init(&folder, &["lower.msh", "--length-unit", "mm"]);
+    let bore = &found["bore"];
+    assert_eq!(bore["group"], "bore");
+    let part = |key: &str, place: usize| bore[key][place].as_f64().unwrap();
+    // nodes off by up to 0.026 mm: a centre by half a circle of some 100 of them is off by a part of that
+    for (place, expected) in [0.100, 0.250, -0.070].into_iter().enumerate() {
+        assert!(
+            (part("centre_m", place) - expected).abs() < 2.6e-5,
+            "{bore}"
+        );
+    }
+    assert!(part("axis", 0) > 0.999_99, "{bore}");
+    assert!(
+        (bore["radius_m"].as_f64().unwrap() / 26e-3 - 1.0).abs() < 1e-3,
+        "{bore}"
+    );
+    assert!(
+        (bore["turn"].as_f64().unwrap() - 0.5).abs() < 0.01,
+        "{bore}"
+    );
+    let case = Case::load(folder.join("lower.toml"), &[]).unwrap();
+    let tie = case.ring.as_ref().unwrap().tie.as_ref().unwrap();
+    // up stays up: the bearing's 90 degrees are the mesh's y
+    assert!(tie.zero_deg[2] < -0.999, "{:?}", tie.zero_deg);
+    let modes = plummer(
+        &folder,
+        &["modes", "lower.toml", "--quiet", "--threads", "1"],
+    );
+    assert_eq!(modes.status.code(), Some(0), "{}", errors(&modes));
+}
+
+#[test]
+fn the_bearing_tells_the_unit() {
+    let folder = scratch("init-unit");
+    let tube = Tube {
+        inner: 2.6,
+        outer: 4.0,
+        length: 1.5,
+        ..Tube::default()
+    };
+    fs::write(folder.join("a.msh"), tube.msh()).unwrap();
+    let found = init(&folder, &["a.msh", "--bearing", "6205-2RS"]);
+    assert_eq!(found["length_unit"], "cm");
+    let found = init(&folder, &["a.msh", "--force"]);
+    assert_eq!(found["length_unit"], "mm", "by the extent");
+    let found = init(&folder, &["a.msh", "--force", "--length-unit", "cm"]);
+    assert_eq!(found["bearing"], "6205");
+}
+
+/// What makes no case, or no bore, is said.
+#[test]
+fn what_is_wrong_is_exit_code_2() {
+    let folder = scratch("init-wrong");
+    let mesh = |name: &str| root().join(name).to_string_lossy().into_owned();
+    let ring = mesh("meshes/ring_6_9.msh");
+    fs::write(folder.join("taken.toml"), "kept").unwrap();
+    let nameless = Tube::default().msh();
+    let (_, nameless) = nameless.split_once("$EndPhysicalNames\n").unwrap();
+    let nameless = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}",
+        nameless.replace(" 2 1 1 ", " 2 0 1 ")
+    );
+    fs::write(folder.join("nameless.msh"), nameless).unwrap();
+    for (words, expected) in [
+        (
+            vec![ring.as_str(), "--out", "taken.toml"],
+            "error: taken.toml exists\nhelp: replace it with --force",
+        ),
+        (vec![&ring, "--out", "."], "error: .: found no file name"),
+        (
+            vec![&ring, "--bearing", "6299"],
+            "error: --bearing: found \"6299\", expected a bearing of the catalogue\nhelp: names: 625, ",
+        ),
+        (
+            vec![&ring, "--bearing", "6205", "--length-unit", "mm"],
+            "error: bearing 6205: found an outer diameter of 52 mm, expected that of the bore \"bore\", 12.0000 mm, within 1 %\n\
+             help: nearest of the catalogue: 625 (16 mm); is --length-unit right?",
+        ),
+        (vec!["no.msh"], "error: "),
+        (
+            vec!["nameless.msh"],
+            "error: nameless.msh: found no physical group of volumes",
+        ),
+    ] {
+        let output = plummer(&folder, &[&["init"], &words[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(
+            errors(&output).starts_with(expected),
+            "{words:?}: {}",
+            errors(&output)
+        );
+        assert!(output.stdout.is_empty());
+    }
+    let damaged = mesh("tests/data/damaged/node_nan.msh");
+    let looked = plummer(&folder, &["inspect", &damaged]);
+    let tried = plummer(&folder, &["init", &damaged]);
+    assert_eq!(tried.status.code(), looked.status.code());
+    assert_eq!(errors(&tried), errors(&looked));
+    assert_eq!(
+        fs::read_to_string(folder.join("taken.toml")).unwrap(),
+        "kept"
+    );
+    let names: Vec<_> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert_eq!(names.len(), 2, "{names:?}");
+}
+
+#[test]
+fn what_was_found_is_said_on_standard_output() {
+    let folder = scratch("init-says");
+    let mesh = root().join("meshes/ring_6_9.msh");
+    let output = plummer(
+        &folder,
+        &["init", mesh.to_str().unwrap(), "--out", "sub/ring.toml"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "length_unit = \"mm\": guess: the mesh is 18 x 18 x 0 units wide; the file does not say its unit",
+        "Group \"bore\" is a circle of radius 6 mm about z, all round, its nodes within ",
+        "No other group is a round hole. Round outsides: \"outer\" (radius 9 mm)",
+        "No bearing of the catalogue has an outer diameter within 1 % of the bore's, 12 mm: [bearing] is a template.",
+        "Parts: \"housing\" of aluminium (a guess).",
+        "Nothing is held: no group is named like a support.",
+        "wrote sub/ring.toml",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let case = fs::read_to_string(folder.join("sub/ring.toml")).unwrap();
+    assert!(
+        case.contains("group = \"top\""),
+        "a point for the sensor: {case}"
+    );
+    assert!(
+        case.contains("curve \"lower\": a circle of radius 9 mm about z, over 50 % of the turn"),
+        "{case}"
+    );
+    assert!(case.contains("title = \"ring\""), "{case}");
+}
+
+#[test]
+fn the_catalogue_is_listed_with_its_sources() {
+    let folder = scratch("init-list");
+    let output = plummer(&folder, &["init", "--list-bearings"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "6205     25     52     15      9          7.938          39.10   0.128  GMN",
+        "6305     25     62     17      7         11.906          43.50*  0.222  Timken",
+        "GMN: GMN, High precision ball bearings, catalogue 4000 0813 EN (2013)",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let json = init(&folder, &["--list-bearings"]);
+    assert_eq!(json["bearings"].as_array().unwrap().len(), 35);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
