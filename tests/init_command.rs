@@ -97,18 +97,19 @@ fn every_mesh_makes_a_case_that_loads() {
     }
 }
 
-/// Lowest elastic frequencies (Hz) of the meshes of the repository with their first guesses, and what they are compared with: the
-/// ring of another bearing, scaled, in place of the examples'.
+/// Against the first elastic frequency (Hz) of the same housings with the ring of the examples (Tadina & Boltezar's outer ring, area
+/// 5.37e-6 m^2, second moment 8.88e-13 m^4) in place of the scaled one. The guessed ring is another, 13 % lighter and 30 % less
+/// stiff, between a housing that does not feel much of it and a thin one that is half ring.
 #[test]
 fn modes_run_on_the_shipped_housings() {
     let folder = scratch("init-modes");
-    for (name, bore, rigid, lowest) in [
-        // examples/scenes/pedestal.toml without its bearing: 6601 Hz
-        ("pedestal", "bore", 0, [5000.0, 8000.0]),
-        ("pillow_block", "bore", 0, [4000.0, 12_000.0]),
-        ("end_shield", "bore", 0, [1000.0, 10_000.0]),
-        ("ring_6_9", "bore", 3, [20_000.0, 45_000.0]),
+    for (name, rigid, first, within) in [
+        ("pedestal", 0, 16_160.5, 0.01),
+        ("pillow_block", 0, 20_609.2, 0.01),
+        ("end_shield", 0, 6845.5, 0.01),
+        ("ring_6_9", 3, 52_015.3, 0.04),
     ] {
+        let bore = "bore";
         let mesh = root().join(format!("meshes/{name}.msh"));
         let found = init(&folder, &[mesh.to_str().unwrap(), "--length-unit", "mm"]);
         assert_eq!(found["bore"]["group"], bore, "{name}");
@@ -127,8 +128,8 @@ fn modes_run_on_the_shipped_housings() {
         let hz = modes["frequencies_hz"].as_array().unwrap();
         let hz: Vec<f64> = hz.iter().map(|hz| hz.as_f64().unwrap()).collect();
         assert_eq!(modes["rigid_modes"], rigid, "{name}: {hz:?}");
-        let first = hz[rigid];
-        assert!((lowest[0]..lowest[1]).contains(&first), "{name}: {hz:?}");
+        let off = (hz[rigid] / first - 1.0).abs();
+        assert!(off < within, "{name}: {hz:?}");
     }
 }
 
@@ -355,6 +356,6 @@ fn the_catalogue_is_listed_with_its_sources() {
         assert!(text.contains(part), "{part}\n{text}");
     }
     let json = init(&folder, &["--list-bearings"]);
-    assert_eq!(json["bearings"].as_array().unwrap().len(), 35);
+    assert_eq!(json["bearings"].as_array().unwrap().len(), 34);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }

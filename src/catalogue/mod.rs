@@ -16,8 +16,8 @@ pub use clearance::normal_clearance;
 pub use ring_section::OuterRingSection;
 pub use source::Source;
 
-/// Groove radii over the ball's diameter, inner and outer: the largest for which the load ratings of ISO 281:2007 hold
-/// (its clause on radial ball bearings), and typical of deep groove bearings.
+/// Groove radii over the ball's diameter, inner and outer: typical values, no maker's. They are those on which the load ratings of
+/// ISO 281 rest, and within the usual 0.515 to 0.53 of T. A. Harris, *Rolling Bearing Analysis*.
 pub const GROOVES: [f64; 2] = [0.52, 0.53];
 
 /// A deep groove ball bearing as its maker publishes it. Lengths in m.

@@ -1,4 +1,5 @@
-//! The numbers, as printed: millimetres, kilograms; Timken's balls in inches.
+//! The numbers, as printed: millimetres, kilograms; Timken's balls in inches. GMN's 609 is left out: the mass printed for it is more
+//! than that of full steel.
 
 use super::{CatalogueBearing, Source};
 
@@ -42,13 +43,12 @@ macro_rules! timken {
     };
 }
 
-pub(super) const BEARINGS: [CatalogueBearing; 35] = [
+pub(super) const BEARINGS: [CatalogueBearing; 34] = [
     gmn!("625", 5.0, 16.0, 5.0, 10.0, 3.175, 6, 12.50, 0.005),
     gmn!("626", 6.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
     gmn!("607", 7.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
     gmn!("627", 7.0, 22.0, 7.0, 14.7, 3.969, 7, 17.60, 0.012),
     gmn!("608", 8.0, 22.0, 7.0, 14.7, 3.969, 7, 17.60, 0.012),
-    gmn!("609", 9.0, 24.0, 7.0, 16.7, 3.969, 8, 19.90, 0.023),
     gmn!("629", 9.0, 26.0, 8.0, 18.0, 4.762, 7, 21.40, 0.020),
     gmn!("6000", 10.0, 26.0, 8.0, 18.0, 4.762, 7, 21.40, 0.019),
     gmn!("6001", 12.0, 28.0, 8.0, 20.0, 4.762, 8, 23.40, 0.022),

@@ -126,6 +126,18 @@ fn values_of_the_wrong_kind_are_named() {
             "`shaft.gravity[1]`: found true, expected a number",
         ),
         (
+            "materials.printed.young=[1e9,1e9,1e9,1e9]",
+            "`materials.printed.young`: found an array of 4, expected a number or an array of three",
+        ),
+        (
+            "materials.printed.poisson=[0.3,0.3]",
+            "`materials.printed.poisson`: found an array of 2, expected a number or an array of three",
+        ),
+        (
+            "materials.printed.young=[1e9,true,1e9]",
+            "`materials.printed.young[1]`: found true, expected a number",
+        ),
+        (
             "bearing.stiffness=3e9",
             "`bearing.stiffness`: found 3000000000, expected \"hertz\", or { inner = NUMBER, outer = NUMBER }",
         ),

@@ -7,6 +7,9 @@ use super::{Draft, Found, FoundCylinder, UnitFrom};
 /// Digits of what is measured in the mesh: far more than a drawing has.
 const DIGITS: usize = 9;
 
+/// Distance of nodes from a cylinder, over its radius, that is not worth a number.
+const ROUND_OFF: f64 = 1e-9;
+
 /// Digits of what is computed or guessed.
 const FEW: usize = 4;
 
@@ -47,7 +50,7 @@ fn unit_origin(found: &Found<'_>) -> String {
     }
 }
 
-/// "a hole of radius 6 mm about z through (0, 0, 0) mm, ..."
+/// "a cylinder of radius 6 mm about z, all round, its nodes within ..."
 fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let what = if plane { "circle" } else { "cylinder" };
     let millimetre = |metres: f64| number(1e3 * metres, 6);
@@ -66,11 +69,18 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     } else {
         format!("over {} % of the turn", number(100.0 * cylinder.turn, 3))
     };
+    let off = if cylinder.farthest_m < ROUND_OFF * cylinder.radius_m {
+        "its nodes on it but for round-off".to_owned()
+    } else {
+        format!(
+            "its nodes within {} m of it (rms {} m)",
+            number(cylinder.farthest_m, 2),
+            number(cylinder.rms_m, 2)
+        )
+    };
     format!(
-        "a {what} of radius {} mm about {about}, {turn}, its nodes within {} m of it (rms {} m)",
-        millimetre(cylinder.radius_m),
-        number(cylinder.farthest_m, 2),
-        number(cylinder.rms_m, 2)
+        "a {what} of radius {} mm about {about}, {turn}, {off}",
+        millimetre(cylinder.radius_m)
     )
 }
 
@@ -90,9 +100,12 @@ fn bore_sentence(found: &Found<'_>) -> String {
             quoted(&bore.group),
             describe(bore, found.plane)
         ),
-        None => {
-            "No group is a cylindrical hole within 1 % of its radius: no bore is known.".to_owned()
-        }
+        None => format!(
+            "No group is a {} hole within 1 % of its radius: no bore is known. If there is one, name it in gmsh: \
+             Physical {}(\"bore\").",
+            if found.plane { "round" } else { "cylindrical" },
+            if found.plane { "Curve" } else { "Surface" }
+        ),
     };
     if !found.holes.is_empty() {
         sentence.push_str(&format!(" Other round holes: {}.", names(&found.holes)));
@@ -166,9 +179,7 @@ fn head(page: &mut Page, found: &Found<'_>) {
     page.note("mesh: measured there; catalogue: published; usual: with its source; guess: for you to check.");
     page.note("A line that begins with # and no blank is a value to be switched on.");
     page.line("#");
-    page.note(
-        "  plummer schema > plummer.schema.json    editors then complete and check this file",
-    );
+    page.note("`plummer schema > plummer.schema.json`: editors then complete and check this file.");
     page.line("");
     page.value("title", quoted(found.request.title));
 }
@@ -375,16 +386,25 @@ fn bearing(page: &mut Page, found: &Found<'_>) {
     page.line("");
     match own {
         Some(_) => page.note(&format!("bearing {}", bearing_origin(found, &numbers))),
-        None => page.note(&format!(
-            "No bearing of the catalogue fits (plummer init --list-bearings). This is {}, to be replaced by your own: {}.",
+        None if found.bore.is_none() => page.note(&format!(
+            "No bore, no bearing (plummer init --list-bearings). This is {}: {}.",
             bearing.name,
             bearing.source.citation()
         )),
+        None => page.note(&format!(
+            "No bearing of the catalogue fits (plummer init --list-bearings). This is {}, scaled by {} to the bore, which nobody \
+             sells: to be replaced by your own. {}.",
+            bearing.name,
+            number(found.ring.scale, FEW),
+            bearing.source.citation()
+        )),
     }
+    let scale = if own.is_some() { 1.0 } else { found.ring.scale };
+    let metres = |length: f64| number(scale * length, 6);
     page.template(own.is_none(), |page| {
         page.line("[bearing]");
         page.value_from("balls", bearing.balls.to_string(), "catalogue");
-        let ball = number(0.5 * bearing.ball_diameter, 6);
+        let ball = metres(0.5 * bearing.ball_diameter);
         page.value_from("ball_radius", ball, "catalogue, m; mass by the density of bearing steel");
         let [inner, outer] = [bearing.inner_race_diameter(), bearing.outer_race_diameter()];
         let pitch = if bearing.pitch_published {
@@ -392,11 +412,11 @@ fn bearing(page: &mut Page, found: &Found<'_>) {
         } else {
             "catalogue's ball diameter on the mean of bore and outer diameter (a guess: no pitch diameter is published)"
         };
-        page.value_from("inner_race_radius", number(0.5 * inner, 6), pitch);
-        page.value_from("outer_race_radius", number(0.5 * outer, 6), pitch);
-        let groove = "usual: 0.52 and 0.53 of the ball's diameter, the largest grooves of ISO 281:2007";
-        page.value_from("inner_groove_radius", number(numbers.inner_groove, 6), groove);
-        page.value_from("outer_groove_radius", number(numbers.outer_groove, 6), "as said");
+        page.value_from("inner_race_radius", metres(0.5 * inner), pitch);
+        page.value_from("outer_race_radius", metres(0.5 * outer), pitch);
+        let groove = "typical: 0.52 and 0.53 of the ball's diameter, the grooves of ISO 281's load ratings";
+        page.value_from("inner_groove_radius", metres(numbers.inner_groove), groove);
+        page.value_from("outer_groove_radius", metres(numbers.outer_groove), "as said");
         page.value_from(
             "radial_play",
             number(numbers.play, FEW),
@@ -411,10 +431,14 @@ fn bearing(page: &mut Page, found: &Found<'_>) {
         page.value("angle_deg", "270");
         page.value_from(
             "length",
-            number(0.2 * bearing.ball_diameter, 2),
+            number(0.2 * scale * bearing.ball_diameter, 2),
             "along the race, m",
         );
-        page.value_from("depth", number(0.004 * bearing.ball_diameter, 2), "m");
+        page.value_from(
+            "depth",
+            number(0.004 * scale * bearing.ball_diameter, 2),
+            "m",
+        );
     });
 }
 
