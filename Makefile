@@ -2,15 +2,16 @@
 
 CASE := examples/tadina2011/outer-dent.toml
 REPORT := out/outer-dent/report.html
-
-.PHONY: help setup demo test figures meshes docs bench bench-peers clean
+MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
+.PHONY: help setup demo test figures meshes book docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
 	@echo "make test    all tests, documentation tests and examples"
 	@echo "make setup   install the system libraries that are missing"
-	@echo "make figures the figures of docs/paper.md"
+	@echo "make figures the figures of the documents"
 	@echo "make meshes  make the example meshes again (needs gmsh)"
+	@echo "make book    the documents as a book, target/book/index.html (needs mdbook)"
 	@echo "make docs    documentation of the library"
 	@echo "make bench   benchmarks"
 	@echo "make bench-peers  other integrators on the same equations (needs numpy, scipy, scikit-sundae)"
@@ -43,6 +44,12 @@ figures: setup
 meshes:
 	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }
 	sh meshes/rebuild.sh
+
+# mdBook as scripts/setup-ci.sh installs it, else one on the path.
+book:
+	@command -v $(MDBOOK) >/dev/null 2>&1 || { echo "mdbook is missing: sh scripts/setup-ci.sh, or cargo install mdbook" >&2; exit 1; }
+	$(MDBOOK) build docs
+	@echo "The book: $(CURDIR)/target/book/index.html"
 
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps

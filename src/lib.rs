@@ -36,9 +36,8 @@
 //!
 //! # Limitations
 //!
-//! Linear elasticity, no shells and no pyramids; MSH 4.1 and 2.2; ring sections stay rigid in the bore;
-//! dents in the outer race, in the bearing's plane; balls with their own inertia; constant cage slip;
-//! assembly in parallel, the rest on one thread.
+//! Linear elasticity, no shells and no pyramids; MSH 4.1 and 2.2; ring sections stay rigid in the bore; shaft, balls and defects in the
+//! bearing's plane; slip prescribed; no lubricant film. All of them: `docs/limits.md`.
 
 pub mod assembly;
 pub mod bearing;

@@ -181,6 +181,12 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
     }
 }
 
+/// A direction of the case, which may have any length; none where the case has none, as of a superelement's sensor.
+fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
+    let length = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
+    (length > 0.0).then(|| direction.map(|part| part / length))
+}
+
 /// The receptances as other programs read them.
 fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, StageError> {
     let direction = |name: &str| {
@@ -189,7 +195,8 @@ fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, 
             .filter(|push| push.name == name)
             .map(|push| push.direction);
         let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
-        push.chain(sensors.map(|sensor| sensor.direction)).next()
+        let given = push.chain(sensors.map(|sensor| sensor.direction)).next();
+        given.and_then(unit)
     };
     let node = |name: &str| {
         use crate::case::SensorSpot;
@@ -226,4 +233,16 @@ fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, 
         responses.push(response.told_apart());
     }
     Ok(responses)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unit;
+
+    #[test]
+    fn directions_have_length_one_or_are_not_known() {
+        assert_eq!(unit([0.0, -2.0, 0.0]), Some([0.0, -1.0, 0.0]));
+        assert_eq!(unit([3.0, 0.0, 4.0]), Some([0.6, 0.0, 0.8]));
+        assert_eq!(unit([0.0; 3]), None);
+    }
 }
