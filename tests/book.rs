@@ -221,7 +221,10 @@ fn keys_of(source: &str) -> Vec<&str> {
             field if inside => {
                 let field = field.strip_prefix("pub ").unwrap_or(field);
                 let name = field.split(':').next().unwrap_or("");
-                let named = field.contains(": ") && !field.starts_with(['/', '#']);
+                let is_name = name
+                    .chars()
+                    .all(|letter| letter.is_alphanumeric() || letter == '_');
+                let named = field.contains(": ") && is_name;
                 if named && !std::mem::take(&mut skipped) {
                     found.push(name);
                 }

@@ -78,7 +78,7 @@ fn a_directory_is_no_mesh() {
     assert_eq!(
         message(&path),
         format!(
-            "cannot read the mesh {}: Is a directory (os error 21)",
+            "cannot read the mesh {}: expected a file, found a folder",
             path.display()
         )
     );

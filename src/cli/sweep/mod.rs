@@ -340,7 +340,7 @@ fn write_scripts(
     }
     Ok(Outcome {
         summary: format!(
-            "{} points in {tasks} tasks; submit them by: sh {}",
+            "{} points in {tasks} tasks; submit them by: sh '{}'",
             plan.count(),
             folder.path().join(POINTS).join("submit.sh").display()
         ),
