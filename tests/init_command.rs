@@ -134,7 +134,7 @@ fn modes_run_on_the_shipped_housings() {
 }
 
 #[test]
-fn a_bearing_that_fits_is_taken_and_a_run_can_be_explained() {
+fn a_bearing_that_fits_is_taken_and_its_contacts_can_be_loaded() {
     let folder = scratch("init-6205");
     let tube = Tube {
         inner: 26.0,
@@ -158,31 +158,20 @@ fn a_bearing_that_fits_is_taken_and_a_run_can_be_explained() {
         "{}",
         bearing.play()
     );
-    for (set, code) in [(None, 0), (Some("modes.linearise=static"), 0)] {
-        let mut words = vec![
-            "modes",
-            "housing.toml",
+    // a coarser ring than the file's, for the sake of time
+    for set in ["modes.linearise=none", "modes.linearise=static"] {
+        let words = [
             "--force",
             "--quiet",
             "--threads",
             "1",
+            "--set",
+            "ring.nodes=24",
         ];
-        if let Some(set) = set {
-            words.extend(["--set", set]);
-        }
+        let words = [&["modes", "housing.toml", "--set", set], &words[..]].concat();
         let output = plummer(&folder, &words);
-        assert_eq!(
-            output.status.code(),
-            Some(code),
-            "{set:?}: {}",
-            errors(&output)
-        );
+        assert_eq!(output.status.code(), Some(0), "{set}: {}", errors(&output));
     }
-    let explained = plummer(
-        &folder,
-        &["run", "housing.toml", "--explain", "--threads", "1"],
-    );
-    assert_eq!(explained.status.code(), Some(0), "{}", errors(&explained));
 }
 
 /// Half a split housing, its bore along x and away from the origin, in a mesh whose nodes are off by 0.1 %.

@@ -324,10 +324,10 @@ fn section_origin(found: &Found<'_>) -> String {
     } else {
         "down to the groove's bottom: its shoulders are not published"
     };
-    let scaled = if (ring.scale - 1.0).abs() < 1e-6 {
-        String::new()
-    } else {
-        format!(", scaled by {} to the bore", number(ring.scale, FEW))
+    let scale = number(ring.scale, FEW);
+    let scaled = match scale.as_str() {
+        "1" => String::new(),
+        scale => format!(", scaled by {scale} to the bore"),
     };
     format!(
         "catalogue: the outer ring of {}, {shape}{scaled} (m^2, m^4, m)",
