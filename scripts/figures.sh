@@ -62,7 +62,7 @@ report() {
     run_up
     for browser in chromium chromium-browser google-chrome; do
         command -v $browser >/dev/null 2>&1 || continue
-        $browser --headless --no-sandbox --hide-scrollbars --window-size=1060,1250 \
+        $browser --headless --no-sandbox --hide-scrollbars --window-size=1060,1180 \
             --screenshot="$PWD/docs/figures/report.png" "file://$PWD/out/run-up/outer-verdict/report.html"
         return
     done

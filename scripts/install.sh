@@ -20,7 +20,7 @@ else
 fi
 
 echo "installing: $*"
-# A list of words.
+# Empty, or a list of words.
 # shellcheck disable=SC2086
 {
     $as_root apt-get update
