@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::blocks::{self, Numbers, SectionView};
 use super::content::{Headline, Report, TableFiles};
 use super::document::{Document, css_string};
+use super::number::{pretty_unit, raised_powers};
 use super::{ReportError, shapes};
 
 const TEMPLATE: &str = include_str!("templates/report.html");
@@ -96,6 +97,8 @@ impl Report {
             }),
         };
         let mut environment = Environment::new();
+        environment.add_filter("unit", |unit: String| pretty_unit(&unit));
+        environment.add_filter("powers", |text: String| raised_powers(&text));
         environment.set_undefined_behavior(UndefinedBehavior::Strict);
         let syntax = SyntaxConfig::builder().trim_blocks(true).build()?;
         environment.set_syntax(syntax);

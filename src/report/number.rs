@@ -83,7 +83,12 @@ fn raised(c: char) -> char {
 /// A unit as it is printed: "m/s^2" becomes "m/s²", "kg*m" becomes "kg·m"; powers with a decimal point stay
 /// ("N/m^1.5").
 pub fn pretty_unit(unit: &str) -> String {
-    let mut parts = unit.split('^');
+    raised_powers(unit).replace('*', "·")
+}
+
+/// Text with its powers as they are printed: "340 m/s^2" becomes "340 m/s²"; those with a decimal point stay.
+pub(super) fn raised_powers(text: &str) -> String {
+    let mut parts = text.split('^');
     let mut out = parts.next().unwrap_or("").to_owned();
     for part in parts {
         let end = part
@@ -98,7 +103,7 @@ pub fn pretty_unit(unit: &str) -> String {
         }
         out.push_str(rest);
     }
-    out.replace('*', "·")
+    out
 }
 
 /// By what an axis' values are divided, and how its unit is written then.

@@ -37,7 +37,7 @@ pub enum DraftError {
     },
     /// A bearing that does not sit in the bore.
     #[error(
-        "bearing {bearing}: found an outer diameter of {outer_mm} mm, expected that of the bore \"{group}\", {bore_mm:.4} mm, within 1 %"
+        "bearing {bearing}: found an outer diameter of {outer_mm:.4} mm, expected that of the bore \"{group}\", {bore_mm:.4} mm, within 1 %"
     )]
     BearingSize {
         /// Its designation.
