@@ -1,7 +1,7 @@
 #!/bin/sh
 # Figures of the documents, into docs/figures: those of Tadina & Boltezar (2011), 9 to 16, by four cases, into paper; of the tutorials, into
 # path and run-up; and the picture of a report in README (which needs Chromium). `make figures` calls it.
-#   PLUMMER=path/to/plummer sh scripts/figures.sh [paper] [path] [run-up] [report]
+#   PLUMMER=path/to/plummer sh scripts/figures.sh [paper] [path] [run-up] [report] [verification]
 set -eu
 cd "$(dirname "$0")/.."
 plummer=${PLUMMER:-target/release/plummer}
@@ -69,13 +69,20 @@ report() {
     echo "no Chromium: docs/figures/report.png is left as it is" >&2
 }
 
-[ $# -gt 0 ] || set -- paper path report
+# The program's verification report, which the book has as a page of its own.
+verification() {
+    "$plummer" verify --out out/verification --force
+    cp out/verification/report.html docs/verification-report.html
+}
+
+[ $# -gt 0 ] || set -- paper path report verification
 for what in "$@"; do
     case "$what" in
         paper) paper ;;
         path) path ;;
         run-up) run_up ;;
         report) report ;;
-        *) echo "no such figures: $what (paper, path, run-up, report)" >&2; exit 2 ;;
+        verification) verification ;;
+        *) echo "no such figures: $what (paper, path, run-up, report, verification)" >&2; exit 2 ;;
     esac
 done
