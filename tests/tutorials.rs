@@ -131,9 +131,7 @@ fn run(page: &str) {
     for step in steps {
         let place = format!("docs/{page}:{}", step.line);
         if let Some(lacking) = step.needs.iter().find(|name| !installed(name, &path)) {
-            println!(
-                "{place}: skipped, {lacking} is not installed (scripts/setup-ci.sh installs it)"
-            );
+            println!("{place}: skipped, {lacking} is not installed");
             continue;
         }
         let all = format!("exec 2>&1\n{}", step.script);
