@@ -264,7 +264,7 @@ fn what_is_wrong_is_exit_code_2() {
         ),
         (
             vec![&ring, "--bearing", "6205", "--length-unit", "mm"],
-            "error: bearing 6205: found an outer diameter of 52 mm, expected that of the bore \"bore\", 12.0000 mm, within 1 %\n\
+            "error: bearing 6205: found an outer diameter of 52.0000 mm, expected that of the bore \"bore\", 12.0000 mm, within 1 %\n\
              help: nearest of the catalogue: 625 (16 mm); is --length-unit right?",
         ),
         (vec!["no.msh"], "error: "),
@@ -310,8 +310,8 @@ fn what_was_found_is_said_on_standard_output() {
     let text = String::from_utf8(output.stdout).unwrap();
     for part in [
         "length_unit = \"mm\": guess: the mesh is 18 x 18 x 0 units wide; the file does not say its unit",
-        "Group \"bore\" is a circle of radius 6 mm about z, all round, its nodes within ",
-        "No other group is a round hole. Round outsides: \"outer\" (radius 9 mm)",
+        "Group \"bore\" is a circle of radius 6 mm about z, all round, its nodes on it but for round-off. No other",
+        "No other group is a round hole. Round outsides: \"outer\" (radius 9 mm) and \"lower\" (radius 9 mm).",
         "No bearing of the catalogue has an outer diameter within 1 % of the bore's, 12 mm: [bearing] is a template.",
         "Parts: \"housing\" of aluminium (a guess).",
         "Nothing is held: no group is named like a support.",

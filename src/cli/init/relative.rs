@@ -59,6 +59,7 @@ mod tests {
             (".", "./b/../meshes/a.msh", "meshes/a.msh"),
             ("cases", "meshes/a.msh", "../meshes/a.msh"),
             ("cases/new", "cases/a.msh", "../a.msh"),
+            ("cases/new/one", "cases/a.msh", "../../a.msh"),
             ("/x/y", "/x/z/a.msh", "../z/a.msh"),
             ("/x/y", "/z/a.msh", "/z/a.msh"),
         ] {
