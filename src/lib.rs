@@ -8,7 +8,8 @@
 //!
 //! The data flows one way:
 //!
-//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside; [`files`] that a user named.
+//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside; [`files`] that a user
+//!    named; [`shell_word`], arguments as they are typed.
 //! 2. [`mesh`]: gmsh import with physical names and a validator.
 //! 3. [`material`], [`element`]: plane and solid elements and the curved beam; [`model`]: properties,
 //!    supports, links, the ring and the tie of the bore to its interpolation.
@@ -60,6 +61,7 @@ pub mod model;
 pub mod reduction;
 pub mod report;
 pub mod series;
+pub mod shell_word;
 pub mod signal;
 pub mod stages;
 pub mod sweep;

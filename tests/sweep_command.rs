@@ -107,7 +107,7 @@ fn what_no_point_can_be_is_an_error_before_anything_is_written() {
         (
             &["--vary", "ring.nods=36"][..],
             2,
-            "unknown key `ring.nods`",
+            "no point of the sweep is a valid case; point 1: --set ring.nods=36: unknown key `ring.nods`",
         ),
         (
             &["--vary", "ring.nodes"],

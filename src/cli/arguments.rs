@@ -9,6 +9,7 @@ use super::progress::Visibility;
 use super::{AnalyzeArguments, InitArguments, SweepArguments};
 use crate::case::Case;
 use crate::chart::Effort;
+use crate::shell_word::shell_word;
 use crate::stages::CHECKPOINT_S;
 use crate::units::LengthUnit;
 
@@ -427,8 +428,13 @@ impl Options {
     /// The command line that computes this again.
     #[must_use]
     pub fn command_line(&self, command: &str, case: &Case) -> String {
-        let mut words = vec![format!("plummer {command} {}", case.source.path.display())];
-        words.extend(self.set.iter().map(|set| format!("--set '{set}'")));
+        let file = shell_word(&case.source.path.to_string_lossy());
+        let mut words = vec![format!("plummer {command} {file}")];
+        words.extend(
+            self.set
+                .iter()
+                .map(|set| format!("--set {}", shell_word(set))),
+        );
         words.join(" ")
     }
 

@@ -4,6 +4,7 @@ use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
+use crate::shell_word::shell_word;
 use crate::stages::{
     CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
     UnfinishedRun, compute_kept_run, explain_run, run_report,
@@ -120,7 +121,7 @@ fn again(case: &Case, arguments: &Arguments) -> String {
     let options = &arguments.options;
     let mut line = options.command_line("run", case);
     if let Some(out) = &options.out {
-        line.push_str(&format!(" --out '{}'", out.display()));
+        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
     }
     line + " --resume"
 }
@@ -195,7 +196,8 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
             Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
             Err(reason) => format!("  no verdict: {reason}"),
         });
-        for (harmonic, (expected, found)) in (1..).zip(&window.outer) {
+        let damaged = !result.scene.outer_race_is_sound();
+        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().filter(|_| damaged)) {
             lines.push(match found {
                 Some((hz, amplitude)) => format!(
                     "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} {}",

@@ -43,7 +43,9 @@ impl Diagnosis {
         let trials = envelopes.judged.len();
         let judged = envelopes.judged.iter().map(|envelope| {
             let spectrum = EnvelopeOrderSpectrum::new(&envelope.series, window, &turns, highest)?;
-            let speed_hz = spectrum.turns / (window.to - window.from);
+            // of the window itself; the spectrum ends at the last whole sample
+            let speed_hz =
+                (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
             Ok(Self {
                 speed_hz,
                 envelope: envelope.name,

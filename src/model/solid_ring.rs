@@ -1,6 +1,7 @@
 //! A ring of rectangular section as a body of elements, in a mesh of its own or added to another.
 
 use super::RingFrame;
+use crate::element::continuum::ContinuumKind;
 use crate::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -16,26 +17,6 @@ const CORNERS: [[usize; 3]; 8] = [
     [2, 2, 2],
     [0, 2, 2],
 ];
-
-/// Edges of Hex20 by their corners, in the order of its middle nodes. Source: gmsh reference manual, section "Node
-/// ordering".
-const HEX_EDGES: [[usize; 2]; 12] = [
-    [0, 1],
-    [0, 3],
-    [0, 4],
-    [1, 2],
-    [1, 5],
-    [2, 3],
-    [2, 6],
-    [3, 7],
-    [4, 5],
-    [4, 7],
-    [5, 6],
-    [6, 7],
-];
-
-/// The same of Quad8.
-const QUAD_EDGES: [[usize; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 
 /// A ring of rectangular section about the axis of a frame, its centroid line in the frame's plane z = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -194,7 +175,11 @@ impl Grid {
             ring.layers(dimension).unwrap_or(1),
         ]) {
             match dimension {
-                3 => connectivity.extend(self.element(origin, &CORNERS, &HEX_EDGES)),
+                3 => connectivity.extend(self.element(
+                    origin,
+                    &CORNERS,
+                    ContinuumKind::Hex20.edges(),
+                )),
                 _ => {
                     // counter-clockwise in the mesh's x and y
                     let corners = [0, 1, 2, 3].map(|corner| {
@@ -204,7 +189,11 @@ impl Grid {
                             false => [across, along, up],
                         }
                     });
-                    connectivity.extend(self.element(origin, &corners, &QUAD_EDGES));
+                    connectivity.extend(self.element(
+                        origin,
+                        &corners,
+                        ContinuumKind::Quad8.edges(),
+                    ));
                 }
             }
         }
@@ -219,7 +208,11 @@ impl Grid {
                 3 => {
                     // outward normal: e_t x e_z
                     let corners = [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]];
-                    connectivity.extend(self.element(origin, &corners, &QUAD_EDGES));
+                    connectivity.extend(self.element(
+                        origin,
+                        &corners,
+                        ContinuumKind::Quad8.edges(),
+                    ));
                 }
                 _ => {
                     let ends = [[0, 0, 0], [0, 2, 0]];

@@ -60,7 +60,9 @@ impl KurtogramBand {
     pub fn edges_hz(&self) -> [f64; 2] {
         // the middle is a half more than a whole number of widths
         let place = (self.centre_hz / self.width_hz - 0.5).round();
-        [place, place + 1.0].map(|edge| edge * self.width_hz)
+        // times all, by their number: 25 000 is 25 000, which three sixths of 50 000 summed up are not
+        let bands = self.bands as f64;
+        [place, place + 1.0].map(|edge| edge * (bands * self.width_hz) / bands)
     }
 }
 
@@ -267,6 +269,19 @@ mod tests {
                 (band.kurtosis - expected).abs() < 1e-10,
                 "{band:?}: {expected}"
             );
+        }
+    }
+
+    #[test]
+    fn edges_are_written_without_rounding_of_their_own() {
+        let found = kurtogram(&series(gaussian(20_000, 1)), 4, 0.99).expect("kurtogram");
+        for level in found.bands.chunk_by(|a, b| a.bands == b.bands) {
+            for (place, band) in level.iter().enumerate() {
+                let edge = |place: usize| place as f64 * 25e3 / band.bands as f64;
+                let written = band.edges_hz().map(|edge| edge.to_string());
+                let expected = [place, place + 1].map(|place| edge(place).to_string());
+                assert_eq!(written, expected);
+            }
         }
     }
 

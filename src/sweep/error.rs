@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::AxisProblem;
+use crate::case::CaseError;
 use crate::exchange::NpzError;
 use crate::stages::StageError;
 
@@ -29,6 +30,14 @@ pub enum SweepError {
     Twice {
         /// The key.
         key: String,
+    },
+    /// No point is a valid case.
+    #[error("no point of the sweep is a valid case; point {number}: {source}")]
+    NoCase {
+        /// The first of them, from 1.
+        number: usize,
+        /// What is wrong with it.
+        source: Box<CaseError>,
     },
     /// There are too many points.
     #[error("the product of all --vary has more than {most} points")]
@@ -108,6 +117,7 @@ impl SweepError {
                     .to_owned(),
             ),
             Self::Twice { .. } => Some("put all its values into one --vary".to_owned()),
+            Self::NoCase { source, .. } => source.help(),
             Self::TooMany { .. } => Some("fewer values, or several sweeps".to_owned()),
             Self::InTheWay { .. } => Some(
                 "go on with --resume, replace it with --force, or choose another folder with --out"

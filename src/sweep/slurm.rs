@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::shell_word::shell_word;
+
 /// The scripts, and how to submit them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SlurmScripts {
@@ -20,7 +22,7 @@ pub struct SlurmScripts {
 #[must_use]
 pub fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize) -> SlurmScripts {
     let [program_word, folder_word] =
-        [program, folder].map(|path| quoted(&path.display().to_string()));
+        [program, folder].map(|path| shell_word(&path.to_string_lossy()));
     let name = folder
         .file_name()
         .map_or_else(|| "sweep".into(), |name| name.to_string_lossy());
@@ -66,11 +68,6 @@ pub fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize
         merge,
         submit,
     }
-}
-
-/// One word for the shell, whatever is in it.
-fn quoted(text: &str) -> String {
-    format!("'{}'", text.replace('\'', r"'\''"))
 }
 
 #[cfg(test)]

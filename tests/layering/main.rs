@@ -31,6 +31,7 @@ const LAYERS: &[(u32, &str, Imports)] = &[
     (0, "units", RowsAbove),
     (0, "lanes", RowsAbove),
     (0, "files", RowsAbove),
+    (0, "shell_word", RowsAbove),
     (1, "linalg", RowsAbove),
     (1, "closed_form", Only(&[])),
     (1, "series", Only(&[])),

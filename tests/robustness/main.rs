@@ -1,5 +1,5 @@
 //! What the program does when things go wrong around it: damaged cases, a full disk, folders that refuse, files that change,
-//! an end at any moment.
+//! files that mean harm, an end at any moment.
 //!
 //! Each test runs the program as a user would. The short forms run with the others; the long ones are ignored unless asked for
 //! (`docs/robustness.md` says what they printed):
@@ -12,6 +12,7 @@ mod mutations;
 #[path = "../program/mod.rs"]
 mod program;
 mod replaced;
+mod untrusted;
 
 use std::process::{Child, ExitStatus};
 use std::thread::sleep;

@@ -18,6 +18,7 @@ use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::EnvelopeBand;
 use crate::diagnosis::{Conclusion, Fault};
 use crate::report::significant;
+use crate::shell_word::shell_word;
 use crate::stages::{WindowAnalysis, analysis_report, compute_analysis};
 
 /// Result file and report belong to this word.
@@ -95,10 +96,11 @@ fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
 
 /// The command line that analyses this again.
 fn command(asked: &AnalyzeArguments) -> String {
-    let mut words = vec![format!("plummer analyze {}", asked.input.display())];
+    let file = |path: &Path| shell_word(&path.to_string_lossy());
+    let mut words = vec![format!("plummer analyze {}", file(&asked.input))];
     let mut push = |key: &str, value: String| words.push(format!("--{key} {value}"));
     for channel in &asked.channel {
-        push("channel", format!("'{channel}'"));
+        push("channel", shell_word(channel));
     }
     let mut number = |key: &str, value: Option<f64>| {
         if let Some(value) = value {
@@ -113,7 +115,7 @@ fn command(asked: &AnalyzeArguments) -> String {
     number("high-pass", asked.high_pass);
     number("geometry-error", asked.geometry_error);
     if let Some(path) = &asked.bearing {
-        push("bearing", path.display().to_string());
+        push("bearing", file(path));
     }
     if let Some(given) = &asked.orders {
         push("orders", given.to_string());

@@ -8,6 +8,7 @@ use crate::exchange::{
     DofTableError, MatrixMarketError, MbdynError, ModeShapesError, NpzError, NpzReadError,
     Op4Error, UffError, VtuError,
 };
+use crate::shell_word::shell_word;
 
 /// Why something was not exported.
 #[derive(Debug, Error)]
@@ -124,7 +125,7 @@ impl ExportError {
         let text = match self {
             Self::NoResults { folder } => format!(
                 "run `plummer modes CASE.toml --out {}` first, or name the case file",
-                folder.display()
+                shell_word(&folder.to_string_lossy())
             ),
             Self::CaseGone { .. } => {
                 "export from the folder in which `plummer modes` was called, or name the case file"

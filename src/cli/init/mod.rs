@@ -17,6 +17,7 @@ pub(in crate::cli) use error::bearing_names;
 use super::inspect::verdict;
 use super::{CliError, Options, Outcome, Verdict, write_atomic};
 use crate::catalogue::CatalogueBearing;
+use crate::shell_word::shell_word;
 use crate::stages::{Draft, DraftRequest};
 
 /// Writes a case file for a mesh, or lists the bearings.
@@ -83,7 +84,7 @@ fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, InitError> {
 
 fn summary(draft: &Draft, case: &Path) -> String {
     let mut lines = draft.findings.clone();
-    let case = case.display();
+    let case = shell_word(&case.to_string_lossy());
     lines.push(format!(
         "Look through the guesses, then: plummer modes {case}"
     ));

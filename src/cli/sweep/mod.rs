@@ -15,6 +15,7 @@ use super::results::{common, stages_s};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interrupt, write_atomic};
 use crate::case::Case;
 use crate::report::Document;
+use crate::shell_word::shell_word;
 use crate::sweep::{
     Axis, Plan, PointState, SweepError, SweepResult, slurm_scripts, sweep_report, write_sweep_npz,
 };
@@ -130,7 +131,7 @@ fn task(
                 "plummer sweep --task {}/{} {}",
                 share.number,
                 share.of,
-                from.display()
+                shell_word(&from.to_string_lossy())
             ),
         });
     }
@@ -167,11 +168,14 @@ fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
         match plan.case_at(&point, &case.source.text) {
             Ok(_) => return Ok(()),
             Err(error) => {
-                first.get_or_insert(error);
+                first.get_or_insert((point.number, error));
             }
         }
     }
-    first.map_or(Ok(()), |error| Err(error.into()))
+    first.map_or(Ok(()), |(number, error)| {
+        let source = Box::new(error);
+        Err(SweepError::NoCase { number, source }.into())
+    })
 }
 
 /// Writes the plan into an empty folder of points.
@@ -338,11 +342,12 @@ fn write_scripts(
     ] {
         written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
     }
+    let submit = folder.path().join(POINTS).join("submit.sh");
     Ok(Outcome {
         summary: format!(
-            "{} points in {tasks} tasks; submit them by: sh '{}'",
+            "{} points in {tasks} tasks; submit them by: sh {}",
             plan.count(),
-            folder.path().join(POINTS).join("submit.sh").display()
+            shell_word(&submit.to_string_lossy())
         ),
         result: json!({ "command": "sweep", "points": plan.count(), "tasks": tasks, "scripts": written }),
         written,
@@ -352,10 +357,16 @@ fn write_scripts(
 
 /// The command line of a plan.
 fn command_line(plan: &Plan) -> String {
-    let mut words = vec![format!("plummer sweep {}", plan.case.display())];
-    words.extend(plan.set.iter().map(|set| format!("--set '{set}'")));
+    let file = shell_word(&plan.case.to_string_lossy());
+    let mut words = vec![format!("plummer sweep {file}")];
+    words.extend(
+        plan.set
+            .iter()
+            .map(|set| format!("--set {}", shell_word(set))),
+    );
     for axis in &plan.axes {
-        words.push(format!("--vary '{}={}'", axis.key, axis.values.join(",")));
+        let values = format!("{}={}", axis.key, axis.values.join(","));
+        words.push(format!("--vary {}", shell_word(&values)));
     }
     if plan.command != crate::sweep::SweptCommand::default() {
         words.push(format!("--command {}", plan.command.name()));
@@ -367,13 +378,13 @@ fn command_line(plan: &Plan) -> String {
 fn again(case: &Case, asked: &SweepArguments, options: &Options) -> String {
     let mut line = options.command_line("sweep", case);
     for vary in &asked.vary {
-        line.push_str(&format!(" --vary '{vary}'"));
+        line.push_str(&format!(" --vary {}", shell_word(vary)));
     }
     if asked.command != crate::sweep::SweptCommand::default() {
         line.push_str(&format!(" --command {}", asked.command.name()));
     }
     if let Some(out) = &options.out {
-        line.push_str(&format!(" --out '{}'", out.display()));
+        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
     }
     line + " --resume"
 }
