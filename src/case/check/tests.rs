@@ -315,6 +315,11 @@ fn nothing_stands_twice() {
         "sensors[0].name=shaft_x",
         "\"shaft_x\" is the name of another signal",
     );
+    full(
+        "sensors[0].name='../P1'",
+        "found \"../P1\", expected letters, digits, `_`, `-`, `.` and spaces: the signal is saved under this name",
+    );
+    holds(FULL, &["sensors[0].name='Датчик 1'"]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::range::{
     ratio, share, zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
+use crate::exchange::is_array_name;
 
 /// Signals that every simulation records under these names.
 const RESERVED_NAMES: [&str; 6] = [
@@ -85,6 +86,10 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
     for (index, sensor) in case.sensors.iter().enumerate() {
         let at = |key: &str| format!("sensors[{index}].{key}");
         not_empty(at("name"), sensor.name.len(), "a name")?;
+        if !is_array_name(&sensor.name) {
+            let name = sensor.name.clone();
+            return Err(Rule::SignalName { name }.at(at("name")));
+        }
         if RESERVED_NAMES.contains(&sensor.name.as_str()) {
             let name = sensor.name.clone();
             return Err(Rule::ReservedName { name }.at(at("name")));

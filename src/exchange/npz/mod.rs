@@ -29,4 +29,4 @@ pub use modes::{read_modes_npz, write_modes_npz};
 pub use read_error::NpzReadError;
 pub use reader::{NpzReader, NpzValues};
 pub use sparse::write_sparse_npz;
-pub use writer::NpzWriter;
+pub use writer::{NpzWriter, is_array_name};

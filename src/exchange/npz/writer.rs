@@ -10,6 +10,18 @@ use super::super::AtomicFile;
 use super::header::header;
 use super::{NpzArray, NpzElement, NpzError};
 
+/// Whether an array may be called this: letters, digits, `_`, `-`, `.` and spaces, at least one of them.
+///
+/// ```
+/// use plummer::exchange::is_array_name;
+/// assert!(is_array_name("P1 oben") && !is_array_name("a/b"));
+/// ```
+#[must_use]
+pub fn is_array_name(name: &str) -> bool {
+    let allowed = |c: char| c.is_alphanumeric() || "_-. ".contains(c);
+    !name.is_empty() && name.chars().all(allowed)
+}
+
 /// Writes an archive under a temporary name (`NAME.npz.partial` beside the target) and renames it in
 /// [`finish`](Self::finish); dropped before that, it removes the temporary file and leaves an earlier archive alone.
 /// The same arrays give the same bytes.
@@ -131,8 +143,7 @@ impl NpzWriter {
 
     /// Begins an entry whose values, `length` bytes, will follow its header.
     fn start(&mut self, name: &str, header: &[u8], length: usize) -> Result<(), NpzError> {
-        let allowed = |c: char| c.is_alphanumeric() || "_-. ".contains(c);
-        if name.is_empty() || !name.chars().all(allowed) {
+        if !is_array_name(name) {
             return Err(NpzError::Name { name: name.into() });
         }
         if self.names.iter().any(|n| n == name) {
