@@ -331,6 +331,12 @@ fn burst_strength_is_said_of_what_is_seen_alone() {
             "{}",
             unseen.why
         );
+        // "1.0", not "1e0"
+        assert!(
+            !["e0", "e-1"].iter().any(|end| unseen.why.contains(end)),
+            "{}",
+            unseen.why
+        );
     }
 }
 

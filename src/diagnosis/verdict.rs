@@ -113,6 +113,15 @@ pub struct FaultVerdict {
     pub why: String,
 }
 
+/// One digit: of small ones as a power of ten.
+fn probability(chance: f64) -> String {
+    if chance >= 0.095 {
+        format!("{chance:.1}")
+    } else {
+        format!("{chance:.0e}")
+    }
+}
+
 /// Conclusion and reason.
 pub(super) fn conclude(verdict: &FaultVerdict, chance: f64) -> (Conclusion, String) {
     let (free, seen) = (verdict.harmonics_free, verdict.harmonics_seen);
@@ -125,7 +134,8 @@ pub(super) fn conclude(verdict: &FaultVerdict, chance: f64) -> (Conclusion, Stri
         format!(", {strength:.1} times as strong as a jump has them")
     };
     let mut found = format!(
-        "{seen} of {free} free harmonics stand out{strong}; noise would do it with probability {chance:.0e}"
+        "{seen} of {free} free harmonics stand out{strong}; noise would do it with probability {}",
+        probability(chance)
     );
     if !verdict.side_lines.is_empty() {
         let all = verdict.side_lines.len();

@@ -147,8 +147,7 @@ fn folders_and_files_may_be_named_as_one_likes() {
         .find(|(path, _)| path.ends_with("results/run-report.html"));
     let page = String::from_utf8(page.unwrap().1.clone()).unwrap();
     assert!(
-        page.contains("rohr (2) ß.msh")
-            && page.contains("plummer run &#x27;mein Fall.toml&#x27;")
+        page.contains("rohr (2) ß.msh") && page.contains("plummer run &#x27;mein Fall.toml&#x27;")
     );
 }
 

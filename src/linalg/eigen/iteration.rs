@@ -5,12 +5,16 @@ use super::super::bound::Quality;
 use super::super::count::count_between;
 use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{Ritz, Search};
+use super::super::memory;
 use super::{EigenProblem, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Gap in which it is counted, relative to the distance from the shift.
 const SMALLEST_GAP: f64 = 1e-5;
+
+/// Bytes of an entry of a large factor.
+const SINGLE: u64 = 4;
 
 /// Pairs, and a count of eigenvalues below a value behind those wanted; `None` if they end in a crowd.
 pub(super) struct Iterated {
@@ -57,7 +61,7 @@ impl EigenProblem {
             Ok((ritz, quality, started.elapsed().as_secs_f64()))
         };
         let (iterated, mut counted) = match early {
-            Some(gap) if rayon::current_num_threads() > 1 => {
+            Some(gap) if rayon::current_num_threads() > 1 && self.has_room() => {
                 let count = || self.count_in(gap, FactorMemory::default());
                 let (iterated, counted) = rayon::join(iteration, count);
                 (iterated?, Some(counted?))
@@ -87,6 +91,12 @@ impl EigenProblem {
             shift,
             counted: counted.map(|(value, counted, _)| (value, counted)),
         })
+    }
+
+    /// Whether a second factor can stand beside the first without filling the memory.
+    fn has_room(&self) -> bool {
+        let bytes = SINGLE * self.symbolic.entries() as u64;
+        memory::available().is_none_or(|free| free / 2 > bytes)
     }
 
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.
