@@ -1,6 +1,8 @@
 //! The one place where values are checked against their ranges and against each other.
 
 mod contact;
+#[cfg(test)]
+mod name_tests;
 mod range;
 mod rule;
 mod structure;
