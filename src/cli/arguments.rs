@@ -147,13 +147,13 @@ Examples: to read it; the pages of all commands, for man
   plummer man --out ~/.local/share/man/man1";
 
 const VERIFY_EXAMPLE: &str = "\
-Examples: every built-in check; the same, and which readings of the paper give its frequencies (minutes)
+Examples: every built-in check of seconds; those of minutes too: orders of convergence, readings of the paper
   plummer verify
   plummer verify --full --out out/readings
 
 Files:
   verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
-  report.html   the same as tables; with --full the charts of the study
+  report.html   the same as tables; with --full the charts of orders and readings
   readings.csv  with --full: every reading and its frequencies (readings-that-fit.csv: those that give all three)";
 
 const SCHEMA_EXAMPLE: &str = "\
@@ -271,7 +271,7 @@ pub enum Command {
     /// Built-in checks against published numbers and closed forms; needs no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
-        /// Also study which readings of the paper give its eigenfrequencies (minutes)
+        /// Also orders of convergence, and which readings of the paper give its eigenfrequencies (minutes)
         #[arg(long)]
         full: bool,
     },

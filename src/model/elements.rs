@@ -162,3 +162,19 @@ pub(crate) fn continuum_kind(kind: ElementKind) -> Option<ContinuumKind> {
         ElementKind::Wedge15 => ContinuumKind::Wedge15,
     })
 }
+
+/// The mesh element whose matrices an element computes.
+pub(crate) fn element_kind(kind: ContinuumKind) -> ElementKind {
+    match kind {
+        ContinuumKind::Tri3 => ElementKind::Tri3,
+        ContinuumKind::Tri6 => ElementKind::Tri6,
+        ContinuumKind::Quad4 => ElementKind::Quad4,
+        ContinuumKind::Quad8 => ElementKind::Quad8,
+        ContinuumKind::Tet4 => ElementKind::Tet4,
+        ContinuumKind::Tet10 => ElementKind::Tet10,
+        ContinuumKind::Hex8 => ElementKind::Hex8,
+        ContinuumKind::Hex20 => ElementKind::Hex20,
+        ContinuumKind::Wedge6 => ElementKind::Wedge6,
+        ContinuumKind::Wedge15 => ElementKind::Wedge15,
+    }
+}

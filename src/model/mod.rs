@@ -19,8 +19,8 @@ mod support;
 mod surface;
 mod tie;
 
-pub(crate) use elements::continuum_kind;
 pub use elements::{HousingElement, HousingElements};
+pub(crate) use elements::{continuum_kind, element_kind};
 pub use error::ModelError;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};

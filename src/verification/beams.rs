@@ -15,8 +15,8 @@ use crate::model::Ring;
 
 /// Title of the section.
 const TITLE: &str = "Curved beams";
-/// Elements of a ring.
-const NODES: usize = 36;
+/// Elements of the rings compared.
+const ELEMENTS: usize = 36;
 
 /// Carries the section out.
 ///
@@ -29,8 +29,8 @@ pub(super) fn beams() -> Result<SectionResult, VerificationError> {
     Ok(SectionResult::of_checks(TITLE, checks))
 }
 
-/// A ring of radius 1 m, 0.1 m wide and 1 / slenderness thick.
-fn ring(slenderness: f64) -> Result<Ring, VerificationError> {
+/// A ring of so many elements, of radius 1 m, 0.1 m wide and 1 / slenderness thick.
+pub(super) fn ring(elements: usize, slenderness: f64) -> Result<Ring, VerificationError> {
     let thickness = 1.0 / slenderness;
     let layer = RingLayer {
         material: Material::new(2e11, 0.3, 7800.0)?,
@@ -42,11 +42,11 @@ fn ring(slenderness: f64) -> Result<Ring, VerificationError> {
         shear_coefficient: 5.0 / 6.0,
     };
     let section = BeamSection::combine(&[layer], Bond::Slip(RadiusRule::Own))?;
-    Ok(Ring::new(NODES, section, RingInterpolation::ExactArc)?)
+    Ok(Ring::new(elements, section, RingInterpolation::ExactArc)?)
 }
 
 fn free_ring() -> Result<Vec<Check>, VerificationError> {
-    let ring = ring(1000.0)?;
+    let ring = ring(ELEMENTS, 1000.0)?;
     let section = ring.section();
     let modes = symmetric_generalised_eigen(ring.stiffness(), ring.mass())?;
     let kind = Kind {
@@ -79,7 +79,7 @@ fn pinch(ring: &Ring) -> Result<[f64; 2], VerificationError> {
 }
 
 fn thin_pinched() -> Result<Vec<Check>, VerificationError> {
-    let ring = ring(1000.0)?;
+    let ring = ring(ELEMENTS, 1000.0)?;
     let unit = ring.section().radius.powi(3) / ring.section().bending;
     let [shortening, widening] = pinch(&ring)?;
     let kind = Kind {
@@ -105,7 +105,7 @@ fn thin_pinched() -> Result<Vec<Check>, VerificationError> {
 }
 
 fn thick_pinched() -> Result<Vec<Check>, VerificationError> {
-    let ring = ring(5.0)?;
+    let ring = ring(ELEMENTS, 5.0)?;
     let section = ring.section();
     let theory = RingSection {
         radius: section.radius,

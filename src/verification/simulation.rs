@@ -17,7 +17,7 @@ use crate::transient::{Method, Schedule, Stepping, integrate};
 /// Title of the section.
 const TITLE: &str = "Simulation";
 /// The scene without impacts, and that with a dent, as they were when the program was built.
-const SMOOTH: &str = include_str!("../../examples/scenes/smooth.toml");
+pub(super) const SMOOTH: &str = include_str!("../../examples/scenes/smooth.toml");
 const IMPACT: &str = include_str!("../../examples/scenes/impact.toml");
 
 /// Carries the section out.
@@ -122,7 +122,7 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
 }
 
 /// An example with keys set.
-fn example(name: &str, text: &str, set: &[&str]) -> Result<Case, VerificationError> {
+pub(super) fn example(name: &str, text: &str, set: &[&str]) -> Result<Case, VerificationError> {
     Ok(Case::from_source(Source {
         path: PathBuf::from(name),
         text: text.to_owned(),

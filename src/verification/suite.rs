@@ -3,13 +3,15 @@
 use super::beams::beams;
 use super::condensation::condensation;
 use super::housings::housings;
+use super::orders::orders;
 use super::readings::Grid;
 use super::signals::signals;
 use super::simulation::simulation;
 use super::{SectionResult, VerificationError, paper_numbers, reading_study};
 use crate::stages::Watch;
 
-/// Carries out every section that takes seconds; with `full` also the study of readings of the source, which takes minutes.
+/// Carries out every section that takes seconds; with `full` also orders of convergence, and the study of
+/// readings of the source, which takes minutes.
 ///
 /// # Errors
 /// [`VerificationError`] if something built in cannot be computed; a number that is wrong is no error.
@@ -29,6 +31,8 @@ pub fn suite(
     sections.push(signals()?);
     sections.push(paper_numbers(watch)?);
     if full {
+        watch.stage("orders");
+        sections.push(orders()?);
         sections.push(reading_study(Grid::full(), watch)?);
     }
     Ok(sections)

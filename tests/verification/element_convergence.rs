@@ -1,17 +1,15 @@
 //! Reference: a manufactured displacement, sum of two plane waves `u = A sin(k.x + phi)`, held by the body force
-//!   `-div sigma = ((lambda + mu) (A.k) k + mu |k|^2 A) sin(k.x + phi)`; for frequencies standing waves in a box
-//!   between frictionless rigid walls, `f = c |k| / (2 pi)`, `k = pi (l/L, m/W, n/H)`, with
-//!   `c_p = sqrt((lambda + 2 mu)/rho)` once and `c_s = sqrt(mu/rho)` as often as the walls leave directions across k.
-//! Goal: order of convergence of every element: p + 1 of the displacement in L2, 2 p of a frequency, p the degree.
+//!   `-div sigma = ((lambda + mu) (A.k) k + mu |k|^2 A) sin(k.x + phi)`.
+//! Goal: order of convergence of every element: p + 1 of the displacement in L2, p the degree; that of frequencies is a built-in
+//!   check (`verification::orders`).
 //! Sketch: unit square or cube under a smooth map that shears and bends its lines; n cells a side, halved each time.
-//! Conditions: displacement prescribed on the whole boundary; walls: the normal displacement is zero.
-//! Parameters: E 2.5, nu 0.3, rho 1.6, plane stress 0.7 thick; about a third of a wave in the body; box 1 x 0.8 x 0.25.
+//! Conditions: displacement prescribed on the whole boundary.
+//! Parameters: E 2.5, nu 0.3, rho 1.6, plane stress 0.7 thick; about a third of a wave in the body.
 //!
 //! Limits: order within 0.1 of theory on the last halving. The map is smooth, so that the elements of finer meshes
 //! become parallelograms: on meshes of trapezoids that keep their shape serendipity elements converge one order
 //! slower (Arnold, Boffi, Falk, Math. Comp. 71 (2002) 909), which the last test shows.
 
-use crate::grids::{BODY, Grid};
 use plummer::assembly::SystemMatrices;
 use plummer::element::continuum::{
     ContinuumKind, Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule,
@@ -19,9 +17,9 @@ use plummer::element::continuum::{
 };
 use plummer::linalg::{DenseMatrix, SparseCholesky, sparse_times_dense, submatrix};
 use plummer::material::Material;
-use plummer::modal::housing_modes;
 use plummer::model::{HousingDescription, HousingModel, HousingPart, PlaneModel};
-use std::f64::consts::{PI, TAU};
+use plummer::verification::{BODY, StructuredMesh};
+use std::f64::consts::PI;
 
 const THICKNESS: f64 = 0.7;
 
@@ -29,7 +27,7 @@ fn material() -> Material {
     Material::new(2.5, 0.3, 1.6).unwrap()
 }
 
-fn model(grid: &Grid, kind: ContinuumKind, formulation: Formulation) -> HousingModel {
+fn model(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -> HousingModel {
     let description = HousingDescription {
         parts: vec![HousingPart {
             group: BODY.to_owned(),
@@ -91,7 +89,7 @@ fn fine_rule(kind: ContinuumKind) -> QuadratureRule {
 
 /// Calls `visit(nodes, shape values, position, weight det J)` at every point of every element.
 fn at_points(
-    grid: &Grid,
+    grid: &StructuredMesh,
     kind: ContinuumKind,
     mut visit: impl FnMut(&[usize], &[f64], [f64; 3], f64),
 ) {
@@ -130,7 +128,7 @@ fn at_points(
 }
 
 /// Error of the displacement in L2, relative to the displacement.
-fn static_error(grid: &Grid, kind: ContinuumKind, formulation: Formulation) -> f64 {
+fn static_error(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -> f64 {
     let d = kind.dimension();
     let thickness = if d == 2 { THICKNESS } else { 1.0 };
     let model = model(grid, kind, formulation);
@@ -224,7 +222,7 @@ fn displacement_order(
     let errors: Vec<f64> = cells
         .iter()
         .map(|&n| {
-            let mut grid = Grid::new(kind, [n; 3], smooth(kind.dimension()));
+            let mut grid = StructuredMesh::new(kind, [n; 3], smooth(kind.dimension()));
             if straight {
                 grid.straighten();
             }
@@ -296,7 +294,7 @@ fn quad8_loses_an_order_on_trapezoids() {
             };
             [x, y + sign * inner / n as f64, 0.0]
         };
-        let mut grid = Grid::new(ContinuumKind::Quad8, [n; 3], alternate);
+        let mut grid = StructuredMesh::new(ContinuumKind::Quad8, [n; 3], alternate);
         grid.straighten();
         static_error(&grid, ContinuumKind::Quad8, PLAIN)
     });
@@ -306,105 +304,4 @@ fn quad8_loses_an_order_on_trapezoids() {
         listed(&errors)
     );
     assert!((orders[1] - 2.0).abs() < 0.15, "{orders:?}");
-}
-
-/// Box of the standing waves, m.
-const BOX: [f64; 3] = [1.0, 0.8, 0.25];
-
-/// Frequencies below `limit` of standing waves in the box, Hz.
-fn standing_waves(limit: f64) -> Vec<f64> {
-    let mu = material().shear_modulus();
-    let density = material().density;
-    let pressure = ((material().lame_lambda() + 2.0 * mu) / density).sqrt();
-    let shear = (mu / density).sqrt();
-    let mut found = Vec::new();
-    for index in 1..9_usize.pow(3) {
-        let count = [index % 9, index / 9 % 9, index / 81];
-        let wave = [0, 1, 2].map(|i| PI * count[i] as f64 / BOX[i]);
-        let k = dot(wave, wave).sqrt();
-        // u_i = A_i sin(k_i x_i) cos cos: without the directions whose sine vanishes, and across k
-        let shear_waves = count.iter().filter(|&&n| n > 0).count() - 1;
-        found.push(pressure * k / TAU);
-        found.extend(std::iter::repeat_n(shear * k / TAU, shear_waves));
-    }
-    found.retain(|&f| f < limit);
-    found.sort_by(f64::total_cmp);
-    found
-}
-
-/// Relative errors of the lowest `count` frequencies in the box.
-fn frequency_errors(
-    kind: ContinuumKind,
-    formulation: Formulation,
-    cells: usize,
-    count: usize,
-) -> Vec<f64> {
-    let grid = Grid::new(kind, [4 * cells, 3 * cells, cells], |x| {
-        [0, 1, 2].map(|i| BOX[i] * x[i])
-    });
-    let model = model(&grid, kind, formulation);
-    let matrices = SystemMatrices::assemble(&model).unwrap();
-    let mut free = model.free_dofs();
-    free.retain(|dof| !grid.is_on_face(dof / 3, dof % 3));
-    let found = housing_modes(&matrices, &free, count)
-        .unwrap()
-        .frequencies_hz;
-    let exact = standing_waves(2.0);
-    found
-        .iter()
-        .zip(&exact)
-        .map(|(found, exact)| found / exact - 1.0)
-        .collect()
-}
-
-/// Modes compared: shear waves, and the pressure waves along the two longer sides.
-const MODES: usize = 4;
-
-/// `within`: how far from theory the last order may be.
-fn frequency_order(kind: ContinuumKind, formulation: Formulation, cells: &[usize], within: f64) {
-    let errors: Vec<Vec<f64>> = cells
-        .iter()
-        .map(|&n| frequency_errors(kind, formulation, n, MODES))
-        .collect();
-    let degree = if kind.edges().is_empty() { 1.0 } else { 2.0 };
-    for mode in 0..MODES {
-        let errors: Vec<f64> = errors.iter().map(|errors| errors[mode]).collect();
-        let orders = orders(cells, &errors);
-        println!(
-            "{} {:?} mode {mode}: cells {cells:?} x (4, 3, 1), errors {}, orders {orders:.3?}",
-            kind.name(),
-            formulation.linear,
-            listed(&errors)
-        );
-        let last = orders[orders.len() - 1];
-        let name = kind.name();
-        assert!(
-            (last - 2.0 * degree).abs() < within,
-            "{name} mode {mode}: order {last}"
-        );
-        let above = errors.iter().all(|&error| error > 0.0);
-        assert!(above, "{name} mode {mode}: from below {errors:?}");
-    }
-}
-
-#[test]
-fn frequencies_of_hex8_plain() {
-    frequency_order(ContinuumKind::Hex8, PLAIN, &[1, 2, 4], 0.1);
-}
-
-/// Not conforming, so that nothing promises the convergence from above; on boxes it is.
-#[test]
-fn frequencies_of_hex8_incompatible() {
-    frequency_order(ContinuumKind::Hex8, INCOMPATIBLE, &[1, 2, 4], 0.1);
-}
-
-#[test]
-fn frequencies_of_hex20() {
-    frequency_order(ContinuumKind::Hex20, PLAIN, &[1, 2, 3], 0.1);
-}
-
-/// Six tetrahedra a cell are coarser along one diagonal: the order still rises, 3.62 and 3.80 for the first mode.
-#[test]
-fn frequencies_of_tet10() {
-    frequency_order(ContinuumKind::Tet10, INCOMPATIBLE, &[1, 2, 3], 0.3);
 }

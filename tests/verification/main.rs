@@ -7,7 +7,6 @@ mod energy;
 mod equilibrium;
 mod faults;
 mod frf;
-mod grids;
 mod impact;
 mod loaded_modes;
 mod modal_runs;

@@ -7,7 +7,6 @@
 //! Conditions: free.
 //! Parameters: E 70 GPa, nu 0.33, rho 2700.
 
-use crate::grids::{BODY, Grid};
 use crate::reference_frequencies::data;
 use plummer::assembly::SystemMatrices;
 use plummer::element::continuum::{ContinuumKind, Formulation, Integration};
@@ -16,6 +15,7 @@ use plummer::mesh::Mesh;
 use plummer::modal::housing_modes;
 use plummer::model::{HousingDescription, HousingModel, HousingPart};
 use plummer::units::LengthUnit;
+use plummer::verification::{BODY, StructuredMesh};
 
 /// The first `count` elastic frequencies of a free body, Hz.
 fn elastic(mesh: &Mesh, group: &str, integration: Integration, count: usize) -> Vec<f64> {
@@ -60,7 +60,7 @@ fn coarse_ring_stays_above_with_both_rules() {
 
 /// First elastic frequencies with four points over those with full integration, less 1.
 fn four_over_full(bulge: f64) -> Vec<f64> {
-    let grid = Grid::new(ContinuumKind::Tet10, [3; 3], |unit| {
+    let grid = StructuredMesh::new(ContinuumKind::Tet10, [3; 3], |unit| {
         let p = unit.map(|x| 2.0 * x - 1.0);
         let flat = p.map(|x| 1.0 - x * x);
         let swell = [flat[1] * flat[2], flat[2] * flat[0], flat[0] * flat[1]];

@@ -1,24 +1,26 @@
 //! Structured meshes of the unit square and cube, of every continuum element, made in code.
 
-use plummer::element::continuum::ContinuumKind;
-use plummer::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
-};
+use crate::element::continuum::ContinuumKind;
+use crate::mesh::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use crate::model::element_kind;
 
 /// The group of all elements.
 pub const BODY: &str = "body";
 
 /// A grid of cells, each one hexahedron, two wedges or six tetrahedra (in the plane one quadrilateral or two
-/// triangles), with a node at every half step that the kind uses.
-pub struct Grid {
+/// triangles), with a node at every half step; those that the kind does not use hang on nothing.
+#[derive(Debug, Clone)]
+pub struct StructuredMesh {
+    /// Nodes row by row along x, then y, then z, m; one block of elements, all in the group [`BODY`].
     pub mesh: Mesh,
+    kind: ContinuumKind,
     /// Half steps along each axis; the third is 0 in the plane.
-    pub half_steps: [usize; 3],
+    half_steps: [usize; 3],
 }
 
-impl Grid {
-    /// `cells` along each axis; `place` maps the unit square or cube to the body, m. Every node, middle ones too,
-    /// is placed by it, so that edges curve as the map does.
+impl StructuredMesh {
+    /// `cells` along each axis, 1 or more (the third is not used in the plane); `place` maps the unit square or cube to the
+    /// body, m. Every node, middle ones too, is placed by it, so that edges curve as the map does.
     pub fn new(
         kind: ContinuumKind,
         cells: [usize; 3],
@@ -50,17 +52,20 @@ impl Grid {
         }
         Self {
             mesh: mesh(kind, nodes, connectivity),
+            kind,
             half_steps,
         }
     }
 
     /// Half steps of a node from the origin, along each axis.
+    #[must_use]
     pub fn steps(&self, node: usize) -> [usize; 3] {
         let [a, b, _] = self.half_steps.map(|n| n + 1);
         [node % a, node / a % b, node / a / b]
     }
 
     /// Whether a node lies on one of the two faces across an axis.
+    #[must_use]
     pub fn is_on_face(&self, node: usize, axis: usize) -> bool {
         let step = self.steps(node)[axis];
         step == 0 || step == self.half_steps[axis]
@@ -69,7 +74,7 @@ impl Grid {
     /// Puts the middle nodes on the straight line between the corners.
     pub fn straighten(&mut self) {
         let (block, nodes) = (&self.mesh.blocks[0], &mut self.mesh.nodes);
-        let kind = continuum(block.kind);
+        let kind = self.kind;
         for element in block.elements() {
             for (&[a, b], &middle) in kind.edges().iter().zip(&element[kind.corners()..]) {
                 let ends = [nodes[element[a]], nodes[element[b]]];
@@ -152,9 +157,7 @@ fn mesh(kind: ContinuumKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> 
                 .collect(),
         }],
         blocks: vec![ElementBlock {
-            kind: ElementKind::all()
-                .find(|of_mesh| of_mesh.name() == kind.name())
-                .unwrap(),
+            kind: element_kind(kind),
             tags: (1..=count as u64).collect(),
             connectivity,
             entity,
@@ -166,11 +169,4 @@ fn mesh(kind: ContinuumKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> 
         },
         source: "structured grid".into(),
     }
-}
-
-fn continuum(kind: ElementKind) -> ContinuumKind {
-    ContinuumKind::ALL
-        .into_iter()
-        .find(|of_element| of_element.name() == kind.name())
-        .unwrap()
 }
