@@ -81,7 +81,13 @@ impl AxisView {
 
     fn new(axis: &Axis, [low, high]: [f64; 2]) -> Self {
         let log = axis.scale == Scale::Log;
-        let largest = if log { 1.0 } else { low.abs().max(high.abs()) };
+        // powers of ten need no prefix; a logarithmic axis of less than a decade has none
+        let powers = log && high >= 10.0 * low;
+        let largest = if powers {
+            1.0
+        } else {
+            low.abs().max(high.abs())
+        };
         let DisplayUnit { factor, text } = display_unit(&axis.unit, largest);
         let title = if text.is_empty() {
             axis.label.clone()
@@ -353,6 +359,20 @@ mod tests {
         );
         let layout = Layout::of(&plot).expect("a valid plot");
         assert!(layout.y.high < 3.0);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_of_less_than_a_decade_gets_a_prefix() {
+        let of = |sizes: [f64; 2]| {
+            let curve = Curve::new("a", Abscissa::Points(sizes.to_vec()), vec![1.0, 2.0]);
+            let axis = Axis::new("Step", "s").log();
+            let plot = Plot::new("Steps", axis, Axis::new("e", "")).curve(curve);
+            Layout::of(&plot).expect("a valid plot").x
+        };
+        let narrow = of([8e-8, 3e-7]);
+        assert_eq!(narrow.title, "Step [ns]");
+        assert!((narrow.low - 80.0).abs() < 1e-9 && (narrow.high - 300.0).abs() < 1e-9);
+        assert_eq!(of([8e-8, 3e-6]).title, "Step [s]");
     }
 
     #[test]

@@ -16,7 +16,7 @@ const TITLE: &str = "Orders of convergence";
 
 /// Errors of one quantity over ever finer sizes.
 struct Series {
-    /// What it is.
+    /// What it is; what stands before a comma is shared by series of a kind.
     name: String,
     /// Sizes of elements (as a part of the body's) or of steps, s; falling.
     sizes: Vec<f64>,
@@ -61,6 +61,10 @@ pub(super) fn orders() -> Result<SectionResult, VerificationError> {
 }
 
 impl Series {
+    fn kind(&self) -> &str {
+        self.name.split(',').next().unwrap_or_default()
+    }
+
     /// Order of convergence from each size to the next.
     fn orders(&self) -> Vec<f64> {
         let finer = self.sizes.windows(2).map(|pair| pair[0] / pair[1]);
@@ -118,11 +122,19 @@ impl Family {
         let [size, unit] = self.size;
         let x = Axis::new(size, unit).log();
         let mut plot = Plot::new(self.title, x, Axis::new("Relative error", "").log());
+        let mut kinds: Vec<&str> = Vec::new();
         for series in &self.series {
+            let kind = series.kind();
+            let known = kinds.iter().position(|of| *of == kind);
+            let colour = known.unwrap_or(kinds.len());
+            if known.is_none() {
+                kinds.push(kind);
+            }
+            // one line of the legend a kind
+            let name = if known.is_none() { kind } else { "" };
             let errors = series.errors.iter().map(|error| error.abs()).collect();
             let sizes = Abscissa::Points(series.sizes.clone());
-            // a line between the points shows the order as its slope
-            plot = plot.curve(Curve::new(&series.name, sizes, errors));
+            plot = plot.curve(Curve::new(name, sizes, errors).colour(colour));
         }
         plot.caption(self.assumptions)
     }

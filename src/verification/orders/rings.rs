@@ -25,7 +25,7 @@ pub(super) fn rings() -> Result<Family, VerificationError> {
         let frequency = |values: &Vec<f64>| values[2 * waves - 1].sqrt();
         let pairs = squared.windows(2);
         Series {
-            name: format!("thick ring, {waves} waves"),
+            name: format!("thick ring with {waves} waves"),
             sizes: (0..RINGS - 1)
                 .map(|halving| TAU / (ELEMENTS << halving) as f64)
                 .collect(),
