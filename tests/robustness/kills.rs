@@ -3,7 +3,7 @@
 //! Sketch: every command that writes files is killed at a random moment of the time that it takes; then each file that does not end in
 //!   `.partial` is compared with the whole run's: byte for byte, or, where times of day and of computing stand in it, by its form.
 //! Conditions: SIGKILL; cases that take some tenths of a second.
-//! Parameters: one kill a command with the other tests, 200 in all in the long form.
+//! Parameters: one kill of some commands with the other tests, 200 of each of the 16 in the long form.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -309,8 +309,7 @@ fn a_kill_leaves_no_half_written_file() {
 
 #[test]
 #[ignore = "long"]
-fn two_hundred_kills() {
-    let each = rounds(200).div_ceil(15);
-    let killed = torture("kills-long", each, 99, |_| true);
+fn two_hundred_kills_of_each_command() {
+    let killed = torture("kills-long", rounds(200), 99, |_| true);
     println!("{killed} kills before the end");
 }
