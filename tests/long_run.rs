@@ -79,9 +79,10 @@ fn told(output: Output) -> (i32, String) {
 
 #[test]
 fn a_run_that_is_killed_again_and_again_comes_to_the_same_bytes() {
-    let (whole, killed) = (Run::new("never-killed", "0.03"), Run::new("killed", "0.03"));
+    let (whole, killed) = (Run::new("never-killed", "0.06"), Run::new("killed", "0.06"));
     assert_eq!(whole.ended(&[]), (0, String::new()));
     assert!(!whole.partial().exists());
+    let signals = |run: &Run| fs::read(run.folder.join("signals.npz")).unwrap();
     let mut kills = 0;
     // at odd moments after a first checkpoint, ms
     for (number, pause) in [3, 41, 0, 67, 23, 11].into_iter().enumerate() {
@@ -91,17 +92,17 @@ fn a_run_that_is_killed_again_and_again_comes_to_the_same_bytes() {
         kills += u32::from(child.try_wait().unwrap().is_none());
         child.kill().unwrap();
         let _ = child.wait().unwrap();
-        if killed.folder.join("run.json").exists() {
+        // written whole at the end, before run.json
+        if killed.folder.join("signals.npz").exists() {
+            assert!(signals(&whole) == signals(&killed), "half written");
             break;
         }
-        assert!(!killed.folder.join("signals.npz").exists());
     }
     println!("killed {kills} times");
     assert!(kills >= 2, "{kills}");
     if killed.partial().exists() {
         assert_eq!(killed.ended(&["--resume"]), (0, String::new()));
     }
-    let signals = |run: &Run| fs::read(run.folder.join("signals.npz")).unwrap();
     assert!(signals(&whole) == signals(&killed), "other bytes");
     assert!(!killed.partial().exists());
     let (code, text) = killed.ended(&["--resume"]);

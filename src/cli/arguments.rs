@@ -146,6 +146,12 @@ Examples: to read it; the pages of all commands, for man
   plummer man | man -l -
   plummer man --out ~/.local/share/man/man1";
 
+const REPORT_EXAMPLE: &str = "\
+Example: the pages of results that an earlier version computed; the results stay as they are
+  plummer report out/outer-dent
+
+Nothing is computed: the content of each page lies beside it as report.cbor.gz (CBOR, packed by gzip).";
+
 const VERIFY_EXAMPLE: &str = "\
 Examples: every built-in check of seconds; those of minutes too: orders of convergence, readings of the paper
   plummer verify
@@ -268,6 +274,13 @@ pub enum Command {
     /// The manual page, on standard output; with --out a page a command
     #[command(after_help = MAN_EXAMPLE)]
     Man,
+    /// The pages of earlier results again, with their tables and figures, as this version draws them
+    #[command(after_help = REPORT_EXAMPLE)]
+    Report {
+        /// Folder with the results of one or more commands
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
     /// Built-in checks against published numbers and closed forms; needs no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
@@ -350,6 +363,7 @@ impl Command {
             Self::Man => "man",
             Self::Init(_) => "init",
             Self::Export { .. } => "export",
+            Self::Report { .. } => "report",
             Self::Verify { .. } => "verify",
             Self::Schema => "schema",
         }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::output::printable;
-use super::{AnalyzeError, ExportError, InitError};
+use super::{AnalyzeError, ExportError, InitError, RecordError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
 use crate::stages::StageError;
@@ -91,6 +91,9 @@ pub enum CliError {
     /// No case file could be made.
     #[error(transparent)]
     Init(Box<InitError>),
+    /// There is no report to draw again.
+    #[error(transparent)]
+    Record(#[from] RecordError),
     /// A chart could not be made.
     #[error(transparent)]
     Chart(Box<ChartError>),
@@ -146,6 +149,7 @@ impl CliError {
             Self::Case(_)
             | Self::Analyze(_)
             | Self::Init(_)
+            | Self::Record(_)
             | Self::ResultExists { .. }
             | Self::Folder { .. }
             | Self::Finished { .. }
@@ -176,6 +180,7 @@ impl CliError {
             Self::Export(error) => error.help(),
             Self::Analyze(error) => error.help(),
             Self::Init(error) => error.help(),
+            Self::Record(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::Sweep(error) => error.help(),
             Self::ResultExists { .. } => {
@@ -211,7 +216,8 @@ mod tests {
     use std::path::PathBuf;
 
     use super::{
-        AnalyzeError, ChartError, CliError, ExportError, InitError, SweepError, VerificationError,
+        AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, SweepError,
+        VerificationError,
     };
     use crate::case::Case;
     use crate::exchange::DofTableError;
@@ -339,6 +345,12 @@ mod tests {
                 }),
                 2,
                 "error: a.toml exists\nhelp: replace it with --force, or name another file with --out\n",
+            ),
+            (
+                CliError::from(RecordError::None { folder: path() }),
+                2,
+                "error: out/a has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page\n\
+                 help: name the folder with the results of a command\n",
             ),
             (
                 CliError::from(AnalyzeError::NoSpeed),

@@ -18,6 +18,7 @@ mod modes;
 mod outcome;
 mod output;
 mod progress;
+mod report;
 mod report_files;
 mod results;
 mod run;
@@ -40,6 +41,7 @@ pub use init::{InitArguments, InitError};
 pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
+pub use report::RecordError;
 pub use sweep::{Share, SweepArguments};
 
 use crate::case::{Case, Purpose};
@@ -87,6 +89,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Sweep(asked) => sweep::sweep(asked, options),
+        Command::Report { folder } => report::report(folder, options),
         Command::Verify { full } => verify::verify(*full, options),
         Command::Schema => return emit(to, &format!("{:#}", Case::schema())),
         Command::Init(asked) => init::init(asked, options),

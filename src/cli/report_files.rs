@@ -12,6 +12,10 @@ use crate::stages::{MeshDigest, StageError, mesh_digests};
 const TABLES: &str = "tables";
 const FIGURES: &str = "figures";
 
+/// Endings of a page and of its content.
+const PAGE: &str = ".html";
+const RECORD: &str = ".cbor.gz";
+
 /// What was written of a report, and what it rests on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct ReportFiles {
@@ -24,7 +28,7 @@ pub(super) struct ReportFiles {
 }
 
 impl ReportFiles {
-    /// Writes the report of a command, each of its tables as `tables/COMMAND-NUMBER-CAPTION.csv` and each of its plots as
+    /// Writes the report of a command, its content, each of its tables as `tables/COMMAND-NUMBER-CAPTION.csv` and each of its plots as
     /// `figures/COMMAND-NUMBER-TITLE.svg`; the meshes go into the report's head. Those of an earlier report of this command are removed.
     ///
     /// # Errors
@@ -56,7 +60,23 @@ impl ReportFiles {
         command: &str,
         report: Report,
     ) -> Result<Self, CliError> {
+        let page = folder.report_name(command);
         let report = report.tables_in(TABLES, command);
+        let record = report.to_record().map_err(StageError::from)?;
+        folder.write(&record_of(&page), &record)?;
+        Self::draw(folder, &page, command, &report)
+    }
+
+    /// Draws a report: its page under this name, its tables and figures beside it.
+    ///
+    /// # Errors
+    /// [`CliError`] when its contents do not fit together or a file cannot be written.
+    pub(super) fn draw(
+        folder: &OutputFolder,
+        page: &str,
+        command: &str,
+        report: &Report,
+    ) -> Result<Self, CliError> {
         let html = report.to_html().map_err(StageError::from)?;
         let figures = report.svg_files(command).map_err(StageError::from)?;
         let tables = report.csv_files();
@@ -83,13 +103,24 @@ impl ReportFiles {
             }
             paths.push(path);
         }
-        paths.push(folder.write(&folder.report_name(command), html.as_bytes())?);
+        paths.push(folder.write(page, html.as_bytes())?);
         Ok(Self {
             meshes: Vec::new(),
             tables: named,
             paths,
         })
     }
+}
+
+/// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
+fn record_of(page: &str) -> String {
+    format!("{}{RECORD}", page.strip_suffix(PAGE).unwrap_or(page))
+}
+
+/// Name of the page whose content a file has, if it is one.
+pub(super) fn page_of(record: &str) -> Option<String> {
+    let page = record.strip_suffix(RECORD)?;
+    (page == "report" || page.ends_with("-report")).then(|| format!("{page}{PAGE}"))
 }
 
 /// Checks that the meshes are still those that were read: the report names their content.
@@ -141,7 +172,22 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{MeshDigest, StageError, is_of_report, unchanged};
+    use super::{MeshDigest, StageError, is_of_report, page_of, record_of, unchanged};
+
+    #[test]
+    fn a_page_and_its_content_know_each_other() {
+        for page in ["report.html", "modes-report.html"] {
+            assert_eq!(page_of(&record_of(page)).as_deref(), Some(page));
+        }
+        for other in [
+            "report.html",
+            "notes.cbor.gz",
+            "reports.cbor.gz",
+            ".cbor.gz",
+        ] {
+            assert_eq!(page_of(other), None, "{other}");
+        }
+    }
 
     #[test]
     fn a_mesh_that_changed_is_named() {

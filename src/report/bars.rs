@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
+
 use super::ReportError;
 use super::number::{display_unit, significant};
 use super::plot::Axis;
@@ -23,7 +25,7 @@ const WIDEST: f64 = 44.0;
 const LABEL: [f64; 2] = [12.0, 7.0];
 
 /// Bars of one colour.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BarSeries {
     /// Name in the legend.
     pub name: String,
@@ -32,7 +34,7 @@ pub struct BarSeries {
 }
 
 /// A bar chart: a group of bars, one of each series, over each label.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Bars {
     /// What it shows.
     pub title: String,

@@ -1,11 +1,11 @@
 //! What a report consists of, as plain data.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, StepMap, Table};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// As it should be.
@@ -35,7 +35,7 @@ impl Verdict {
 /// assert!(html.contains("Ring on 36 springs."));
 /// # Ok::<(), plummer::report::ReportError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Title of the page.
     pub title: String,
@@ -64,7 +64,7 @@ pub struct Report {
 }
 
 /// The report's tables as files of their own.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TableFiles {
     /// Their folder, seen from the report.
     pub folder: String,
@@ -73,7 +73,7 @@ pub struct TableFiles {
 }
 
 /// One of the figures on top of a report.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Headline {
     /// What it is.
     pub label: String,
@@ -84,7 +84,7 @@ pub struct Headline {
 }
 
 /// A numbered part of a report.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Title of the section.
     pub title: String,
@@ -93,7 +93,7 @@ pub struct Section {
 }
 
 /// A piece of a section.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Block {
     /// Free text.
     Paragraph(String),
@@ -118,7 +118,7 @@ pub enum Block {
 }
 
 /// A property of the model: name, value, and where it comes from or what it means.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fact {
     /// What it is.
     pub name: String,

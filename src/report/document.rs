@@ -1,9 +1,9 @@
 //! The head of a document that is handed on: where the results come from, and who answers for them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A mesh file that the results rest on.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MeshFile {
     /// Its path as the case names it.
     pub path: String,
@@ -18,7 +18,7 @@ pub struct MeshFile {
 /// let head = Document::new().case("pedestal.toml").mesh("pedestal.msh", None).signed_by("Prepared by");
 /// assert_eq!(head.signatures, ["Prepared by"]);
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Document {
     /// Case file.
     pub case: Option<String>,

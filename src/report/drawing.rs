@@ -1,8 +1,10 @@
 //! A plane drawing of the model as plain data. Lengths in m, x to the right, y up, angles in rad counted
 //! counter-clockwise from x.
 
+use serde::{Deserialize, Serialize};
+
 /// A point in the plane of the bearing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// To the right, m.
     pub x: f64,
@@ -11,7 +13,7 @@ pub struct Point {
 }
 
 /// A circle: a race, a ball, the shaft.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Circle {
     /// Its centre.
     pub centre: Point,
@@ -20,7 +22,7 @@ pub struct Circle {
 }
 
 /// The finite-element ring.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ring {
     /// Its centre line.
     pub circle: Circle,
@@ -29,7 +31,7 @@ pub struct Ring {
 }
 
 /// A support spring: from its attachment towards the ground.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// Where it holds the model.
     pub at: Point,
@@ -38,7 +40,7 @@ pub struct Spring {
 }
 
 /// A dent on a race.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Dent {
     /// The race it lies on.
     pub race: Circle,
@@ -51,7 +53,7 @@ pub struct Dent {
 }
 
 /// A sensor: an arrow at its place, a ring and a dot if it measures across the drawing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sensor {
     /// Its name.
     pub name: String,
@@ -62,7 +64,7 @@ pub struct Sensor {
 }
 
 /// A drawing of the model. Whatever is empty is left out, of the key too.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Drawing {
     /// What it shows.
     pub title: String,

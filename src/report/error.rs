@@ -162,6 +162,18 @@ pub enum ReportError {
         /// What the library said.
         source: serde_json::Error,
     },
+    /// The content of a report cannot be put into a file.
+    #[error("the report's content cannot be kept: {reason}")]
+    Unrecorded {
+        /// What the library said.
+        reason: String,
+    },
+    /// A file is not the content of a report, or of one that another version of the program has made.
+    #[error("not the content of a report, or not one of this version's: {reason}")]
+    Record {
+        /// What the library said.
+        reason: String,
+    },
     /// The page template failed.
     #[error("page template failed: {0}")]
     Template(#[from] minijinja::Error),

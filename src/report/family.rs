@@ -1,6 +1,6 @@
 //! Lines of a plot that belong together, for the reader to mark: a fundamental with its harmonics and side lines.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::layout::AxisView;
 use super::plot::Plot;
@@ -8,7 +8,7 @@ use super::svg_plot::COLOURS;
 
 /// A fundamental whose harmonics k f, k = 1, 2, ..., the reader can mark in the page, read and move together. Drawings and
 /// prints without a script do not show it; fixed lines are [`Marker`](super::Marker)s.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Family {
     /// What it belongs to ("outer race").
     pub name: String,
@@ -21,7 +21,7 @@ pub struct Family {
 }
 
 /// Lines beside the harmonics of a family.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sides {
     /// Whose spacing it is ("shaft").
     pub name: String,

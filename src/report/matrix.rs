@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
+
 use super::ReportError;
 use super::number::fixed;
 use super::svg::escape;
@@ -20,7 +22,7 @@ const LONGEST: usize = 24;
 const TITLE: f64 = 24.0;
 
 /// A matrix in colours.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Matrix {
     /// What it shows.
     pub title: String,

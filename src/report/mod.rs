@@ -4,7 +4,8 @@
 //! [`Drawing`]s, [`Bars`], [`Spans`], [`Matrix`], [`StepMap`] and [`ModeShapeView`]s); [`Report::to_html`] checks it at one door and gives the
 //! file as a string. Plots are drawn as SVG, so that they print and show without scripts, and carry their data (thinned
 //! such that spikes survive) for a small script to zoom in and to put cursors on, harmonic ones too ([`Family`]). Mode shapes are still pictures in print and without WebGL;
-//! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped.
+//! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped. A report's content is kept
+//! as a file too ([`Report::to_record`]), so that a later version can draw it again.
 //!
 //! **Limitations**: plots have one x axis and one y axis; drawings are plane; mode shapes are real.
 
@@ -25,6 +26,7 @@ mod number;
 mod plain;
 mod plot;
 mod raster;
+mod record;
 mod shapes;
 mod spans;
 mod standalone;

@@ -1,5 +1,7 @@
 //! Plots as plain data: curves on two axes, with vertical lines.
 
+use serde::{Deserialize, Serialize};
+
 use super::decimate::Thinner;
 use super::family::Family;
 use super::raster::Raster;
@@ -7,7 +9,7 @@ use crate::series::TimeSeries;
 use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
 
 /// How values are spread over an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Evenly.
     Linear,
@@ -16,7 +18,7 @@ pub enum Scale {
 }
 
 /// One axis of a plot.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What it shows ("Frequency").
     pub label: String,
@@ -29,7 +31,7 @@ pub struct Axis {
 }
 
 /// Abscissas of a curve, in the x axis' unit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Abscissa {
     /// start + k step; step > 0.
     Even {
@@ -43,7 +45,7 @@ pub enum Abscissa {
 }
 
 /// How a curve is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CurveStyle {
     /// A full line.
     Line,
@@ -54,7 +56,7 @@ pub enum CurveStyle {
 }
 
 /// What stands at each point of a curve drawn as points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Symbol {
     /// A filled circle.
     #[default]
@@ -72,7 +74,7 @@ pub enum Symbol {
 }
 
 /// A curve. Ordinates that are not finite are gaps.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Name in the legend; one without a name is not in it.
     pub name: String,
@@ -91,7 +93,7 @@ pub struct Curve {
 }
 
 /// A vertical line with a label, such as an expected defect frequency.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
     /// Where, in the x axis' unit.
     pub at: f64,
@@ -102,7 +104,7 @@ pub struct Marker {
 }
 
 /// A horizontal line with a label, such as a limit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// Where, in the y axis' unit.
     pub at: f64,
@@ -111,7 +113,7 @@ pub struct Level {
 }
 
 /// A plot.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
     /// What it shows.
     pub title: String,

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde::{Deserialize, Serialize};
 
 use super::ReportError;
 use super::layout::{AxisView, Layout};
@@ -33,7 +34,7 @@ const COLOURS: [[u8; 3]; 9] = [
 ];
 
 /// Values on a grid, even on both axes of the plot: on a logarithmic one in the logarithm.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Raster {
     /// Left and right edge of the grid, in the x axis' unit.
     pub x: [f64; 2],

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
+
 use super::ReportError;
 use super::number::significant;
 use super::svg::escape;
@@ -22,7 +24,7 @@ const HEADROOM: f64 = 0.06;
 const CHARACTER: f64 = 5.6;
 
 /// One value that a cause can take, and where the quantity then is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SpanPoint {
     /// The value, in a word or two.
     pub label: String,
@@ -31,7 +33,7 @@ pub struct SpanPoint {
 }
 
 /// A cause with its values.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SpanRow {
     /// The cause.
     pub name: String,
@@ -41,7 +43,7 @@ pub struct SpanRow {
 
 /// A chart with a row for each cause: a bar from the lowest to the highest place of the quantity, a dot for each value, and a
 /// line through all rows where the quantity is without a change.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Spans {
     /// What it shows.
     pub title: String,

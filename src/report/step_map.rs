@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
+
 use super::ReportError;
 use super::number::significant;
 use super::svg::escape;
@@ -21,7 +23,7 @@ const ROW: f64 = 16.0;
 const SPACE: f64 = 2.0;
 
 /// What a method does in a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StepState {
     /// Small motions do not grow.
@@ -54,7 +56,7 @@ impl StepState {
 }
 
 /// One method.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepPanel {
     /// Its name.
     pub name: String,
@@ -65,7 +67,7 @@ pub struct StepPanel {
 }
 
 /// States over steps, conditions and methods.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepMap {
     /// What it shows.
     pub title: String,

@@ -1,12 +1,12 @@
 //! Tables with a verdict per cell.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::number::significant;
 use super::{ReportError, Verdict};
 
 /// On which side a column's cells stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Align {
     /// Text.
@@ -16,7 +16,7 @@ pub enum Align {
 }
 
 /// Head of a column.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// What the column holds.
     pub title: String,
@@ -27,7 +27,7 @@ pub struct Column {
 }
 
 /// One cell.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// What it says.
     pub text: String,
@@ -42,7 +42,7 @@ pub struct Cell {
 }
 
 /// How a cell looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CellLook {
     /// As text; a verdict colours the cell.
@@ -53,7 +53,7 @@ pub enum CellLook {
 }
 
 /// A table. Every row has one cell a column.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// What the table shows.
     pub caption: String,

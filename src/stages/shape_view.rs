@@ -68,7 +68,7 @@ pub(super) fn shape_view(result: &ModesResult) -> ModeShapeView {
             displacement,
         });
     }
-    view
+    view.without_unused_points()
 }
 
 /// The modes in the order in which they are shown: elastic ones first, they are what one looks for.

@@ -3,13 +3,15 @@
 //! Sketch: every command that writes files is killed at a random moment of the time that it takes; then each file that does not end in
 //!   `.partial` is compared with the whole run's: byte for byte, or, where times of day and of computing stand in it, by its form.
 //! Conditions: SIGKILL; cases that take some tenths of a second.
-//! Parameters: one kill of some commands with the other tests, 200 of each of the 16 in the long form.
+//! Parameters: one kill of some commands with the other tests, 200 of each of the 17 in the long form.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+
+use flate2::read::GzDecoder;
 
 use super::program::scratch;
 use super::{Dice, rounds};
@@ -79,6 +81,7 @@ fn commands(folder: &Path) -> Vec<Killed> {
             false,
             &["analyze", &run, "--window", "2.05:2.75"],
         ),
+        command("report", false, &["report", &run]),
         command(
             "chart",
             false,
@@ -169,6 +172,8 @@ fn fault(whole: &Path, killed: &Path, name: &Path) -> Option<String> {
     let sound = match name.extension().and_then(|ending| ending.to_str()) {
         // times of computing stand in these
         Some("json") => serde_json::from_slice::<serde_json::Value>(&found).is_ok(),
+        // the content of a report, with times: whole by its checksum
+        Some("gz") => std::io::copy(&mut GzDecoder::new(&found[..]), &mut std::io::sink()).is_ok(),
         Some("html") => text.trim_end().ends_with("</html>"),
         Some("svg") => text.trim_end().ends_with("</svg>"),
         // the table of a sweep has wall times; those of a chart depend on them, down to which points they list
@@ -222,7 +227,7 @@ fn run_to_analyze(folder: &Path) {
 /// Kills each command `kills` times and goes on each time; what was killed before its end.
 fn torture(name: &str, kills: usize, seed: u64, wanted: impl Fn(&str) -> bool) -> usize {
     let folder = scratch(name);
-    if wanted("analyze") {
+    if wanted("analyze") || wanted("report") {
         run_to_analyze(&folder);
     }
     let mut dice = Dice(seed);

@@ -14,15 +14,16 @@ mod palette;
 mod picture;
 mod stills;
 mod surface;
+mod unused;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub(super) use pack::{Packed, compressed, pack};
 pub(super) use stills::{Still, bar as colour_bar, mesh_picture, stills};
 pub(super) use surface::Surface;
 
 /// Direction that points up in the standard views.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum UpAxis {
     /// y up; the front view looks along -z.
     Y,
@@ -32,7 +33,7 @@ pub enum UpAxis {
 }
 
 /// Which figures a view makes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum ShapeFigures {
     /// The mesh with its groups, then the mode shapes.
     #[default]
@@ -44,7 +45,7 @@ pub enum ShapeFigures {
 }
 
 /// A part of the structure with a name and a colour of its own.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapeGroup {
     /// Name in the legend.
     pub name: String,
@@ -53,7 +54,7 @@ pub struct ShapeGroup {
 }
 
 /// A triangle of the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapeTriangle {
     /// Its corners: indices into [`ModeShapeView::points`].
     pub corners: [usize; 3],
@@ -62,7 +63,7 @@ pub struct ShapeTriangle {
 }
 
 /// A thick line through points of the structure that moves with it, such as a bearing ring.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapeLine {
     /// Name in the legend.
     pub name: String,
@@ -73,7 +74,7 @@ pub struct ShapeLine {
 }
 
 /// A mode shape.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShapeMode {
     /// Name in the list ("1").
     pub label: String,
@@ -103,7 +104,7 @@ pub struct ShapeMode {
 /// };
 /// assert!(view.check().is_ok());
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModeShapeView {
     /// What is shown; the caption starts with it.
     pub title: String,

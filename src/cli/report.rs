@@ -1,0 +1,163 @@
+//! `plummer report`: the pages of earlier results, drawn again from their content.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+use thiserror::Error;
+
+use super::report_files::{ReportFiles, page_of};
+use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use crate::report::{Report, ReportError};
+
+/// The commands that write reports, by the names of their results.
+const WITH_REPORT: [&str; 9] = [
+    "run",
+    "modes",
+    "condense",
+    "frf",
+    "chart",
+    "stability",
+    "analysis",
+    "sweep",
+    "verify",
+];
+
+/// Why there is no report to draw again.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// The folder cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// Folder or file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The folder has no content of a report.
+    #[error("{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page", folder.display())]
+    None {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file is no content of a report.
+    #[error("{}: {source}", path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: ReportError,
+    },
+    /// A file is the content of a report that no command writes.
+    #[error("{}: a report of \"{command}\": expected one of {}", path.display(), WITH_REPORT.join(", "))]
+    Command {
+        /// The file.
+        path: PathBuf,
+        /// What it says of itself.
+        command: String,
+    },
+}
+
+impl RecordError {
+    /// Returns what to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::None { .. } => Some("name the folder with the results of a command".to_owned()),
+            Self::Broken { .. } | Self::Command { .. } => {
+                Some("run the command again with --force".to_owned())
+            }
+            Self::Read { .. } => None,
+        }
+    }
+}
+
+/// Draws every report in a folder again, page, tables and figures, there or in `--out`. Nothing is computed; the results stay.
+///
+/// # Errors
+/// [`CliError`] when the folder has no content of a report, one is damaged, or a file cannot be written.
+pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
+    let folder = OutputFolder::at(options.out.as_deref().unwrap_or(from));
+    let mut reports = Vec::new();
+    for (path, page) in records(from)? {
+        let (command, report) = read(&path)?;
+        reports.push((page, command, report));
+    }
+    folder.claim_files(&[], true)?;
+    let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
+    for (page, command, report) in reports {
+        let files = ReportFiles::draw(&folder, &page, &command, &report)?;
+        let made = report.date.as_deref().unwrap_or("an unknown day");
+        let version = &report.version;
+        summary.push(format!("{command} of {made}, computed by {version}"));
+        pages.push(json!({
+            "page": folder.path().join(&page),
+            "command": command,
+            "computed_by": version,
+            "tables": files.tables,
+        }));
+        written.extend(files.paths);
+    }
+    // two reports share the folders of tables and figures
+    let mut seen = Vec::new();
+    written.retain(|path: &PathBuf| {
+        let new = !seen.contains(path);
+        seen.push(path.clone());
+        new
+    });
+    Ok(Outcome {
+        summary: summary.join("\n"),
+        result: json!({
+            "plummer": env!("CARGO_PKG_VERSION"),
+            "command": "report",
+            "reports": pages,
+        }),
+        written,
+        verdict: Verdict::Good,
+    })
+}
+
+/// The contents of reports in a folder, in order of their names, each with the name of its page.
+fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
+    let failed = |source| RecordError::Read {
+        path: folder.to_owned(),
+        source,
+    };
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if let Some(page) = page_of(&entry.file_name().to_string_lossy()) {
+            found.push((entry.path(), page));
+        }
+    }
+    if found.is_empty() {
+        return Err(RecordError::None {
+            folder: folder.to_owned(),
+        });
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// The report that a file holds, and the command that it is of.
+fn read(path: &Path) -> Result<(String, Report), RecordError> {
+    let bytes = fs::read(path).map_err(|source| RecordError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    let report = Report::from_record(&bytes).map_err(|source| RecordError::Broken {
+        path: path.to_owned(),
+        source,
+    })?;
+    // names of files are made of it: nothing is written beside the folder
+    let command = report.table_files.as_ref().map(|files| &files.prefix);
+    match command.filter(|command| WITH_REPORT.contains(&command.as_str())) {
+        Some(command) => Ok((command.clone(), report)),
+        None => Err(RecordError::Command {
+            path: path.to_owned(),
+            command: command.cloned().unwrap_or_default(),
+        }),
+    }
+}
