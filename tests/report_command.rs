@@ -85,7 +85,7 @@ fn pages_tables_and_figures_come_back_to_the_byte() {
     }
     let said = good(&folder, &["report", "out"]);
     assert!(
-        said.contains("modes of ") && said.contains("wrote out/report.html"),
+        said.contains("modes: ") && said.contains("wrote out/report.html"),
         "{said}"
     );
     for (name, bytes) in drawn(&out) {

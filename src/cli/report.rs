@@ -89,9 +89,11 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
     let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
     for (page, command, report) in reports {
         let files = ReportFiles::draw(&folder, &page, &command, &report)?;
-        let made = report.date.as_deref().unwrap_or("an unknown day");
         let version = &report.version;
-        summary.push(format!("{command} of {made}, computed by {version}"));
+        summary.push(format!(
+            "{command}: {}, computed by {version}",
+            report.title
+        ));
         pages.push(json!({
             "page": folder.path().join(&page),
             "command": command,
