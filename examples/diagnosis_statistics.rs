@@ -265,7 +265,8 @@ fn named(
         ])?,
     };
     let settings = AnalysisSettings {
-        band: Some(AskedBand::HighPass(5e3)),
+        band: None,
+        shown_band: Some(AskedBand::HighPass(5e3)),
         whiten: false,
         windows: vec![WINDOW],
     };

@@ -76,7 +76,7 @@ fn a_healthy_bearing_under_load_has_the_outer_races_line_and_no_fault() {
     assert_eq!(faults(&loaded), [""; 0]);
     let outer = &loaded.diagnosis.unwrap().faults[0];
     assert!(outer.false_alarm.unwrap() < 1e-6, "{outer:#?}");
-    assert!(outer.burst_strength.unwrap() < 1.0, "{outer:#?}");
+    assert!(outer.impulsiveness.unwrap() < 1.0, "{outer:#?}");
 }
 
 #[test]

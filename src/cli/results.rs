@@ -133,7 +133,11 @@ pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
             "envelope": diagnosis.envelope,
             "envelopes": diagnosis.envelopes,
             "turns": diagnosis.spectrum.turns,
+            "speed_hz": diagnosis.speed_hz,
+            "given_speed_hz": diagnosis.given_speed_hz,
+            "speed_relative_error": diagnosis.speed_error,
             "faults": diagnosis.faults,
+            "unexplained": diagnosis.unexplained,
         }),
         Err(reason) => json!({ "sentence": format!("no verdict: {reason}") }),
     };

@@ -113,6 +113,12 @@ impl FaultOrders {
         }
     }
 
+    /// Whether orders and speed are those of a simulation, known exactly.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.error <= 0.0
+    }
+
     /// The highest order that is known, at least 1.
     #[must_use]
     pub fn highest(&self) -> f64 {

@@ -3,17 +3,12 @@
 use serde::Serialize;
 
 use super::DiagnosisError;
+use super::angle_grid::AngleGrid;
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{WindowFunction, amplitude_spectrum};
 
-/// Samples a turn for each order that is to be seen: two would do. An average over 1 / P of a turn has the gain
-/// sinc(order / P), 0.76 at the highest order and 0.90 at a quarter of P.
-const SAMPLES_AN_ORDER: f64 = 2.5;
 /// Least padding: lines between bins are then read 0.6 % low at most.
 const PADDING: f64 = 8.0;
-/// Fewest samples at equal angles.
-const FEWEST: usize = 16;
-
 /// Amplitude of an envelope over the order, events per shaft turn.
 ///
 /// The envelope is averaged over equal angles before it is transformed, so that a speed that changes in the window smears
@@ -56,50 +51,11 @@ impl EnvelopeOrderSpectrum {
         highest: f64,
     ) -> Result<Self, DiagnosisError> {
         let part = envelope.window(window.from, window.to)?;
-        let samples = part.values().len();
-        let origin = turns(part.start_s());
-        let sign = (turns(part.end_s()) - origin).signum();
-        // angle at the begin of each sample and at the end of the last
-        let angles: Vec<f64> = (0..=samples)
-            .map(|k| sign * (turns(part.time_s(k)) - origin))
-            .collect();
-        let mut fastest = 0.0_f64;
-        for (k, pair) in angles.windows(2).enumerate() {
-            let step = pair[1] - pair[0];
-            // NaN does not turn on either
-            if step.is_nan() || step <= 0.0 {
-                return Err(DiagnosisError::Turning {
-                    from_s: window.from,
-                    to_s: window.to,
-                    at_s: part.time_s(k),
-                });
-            }
-            fastest = fastest.max(step);
-        }
-        // every angle has a sample of its own at least
-        let a_turn = (SAMPLES_AN_ORDER * highest).min(0.9 / fastest);
-        let count = (angles[samples] * a_turn).floor() as usize;
-        if count < FEWEST {
-            return Err(DiagnosisError::TooFew {
-                from_s: window.from,
-                to_s: window.to,
-                found: count,
-                needed: FEWEST,
-            });
-        }
-        let mut sums = vec![0.0; count];
-        let mut counts = vec![0_u32; count];
-        for (value, angle) in part.values().iter().zip(&angles) {
-            let place = (angle * a_turn) as usize;
-            if let (Some(sum), Some(count)) = (sums.get_mut(place), counts.get_mut(place)) {
-                *sum += value;
-                *count += 1;
-            }
-        }
-        let means = sums.iter().zip(&counts);
-        let means = means.map(|(sum, &count)| sum / f64::from(count.max(1)));
+        let step_s = part.step_s();
+        let grid = AngleGrid::new(part.span(), step_s, turns, highest)?;
+        let means = grid.means(part.start_s(), step_s, part.values());
         // a series over turns in the place of seconds
-        let series = TimeSeries::new(0.0, 1.0 / a_turn, part.unit(), means.collect())?;
+        let series = TimeSeries::new(0.0, 1.0 / grid.per_turn(), part.unit(), means)?;
         let turned = series.duration_s();
         let spectrum =
             amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / (PADDING * turned))?;
@@ -109,7 +65,7 @@ impl EnvelopeOrderSpectrum {
             unit: spectrum.unit,
             turns: turned,
             mean: series.mean(),
-            highest: a_turn / SAMPLES_AN_ORDER,
+            highest: grid.highest(),
         })
     }
 

@@ -4,8 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::closed_form::race::{BallRow, DefectOrders};
-use crate::series::{TimeSeries, TimeWindow};
-use crate::signal::EnvelopeAnalysis;
+use crate::series::TimeSeries;
 
 const RATE: f64 = 32e3;
 const RESONANCE: f64 = 8e3;
@@ -83,22 +82,8 @@ fn judged(
     orders: &DefectOrders,
     error: f64,
 ) -> Diagnosis {
-    let settings = EnvelopeAnalysis {
-        high_pass_hz: Some(5e3),
-        ..EnvelopeAnalysis::default()
-    };
-    let envelopes = judged_envelopes(series, |signal| settings.envelope(signal)).unwrap();
-    let window = TimeWindow {
-        from: 0.0,
-        to: series.end_s(),
-    };
-    Diagnosis::of(
-        &envelopes,
-        window,
-        turns,
-        &FaultOrders::of(orders, error).unwrap(),
-    )
-    .unwrap()
+    let orders = FaultOrders::of(orders, error).unwrap();
+    Diagnosis::of(series, None, series.span(), turns, &orders).unwrap()
 }
 
 fn named(diagnosis: &Diagnosis) -> Vec<Fault> {
@@ -133,7 +118,7 @@ fn bursts_of_the_outer_race_are_named_through_a_run_up() {
     assert!((outer.order.unwrap() - struck_at).abs() < 0.1 * bin);
     assert!(outer.false_alarm.unwrap() < 1e-12);
     assert!(outer.side_lines.is_empty());
-    assert!(outer.burst_strength.unwrap() > 1.5, "{outer:#?}");
+    assert!(outer.impulsiveness.unwrap() > 1.5, "{outer:#?}");
     // that of the window to the last digits, not of its whole samples
     assert!((found.speed_hz - 30.0).abs() < 1e-12);
 }
@@ -165,6 +150,50 @@ fn a_ball_is_named_and_the_cage_that_carries_it_is_not() {
     assert!(ball.side_lines.iter().filter(|line| line.seen).count() >= 4);
     let cage = verdict(&found, Fault::Cage);
     assert_ne!(cage.conclusion, Conclusion::Named);
+}
+
+/// A nominal speed 1.2 % above the true one: the shaft's own lines say so, and the outer race is found at its order.
+#[test]
+fn the_shafts_lines_sharpen_the_speed() {
+    let orders = bearing();
+    let mut values = struck(4.4, steady, orders.outer, |_| 1.0);
+    // unbalance, misalignment and what goes with them
+    for (k, value) in values.iter_mut().enumerate() {
+        let turn = TAU * steady(k as f64 / RATE);
+        *value += (1..=8).map(|k| (f64::from(k) * turn).cos()).sum::<f64>();
+    }
+    let series = with_noise(&values, 0.3, 22);
+    let found = judged(&series, |t| 1.012 * steady(t), &orders, 0.01);
+    assert_eq!(found.speed_source, SpeedSource::Sharpened);
+    assert!(
+        (found.speed_hz / 25.0 - 1.0).abs() < found.speed_error,
+        "{found:#?}"
+    );
+    // the resolution of 110 revolutions over eight lines, and as much again for lines that are a bin wide
+    assert!(found.speed_error < 4e-3, "{}", found.speed_error);
+    assert!((found.given_speed_hz - 25.3).abs() < 1e-9);
+    assert_eq!(named(&found), [Fault::OuterRace], "{:#?}", found.faults);
+    // without them nothing is sharpened, and the search is wider
+    let series = with_noise(&vec![0.0; series.values().len()], 1.0, 23);
+    let found = judged(&series, steady, &orders, 0.01);
+    assert_eq!(found.speed_source, SpeedSource::Given);
+}
+
+/// Lines that are certain and weak: five harmonics of a hundredth of the noise each, for ten seconds.
+#[test]
+fn weak_lines_are_seen_and_not_named() {
+    let orders = bearing();
+    let mut noise = Noise(24);
+    let weak = signal(10.0, steady, |_, turns| {
+        let phase = TAU * orders.outer * turns;
+        let lines: f64 = (1..=5).map(|k| (f64::from(k) * phase).cos()).sum();
+        (1.0 + 0.035 * lines) * noise.normal()
+    });
+    let found = judged(&weak, steady, &orders, 0.0);
+    let outer = verdict(&found, Fault::OuterRace);
+    assert!(outer.false_alarm.unwrap() < NAMED_BELOW, "{outer:#?}");
+    assert_eq!(outer.conclusion, Conclusion::NotEnough, "{outer:#?}");
+    assert!(outer.why.contains("That is weak"), "{}", outer.why);
 }
 
 /// An unbalance, and a knock once a turn whose many harmonics are all multiples of the shaft.
@@ -230,7 +259,7 @@ fn harmonics_that_fall_off_fast_are_no_bursts() {
     let outer = verdict(&found, Fault::OuterRace);
     assert!(outer.harmonics[..3].iter().all(|h| h.seen), "{outer:#?}");
     // 0.16 for 1 / k^2; here 1 / 4^(k - 1)
-    assert!(outer.burst_strength.unwrap() < 0.3, "{outer:#?}");
+    assert!(outer.impulsiveness.unwrap() < 0.3, "{outer:#?}");
     assert_eq!(outer.conclusion, Conclusion::NotEnough);
 }
 
@@ -239,7 +268,7 @@ fn harmonics_that_fall_off_fast_are_no_bursts() {
 fn a_resonance_that_hums_hides_no_bursts() {
     let orders = bearing();
     let (mut noise, mut hum) = (Noise(12), [0.0; 2]);
-    let mut values = struck(1.2, steady, orders.outer, |_| 0.5);
+    let mut values = struck(4.4, steady, orders.outer, |_| 1.0);
     // noise through a resonance of 2 % at 11 kHz
     let angle = TAU * 11e3 / RATE;
     let decay = (-0.02 * angle).exp();
@@ -252,39 +281,7 @@ fn a_resonance_that_hums_hides_no_bursts() {
     let series = with_noise(&values, 0.02, 13);
     let found = judged(&series, steady, &orders, 0.01);
     assert_eq!(named(&found), [Fault::OuterRace], "{:#?}", found.faults);
-    assert!(found.envelope.contains("whitened") || found.envelope.contains("impulsive"));
-    assert_eq!(found.envelopes, 4);
-    let settings = EnvelopeAnalysis {
-        high_pass_hz: Some(5e3),
-        ..EnvelopeAnalysis::default()
-    };
-    let own = settings.envelope(&series).unwrap();
-    let plain = JudgedEnvelope {
-        name: "envelope",
-        series: own.clone(),
-    };
-    let window = TimeWindow {
-        from: 0.0,
-        to: series.end_s(),
-    };
-    let of = |judged: &[JudgedEnvelope]| {
-        let orders = FaultOrders::of(&orders, 0.01).unwrap();
-        let envelopes = Envelopes {
-            plain: own.clone(),
-            judged: judged.to_vec(),
-        };
-        Diagnosis::of(&envelopes, window, steady, &orders)
-    };
-    let alone = of(std::slice::from_ref(&plain)).unwrap();
-    assert_eq!(named(&alone), [], "{:#?}", alone.faults);
-    // the same twice is twice as likely by chance
-    let twice = of(&[plain.clone(), plain]).unwrap();
-    let chance = |diagnosis: &Diagnosis| verdict(diagnosis, Fault::OuterRace).false_alarm.unwrap();
-    assert!((chance(&twice) - chance::any_of(chance(&alone), 2)).abs() < 1e-12);
-    assert_eq!(
-        of(&[]).unwrap_err().to_string(),
-        "expected an envelope at least, found none"
-    );
+    assert!(found.envelope.contains("whitened"), "{}", found.envelope);
 }
 
 /// The ball of Tadina and Boltezar (2011), order 3.489: its even harmonics lie on multiples of the shaft, and it strikes for a third
@@ -299,61 +296,25 @@ fn a_ball_shows_beside_its_harmonics() {
     let ball = verdict(&found, Fault::Ball);
     let coinciding = ball.harmonics.iter().filter(|h| h.coincides_with.is_some());
     assert!(coinciding.filter(|h| h.side == 0).count() >= 2, "{ball:#?}");
-    assert_eq!(ball.harmonics_free, 8);
-    let beside = ball.harmonics.iter().filter(|h| h.side != 0);
-    assert!(beside.clone().count() > 10 && beside.filter(|h| h.seen).count() >= 4);
-    let sided = ball.harmonics.iter().find(|h| h.side == -1).unwrap();
-    assert!((sided.order - (ball.order.unwrap() - orders.cage)).abs() < 1e-12);
     assert_eq!(line_name(Fault::Ball, 2, -1), "2 x ball -1 x cage");
+    assert!(ball.side_lines.iter().filter(|line| line.seen).count() >= 3);
 }
 
-/// How strong lines are that noise makes is no evidence, and is not said.
-#[test]
-fn burst_strength_is_said_of_what_is_seen_alone() {
-    let orders = bearing();
-    let strong = "times as strong as a jump has them";
-    let values = struck(1.2, steady, orders.outer, |_| 1.0);
-    let found = judged(&with_noise(&values, 0.1, 3), steady, &orders, 0.0);
-    let outer = verdict(&found, Fault::OuterRace);
-    assert!(outer.why.contains(strong), "{}", outer.why);
-    let mut noise = Noise(9);
-    let found = signal(1.2, steady, |_, _| noise.normal());
-    let found = judged(&found, steady, &orders, 0.0);
-    let of = |conclusion| {
-        let faults = found.faults.iter();
-        faults.filter(move |verdict| verdict.conclusion == conclusion)
-    };
-    assert!(of(Conclusion::NotSeen).count() > 0, "{}", found.sentence());
-    for unseen in of(Conclusion::NotSeen) {
-        assert!(!unseen.why.contains(strong), "{}", unseen.why);
-        assert!(
-            unseen.why.contains("free harmonics stand out; noise"),
-            "{}",
-            unseen.why
-        );
-        // "1.0", not "1e0"
-        assert!(
-            !["e0", "e-1"].iter().any(|end| unseen.why.contains(end)),
-            "{}",
-            unseen.why
-        );
-    }
-}
-
-/// An inner race whose fifth harmonic is the ninth of the damaged outer race.
+/// A part that would strike three times as often as the damaged outer race: its harmonics are the race's third, sixth, ninth, twelfth, ...
 #[test]
 fn harmonics_beyond_the_judged_ones_explain_lines_too() {
     let outer = bearing().outer;
-    let orders = FaultOrders::new([Some(outer), Some(1.8 * outer), None, None], 0.0).unwrap();
+    let orders = FaultOrders::new([Some(outer), Some(3.0 * outer), None, None], 0.0).unwrap();
     let series = with_noise(&struck(1.2, steady, outer, |_| 1.0), 0.1, 3);
-    let settings = EnvelopeAnalysis::default();
-    let envelopes = judged_envelopes(&series, |signal| settings.envelope(signal)).unwrap();
-    let window = series.span();
-    let found = Diagnosis::of(&envelopes, window, steady, &orders).unwrap();
+    let found = Diagnosis::of(&series, None, series.span(), steady, &orders).unwrap();
     assert_eq!(named(&found), [Fault::OuterRace]);
     let inner = verdict(&found, Fault::InnerRace);
     let fifth = inner.harmonics.iter().find(|h| h.harmonic == 5).unwrap();
-    assert_eq!(fifth.coincides_with.as_deref(), Some("9 x outer race"));
+    assert_eq!(
+        fifth.coincides_with.as_deref(),
+        Some("15 x outer race"),
+        "{inner:#?}"
+    );
 }
 
 #[test]
@@ -366,7 +327,7 @@ fn short_windows_say_so() {
     assert_eq!(outer.false_alarm, None);
     assert_eq!(
         outer.why,
-        "the window has 4.0 shaft turns: at least 4.5 are needed to tell these lines from the floor about them"
+        "The window has 4.0 revolutions. At least 4.5 are needed to tell these lines from the floor about them."
     );
     assert!(
         found
@@ -375,15 +336,11 @@ fn short_windows_say_so() {
     );
 }
 
-/// The score's own probability against how often noise reaches it: 200 windows of noise of 12 turns, three faults each
-/// (the cage's floor needs 40 turns).
+/// The stated probability against how often noise reaches it: 200 windows of noise of 12 revolutions, three faults each
+/// (the cage's floor needs 40).
 #[test]
-fn noise_is_no_more_alarming_than_stated() {
+fn noise_is_as_alarming_as_stated() {
     let (rate, speed) = (8e3, 25.0);
-    let settings = EnvelopeAnalysis {
-        high_pass_hz: Some(1e3),
-        ..EnvelopeAnalysis::default()
-    };
     for error in [0.0, 0.01] {
         let orders = FaultOrders::of(&bearing(), error).unwrap();
         let (mut below, mut judged) = ([0_u32; 3], 0);
@@ -391,36 +348,30 @@ fn noise_is_no_more_alarming_than_stated() {
             let mut noise = Noise(seed * 7919 + 11);
             let values = (0..3840).map(|_| noise.normal()).collect();
             let series = TimeSeries::new(0.0, 1.0 / rate, "m/s^2", values).unwrap();
-            let envelopes = judged_envelopes(&series, |signal| settings.envelope(signal)).unwrap();
-            let window = TimeWindow {
-                from: 0.0,
-                to: 0.48,
-            };
-            let found = Diagnosis::of(&envelopes, window, |t| speed * t, &orders).unwrap();
+            let window = series.span();
+            let found = Diagnosis::of(&series, None, window, |t| speed * t, &orders).unwrap();
             assert_eq!(named(&found), [], "seed {seed}");
-            for chance in found
+            let chances = found
                 .faults
                 .iter()
-                .filter_map(|verdict| verdict.false_alarm)
-            {
+                .filter_map(|verdict| verdict.false_alarm);
+            for chance in chances {
                 judged += 1;
                 for (count, limit) in below.iter_mut().zip([0.01, 0.05, 0.2]) {
                     *count += u32::from(chance < limit);
                 }
             }
         }
-        assert_eq!(judged, 600);
         println!("error {error}: {below:?} of {judged} below 0.01, 0.05, 0.2");
+        assert!(judged > 550);
         for (count, limit) in below.into_iter().zip([0.01, 0.05, 0.2]) {
-            // an upper bound, but for three standard deviations of a count of this size
-            let expected = limit * 600.0;
-            assert!(
-                f64::from(count) < expected + 3.0 * f64::sqrt(expected),
-                "{limit}: {count}"
-            );
+            // three standard deviations of a count of this size, and half as many again for a null that is itself measured
+            let expected = limit * f64::from(judged);
+            let most = 1.5 * expected + 3.0 * f64::sqrt(expected);
+            assert!(f64::from(count) < most, "{limit}: {count}");
         }
-        // and no empty one: within a factor of five
-        assert!(f64::from(below[2]) > 0.2 * 600.0 / 5.0, "{below:?}");
+        // and no empty statement: within a factor of two
+        assert!(f64::from(below[2]) > 0.1 * f64::from(judged), "{below:?}");
     }
 }
 

@@ -3,18 +3,32 @@
 use serde::Serialize;
 
 use super::Fault;
-use super::judge::carrier;
+use super::comb::LEAST_FREE;
+use super::known::carrier;
+use super::line_spectrum::{LineSpectrum, REVOLUTIONS};
 
-/// Probability under noise alone below which a fault is named: of a thousand windows of noise one, for each fault.
+/// Probability by chance below which a fault is indicated.
 pub const NAMED_BELOW: f64 = 1e-3;
-/// Probability under noise alone above which nothing is said to be seen.
+/// Probability by chance above which nothing is said to be seen.
 pub const UNSEEN_ABOVE: f64 = 0.05;
-/// Harmonics that must be seen, free of others, before a fault is named.
-pub const LEAST_HARMONICS: usize = 3;
-/// Least strength of the harmonics beyond the fundamental for bursts: `sum A_k^2 / sum (A_1 / k)^2` over the free ones. A jump that
-/// decays exponentially has `A_k = A_1 sqrt((1 + x^2) / (1 + k^2 x^2)) >= A_1 / k` however long it takes, so 1 or more; what swells
-/// and ebbs without a jump falls off as 1 / k^2 or faster: 0.16 or less with eight harmonics.
-pub const BURST_STRENGTH: f64 = 1.0;
+/// Harmonics that must be seen, free of others, before a fault is indicated; the fundamental or the second among them.
+pub const LEAST_HARMONICS: usize = LEAST_FREE;
+/// Mean power over the floor of the first five free harmonics before a fault is indicated, dB at a resolution of 1 / 64 of a revolution.
+/// Sound bearings have lines at these orders too, of balls that pass under the load, of marks of assembly, of other bearings'
+/// damage that is heard; they are weaker. See `docs/diagnosis.md` for what was measured.
+pub const LEAST_STRENGTH_DB: f64 = 15.0;
+/// Harmonics that must be seen in a window of fewer than 96 revolutions.
+pub const LEAST_SHORT_HARMONICS: usize = 2;
+/// The level in a window of fewer than 96 revolutions: one stretch scatters by 5 dB a line, and shows no weak lines at all.
+pub const LEAST_SHORT_STRENGTH_DB: f64 = 12.0;
+/// The same for a cage. Balls of unequal size, and a ball that is damaged, change the vibration once a revolution of the cage as well.
+pub const LEAST_CAGE_STRENGTH_DB: f64 = 18.0;
+/// Least impulsiveness of a fault, [`FaultVerdict::impulsiveness`].
+pub const LEAST_IMPULSIVENESS: f64 = 0.2;
+
+/// The same in a window of fewer than 96 revolutions, where the noise in more and coarser harmonics adds to it.
+pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.4;
+
 /// What is said of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Conclusion {
@@ -24,7 +38,7 @@ pub enum Conclusion {
     /// Something is there, or the window cannot say.
     #[serde(rename = "not enough evidence")]
     NotEnough,
-    /// Nothing that noise would not do.
+    /// Nothing that chance would not do.
     #[serde(rename = "not seen")]
     NotSeen,
 }
@@ -34,7 +48,7 @@ impl Conclusion {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Named => "named",
+            Self::Named => "fault indicated",
             Self::NotEnough => "not enough evidence",
             Self::NotSeen => "not seen",
         }
@@ -44,29 +58,27 @@ impl Conclusion {
 /// A harmonic of a fault's line, as found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Harmonic {
+    /// What it is called: "2 x ball -1 x cage".
+    pub name: String,
     /// Which one, from 1.
     pub harmonic: u32,
     /// 0, or -1 or 1 for the line that many spacings beside it, where those count too.
     pub side: i32,
-    /// Its order, events per shaft turn.
+    /// Its order, events per revolution of the shaft.
     pub order: f64,
     /// Its frequency at the mean speed, Hz.
     pub frequency_hz: f64,
-    /// Amplitude in the judged envelope, in its unit.
-    pub amplitude: f64,
-    /// Amplitude over the mean of that envelope: how deep it is modulated.
+    /// Amplitude over the mean of the judged envelope: how deep it is modulated.
     pub depth: f64,
     /// Power over the median of the floor about it, dB.
     pub above_floor_db: f64,
-    /// Whether it counts and noise would do it less than once in a hundred.
+    /// Whether it is free and noise would do it less than once in a hundred.
     pub seen: bool,
-    /// What it coincides with within the resolution; it does not count then.
+    /// The line that it coincides with within the resolution; it does not count then.
     pub coincides_with: Option<String>,
-    /// The stronger line whose leakage could be all of it; it is no evidence then.
-    pub leakage_of: Option<String>,
 }
 
-/// A line beside a harmonic.
+/// A line beside a harmonic: a sideband.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SideLine {
     /// Harmonic that it is beside.
@@ -77,7 +89,7 @@ pub struct SideLine {
     pub order: f64,
     /// Power over the median of the floor about it, dB.
     pub above_floor_db: f64,
-    /// Whether noise would do it less than once in a hundred.
+    /// Whether it is free and noise would do it less than once in a hundred.
     pub seen: bool,
 }
 
@@ -88,7 +100,8 @@ pub struct FaultVerdict {
     pub fault: Fault,
     /// What is said of it.
     pub conclusion: Conclusion,
-    /// Probability that noise alone looks as much like it; `None` where the window is too short.
+    /// Probability that chance looks as much like it: by the score of the same comb at other orders of the same signal. `None` where
+    /// the window is too short.
     pub false_alarm: Option<f64>,
     /// Order of its line by the kinematics.
     pub expected_order: f64,
@@ -96,26 +109,155 @@ pub struct FaultVerdict {
     pub order: Option<f64>,
     /// That order at the mean speed, Hz.
     pub frequency_hz: Option<f64>,
+    /// Band whose envelope shows it best, Hz.
+    pub band_hz: Option<[f64; 2]>,
     /// Its harmonics.
     pub harmonics: Vec<Harmonic>,
-    /// Harmonics that coincide with nothing else.
+    /// Harmonics among the first five that coincide with nothing else.
     pub harmonics_free: usize,
-    /// Those of them that noise would show, with their side lines where these count, less than once in a hundred.
+    /// Those of them that noise would show less than once in a hundred.
     pub harmonics_seen: usize,
-    /// Strength of the harmonics beyond the fundamental, the lesser of that in the judged envelope and in the signal's own, 1 and more for bursts, see [`BURST_STRENGTH`]; `None` without any that
-    /// is free.
-    pub burst_strength: Option<f64>,
-    /// Distance of side lines in orders: the shaft's for the inner race, the cage's for a ball.
+    /// Mean power of the free ones over their floor, dB, at a resolution of 1 / 64 of a revolution.
+    pub strength_db: Option<f64>,
+    /// Amplitudes A_k of the free harmonics beyond the first against those of a jump that decays, `sum A_k^2 / sum (A_1 / k)^2`: 1 or more for
+    /// impacts, less where resonance, filters and slip damp high harmonics; 0.16 or less for what swells and ebbs once an event.
+    pub impulsiveness: Option<f64>,
+    /// Distance of sidebands in orders: the shaft's for the inner race, the cage's for a ball.
     pub side_spacing: Option<f64>,
-    /// Side lines about the first harmonics.
+    /// Sidebands about the first harmonics.
     pub side_lines: Vec<SideLine>,
     /// Why this, and why not more.
     pub why: String,
 }
 
-/// One digit: of small ones as a power of ten.
-fn probability(chance: f64) -> String {
-    if chance >= 0.095 {
+impl FaultVerdict {
+    pub(super) fn new(fault: Fault, expected_order: f64, side_spacing: Option<f64>) -> Self {
+        Self {
+            fault,
+            conclusion: Conclusion::NotEnough,
+            false_alarm: None,
+            expected_order,
+            order: None,
+            frequency_hz: None,
+            band_hz: None,
+            harmonics: Vec::new(),
+            harmonics_free: 0,
+            harmonics_seen: 0,
+            strength_db: None,
+            impulsiveness: None,
+            side_spacing,
+            side_lines: Vec::new(),
+            why: String::new(),
+        }
+    }
+}
+
+/// Repeated impacts at an order that belongs to no part of the bearing, nor to the shaft.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UnexplainedImpacts {
+    /// Events per revolution of the shaft.
+    pub order: f64,
+    /// Frequency at the mean speed, Hz.
+    pub frequency_hz: f64,
+    /// Probability by chance.
+    pub false_alarm: f64,
+    /// Harmonics among the first five that stand out.
+    pub harmonics_seen: usize,
+    /// Mean power of the free harmonics over their floor, dB, as of a part.
+    pub strength_db: Option<f64>,
+    /// Band whose envelope shows them best, Hz.
+    pub band_hz: [f64; 2],
+}
+
+/// What the harmonics of a comb amount to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Evidence {
+    pub(super) free: usize,
+    pub(super) seen: usize,
+    first: bool,
+    pub(super) strength_db: Option<f64>,
+    pub(super) impulsiveness: Option<f64>,
+    least: Least,
+}
+
+/// What a fault has to reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Least {
+    seen: usize,
+    strength_db: f64,
+    impulsiveness: f64,
+}
+
+/// Whether the fundamental or the second harmonic is seen.
+fn first_seen(harmonics: &[Harmonic]) -> bool {
+    let mut first = harmonics.iter().filter(|h| h.harmonic <= 2);
+    first.any(|harmonic| harmonic.seen)
+}
+
+impl Evidence {
+    pub(super) fn of(harmonics: &[Harmonic], lines: &LineSpectrum) -> Self {
+        let deciding = harmonics
+            .iter()
+            .filter(|h| h.side == 0 && h.harmonic <= lines.harmonics);
+        let free: Vec<&Harmonic> = deciding.filter(|h| h.coincides_with.is_none()).collect();
+        // a finer resolution takes the floor down and leaves the lines
+        let finer_db = 10.0 * (REVOLUTIONS * lines.resolution).max(1.0).log10();
+        let level = |h: &&Harmonic| h.above_floor_db.clamp(0.0, 26.0);
+        let strength = free.iter().map(level).sum::<f64>() / free.len().max(1) as f64;
+        let least = if lines.is_short() {
+            Least {
+                seen: LEAST_SHORT_HARMONICS,
+                strength_db: LEAST_SHORT_STRENGTH_DB,
+                impulsiveness: LEAST_SHORT_IMPULSIVENESS,
+            }
+        } else {
+            Least {
+                seen: LEAST_HARMONICS,
+                strength_db: LEAST_STRENGTH_DB,
+                impulsiveness: LEAST_IMPULSIVENESS,
+            }
+        };
+        Self {
+            free: free.len(),
+            seen: free.iter().filter(|h| h.seen).count(),
+            first: first_seen(harmonics),
+            strength_db: (!free.is_empty()).then_some(strength + finer_db),
+            impulsiveness: impulsiveness(&free),
+            least,
+        }
+    }
+
+    /// Whether lines are as those of impacts.
+    pub(super) fn is_clear(&self) -> bool {
+        self.seen >= self.least.seen
+            && self.first
+            && self
+                .strength_db
+                .is_some_and(|db| db >= self.least.strength_db)
+            && self
+                .impulsiveness
+                .is_none_or(|x| x >= self.least.impulsiveness)
+    }
+}
+
+/// See [`FaultVerdict::impulsiveness`]. Where the first harmonic is not free the second takes its place, as half of the first.
+fn impulsiveness(free: &[&Harmonic]) -> Option<f64> {
+    let first = free.first()?;
+    let scale = first.depth * f64::from(first.harmonic);
+    let (mut found, mut jump) = (0.0, 0.0);
+    for harmonic in &free[1..] {
+        found += harmonic.depth.powi(2);
+        jump += (scale / f64::from(harmonic.harmonic)).powi(2);
+    }
+    (jump > 0.0).then(|| found / jump)
+}
+
+/// A probability in words: "below 1e-12", "3e-5", "0.2".
+#[must_use]
+pub fn probability(chance: f64) -> String {
+    if chance < 1e-12 {
+        "below 1e-12".to_owned()
+    } else if chance >= 0.095 {
         format!("{chance:.1}")
     } else {
         format!("{chance:.0e}")
@@ -123,51 +265,72 @@ fn probability(chance: f64) -> String {
 }
 
 /// Conclusion and reason.
-pub(super) fn conclude(verdict: &FaultVerdict, chance: f64) -> (Conclusion, String) {
-    let (free, seen) = (verdict.harmonics_free, verdict.harmonics_seen);
-    let sides = verdict.side_lines.iter().filter(|line| line.seen).count();
-    let strength = verdict.burst_strength.unwrap_or(0.0);
-    // the strength of what noise makes is no evidence
-    let strong = if seen == 0 || chance >= UNSEEN_ABOVE {
-        String::new()
-    } else {
-        format!(", {strength:.1} times as strong as a jump has them")
-    };
+pub(super) fn conclude(
+    verdict: &FaultVerdict,
+    evidence: &Evidence,
+    chance: f64,
+) -> (Conclusion, String) {
+    let (free, seen) = (evidence.free, evidence.seen);
+    let strength = evidence.strength_db.unwrap_or(0.0);
     let mut found = format!(
-        "{seen} of {free} free harmonics stand out{strong}; noise would do it with probability {}",
+        "{seen} of {free} free harmonics stand out; probability by chance {}",
         probability(chance)
     );
+    if chance >= UNSEEN_ABOVE {
+        return (Conclusion::NotSeen, format!("{found}."));
+    }
+    found.push_str(&format!(
+        "; {strength:.0} dB above the floor on the average"
+    ));
+    if let Some([from, to]) = verdict.band_hz {
+        found.push_str(&format!(", band {from:.0} to {to:.0} Hz"));
+    }
+    if let Some(impulsiveness) = verdict.impulsiveness {
+        found.push_str(&format!("; impulsiveness {impulsiveness:.1}"));
+    }
+    let sides = verdict.side_lines.iter().filter(|line| line.seen).count();
     if !verdict.side_lines.is_empty() {
-        let all = verdict.side_lines.len();
         found.push_str(&format!(
-            "; {sides} of {all} lines beside them at the {}'s distance",
+            "; {sides} of {} sidebands at the {}'s distance",
+            verdict.side_lines.len(),
             carrier(verdict.fault)
         ));
     }
     let reason = |text: &str| format!("{found}. {text}");
-    if free < LEAST_HARMONICS {
-        let text = format!(
-            "At least {LEAST_HARMONICS} harmonics that coincide with nothing else are needed: a longer window separates more"
-        );
-        return (Conclusion::NotEnough, reason(&text));
-    }
-    if chance >= UNSEEN_ABOVE {
-        return (Conclusion::NotSeen, found);
-    }
+    let not_enough = |text: &str| (Conclusion::NotEnough, reason(text));
     if chance >= NAMED_BELOW {
-        let text =
-            format!("A fault is named below {NAMED_BELOW:.0e}: a longer window would decide");
-        return (Conclusion::NotEnough, reason(&text));
+        return not_enough("A longer window would decide.");
     }
-    if seen < LEAST_HARMONICS || strength < BURST_STRENGTH {
-        let text = format!(
-            "Bursts show in at least {LEAST_HARMONICS} harmonics that are as strong as those of a jump; fewer or weaker ones are what balls passing under the load make without any damage"
+    if seen < evidence.least.seen || !evidence.first {
+        return not_enough(
+            "Impacts show in several harmonics, the first or the second among them.",
         );
-        return (Conclusion::NotEnough, reason(&text));
+    }
+    if verdict
+        .impulsiveness
+        .is_some_and(|x| x < evidence.least.impulsiveness)
+    {
+        return not_enough(
+            "That is a slow modulation, which balls passing under the load make without any damage.",
+        );
+    }
+    if strength < evidence.least.strength_db {
+        return not_enough(
+            "That is weak: sound bearings have such lines too, of the load, of assembly, of damage elsewhere. Compare with an earlier signal.",
+        );
+    }
+    if verdict.fault == Fault::Cage && strength < LEAST_CAGE_STRENGTH_DB {
+        return not_enough(
+            "A ball that differs from the others, by damage or size, shows once a revolution of the cage as well.",
+        );
     }
     if verdict.fault == Fault::OuterRace {
-        let text = "Balls that strike as they enter the load zone through the play do so at this order too: compare with an earlier signal";
-        return (Conclusion::Named, reason(text));
+        return (
+            Conclusion::Named,
+            reason(
+                "Balls that strike as they enter the load zone through the play do so at this order too: compare with an earlier signal.",
+            ),
+        );
     }
-    (Conclusion::Named, found)
+    (Conclusion::Named, format!("{found}."))
 }

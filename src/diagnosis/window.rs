@@ -1,75 +1,135 @@
 //! What is said of a window of a signal.
 
-use super::comb::HARMONICS;
-use super::judge::faults;
-use super::{
-    Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Envelopes, FaultOrders, FaultVerdict,
-};
-use crate::series::TimeWindow;
+use super::angle_grid::AngleGrid;
+use super::bands::band_spectra;
+use super::comb::SHOWN_HARMONICS;
+use super::explain::{Search, envelope_name};
+use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened};
+use super::verdict::UnexplainedImpacts;
+use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict};
+use crate::series::{TimeSeries, TimeWindow};
+use crate::signal::WhiteSpectrum;
+
+/// The lowest frequency of a band over the highest at which a part strikes: an envelope needs a carrier that is faster than it.
+const LOWEST_CARRIER: f64 = 2.0;
+
+/// How well the shaft's speed is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpeedSource {
+    /// Exactly: a simulation's.
+    Exact,
+    /// As given, and the signal's own lines do not show it better.
+    Given,
+    /// As given, sharpened by the shaft's lines in the signal.
+    Sharpened,
+}
 
 /// What is said of a window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Mean shaft speed, Hz.
+    /// Mean shaft speed, Hz: the given one, sharpened where the signal shows it.
     pub speed_hz: f64,
-    /// Which envelope shows most, of those that were judged.
-    pub envelope: &'static str,
-    /// How many were.
+    /// The mean speed that was given, Hz.
+    pub given_speed_hz: f64,
+    /// Relative uncertainty of the speed.
+    pub speed_error: f64,
+    /// Where it is from.
+    pub speed_source: SpeedSource,
+    /// The envelope that shows most.
+    pub envelope: String,
+    /// How many were judged.
     pub envelopes: usize,
     /// Spectrum of that envelope over the shaft's angle.
     pub spectrum: EnvelopeOrderSpectrum,
     /// One verdict a fault whose order is known, in the order of [`Fault::ALL`](super::Fault::ALL).
     pub faults: Vec<FaultVerdict>,
+    /// Impacts that belong to no part.
+    pub unexplained: Vec<UnexplainedImpacts>,
 }
 
 impl Diagnosis {
-    /// Judges a window (s) of a signal by its `envelopes`, at least one judged; `turns` is the shaft's angle at a time, in turns.
+    /// Judges a window (s) of a signal by the envelopes of its bands `within_hz` (Hz; `None`: all); `turns` is the shaft's angle at
+    /// a time, in turns. The signal may be longer than the window.
     ///
-    /// Each envelope is judged by itself; the verdict is that of the one with the least probability under noise, of those that name a
-    /// fault if there are any. Probabilities are those of the best of all envelopes by chance, at most their number times as large.
-    /// Faults are judged from the least likely under noise on; the lines of one that is named do not count for the others.
+    /// An error of the orders of 0 means that the speed is exact as well.
     ///
     /// # Errors
-    /// [`DiagnosisError`]: a shaft that rests or turns back, a window outside the envelope or without samples.
+    /// [`DiagnosisError`]: a shaft that rests or turns back, a window outside the signal or without samples.
     pub fn of(
-        envelopes: &Envelopes,
+        signal: &TimeSeries,
+        within_hz: Option<[f64; 2]>,
         window: TimeWindow,
         turns: impl Fn(f64) -> f64,
         orders: &FaultOrders,
     ) -> Result<Self, DiagnosisError> {
-        // room for the floor beside the highest harmonic
-        let highest = (f64::from(HARMONICS) + 1.0) * orders.highest();
-        let plain = EnvelopeOrderSpectrum::new(&envelopes.plain, window, &turns, highest)?;
-        let trials = envelopes.judged.len();
-        let judged = envelopes.judged.iter().map(|envelope| {
-            let spectrum = EnvelopeOrderSpectrum::new(&envelope.series, window, &turns, highest)?;
-            // of the window itself; the spectrum ends at the last whole sample
-            let speed_hz =
-                (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-            Ok(Self {
-                speed_hz,
-                envelope: envelope.name,
-                envelopes: trials,
-                faults: faults([&spectrum, &plain], speed_hz, orders, trials),
-                spectrum,
-            })
-        });
-        let judged: Vec<Self> = judged.collect::<Result<_, DiagnosisError>>()?;
-        let place = |one: &Self| (one.named().next().is_none(), one.least_chance());
-        let best = judged.into_iter().min_by(|a, b| {
-            let (a, b) = (place(a), place(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        });
-        best.ok_or(DiagnosisError::NoEnvelope)
+        let samples = signal.values().len();
+        window.check_inside(signal.start_s(), signal.step_s(), samples)?;
+        let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
+        let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
+        let white = WhiteSpectrum::of(signal)?;
+        let strikes_hz = orders.highest() * grid.fastest_hz;
+        let within_hz = edges(
+            within_hz,
+            0.5 * signal.rate_hz(),
+            LOWEST_CARRIER * strikes_hz,
+        );
+        let fit = if orders.is_exact() {
+            None
+        } else {
+            speed_fit(signal, &white, within_hz, &grid)?
+        };
+        let (factor, speed_error, speed_source) = match fit {
+            Some(fit) => (fit.factor, fit.error, SpeedSource::Sharpened),
+            None if orders.is_exact() => (1.0, 0.0, SpeedSource::Exact),
+            None => (1.0, UNSEEN_ERROR, SpeedSource::Given),
+        };
+        // a signal too short for its kurtosis has no emphasis
+        let impulsive = white.impulsive(signal).ok();
+        let sharp = |time: f64| factor * turns(time);
+        let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
+        let spectra = band_spectra(
+            &white,
+            impulsive.as_ref(),
+            &grid,
+            within_hz,
+            strikes_hz,
+            highest,
+        )?;
+        let given_speed_hz =
+            (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
+        let speed_hz = factor * given_speed_hz;
+        let search = Search {
+            spectra: &spectra,
+            orders,
+            turns: grid.turns(),
+            speed_hz,
+            speed_error,
+        };
+        let found = search.run();
+        let best = spectra
+            .get(found.spectrum)
+            .ok_or(DiagnosisError::NoEnvelope)?;
+        let envelope = white.envelope(best.band_hz);
+        let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
+        let shown = TimeSeries::new(envelope.start_s, envelope.step_s, "", magnitude)?;
+        let shown_window = TimeWindow {
+            from: window.from,
+            to: window.to.min(shown.end_s()),
+        };
+        Ok(Self {
+            speed_hz,
+            given_speed_hz,
+            speed_error,
+            speed_source,
+            envelope: envelope_name(best),
+            envelopes: spectra.len(),
+            spectrum: EnvelopeOrderSpectrum::new(&shown, shown_window, sharp, highest)?,
+            faults: found.faults,
+            unexplained: found.unexplained,
+        })
     }
 
-    /// The least probability under noise of a fault.
-    fn least_chance(&self) -> f64 {
-        let chances = self.faults.iter().filter_map(|verdict| verdict.false_alarm);
-        chances.fold(f64::INFINITY, f64::min)
-    }
-
-    /// The faults that are named.
+    /// The faults that are indicated.
     pub fn named(&self) -> impl Iterator<Item = &FaultVerdict> {
         let named = |verdict: &&FaultVerdict| verdict.conclusion == Conclusion::Named;
         self.faults.iter().filter(named)
@@ -86,17 +146,49 @@ impl Diagnosis {
             of.map(|verdict| verdict.fault.name()).collect::<Vec<_>>()
         };
         let parts = [
-            (Conclusion::Named, "fault: "),
-            (Conclusion::NotEnough, "not enough evidence: "),
-            (Conclusion::NotSeen, "not seen: "),
+            Conclusion::Named,
+            Conclusion::NotEnough,
+            Conclusion::NotSeen,
         ];
         let parts = parts
             .into_iter()
-            .map(|(conclusion, word)| (of(conclusion), word));
+            .map(|conclusion| (of(conclusion), conclusion.words()));
         let parts = parts.filter(|(faults, _)| !faults.is_empty());
-        let parts: Vec<String> = parts
-            .map(|(faults, word)| format!("{word}{}", faults.join(", ")))
+        let mut parts: Vec<String> = parts
+            .map(|(faults, word)| format!("{word}: {}", faults.join(", ")))
             .collect();
+        parts.extend(self.unexplained.iter().map(|impacts| {
+            format!(
+                "impacts at {:.2} Hz with {} harmonics belong to no part of this bearing",
+                impacts.frequency_hz, impacts.harmonics_seen
+            )
+        }));
         parts.join("; ")
     }
+}
+
+/// The band that is searched: as asked for, else from the lowest carrier on.
+fn edges(asked: Option<[f64; 2]>, end_hz: f64, lowest_hz: f64) -> [f64; 2] {
+    match asked {
+        Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
+        None => [lowest_hz.min(0.5 * end_hz), end_hz],
+    }
+}
+
+/// The shaft's lines in the signal and in its envelope.
+fn speed_fit(
+    signal: &TimeSeries,
+    white: &WhiteSpectrum,
+    within_hz: [f64; 2],
+    grid: &AngleGrid,
+) -> Result<Option<SpeedFit>, DiagnosisError> {
+    let envelope = white.envelope(within_hz);
+    let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
+    sharpened(
+        grid,
+        &[
+            (signal.start_s(), signal.step_s(), signal.values()),
+            (envelope.start_s, envelope.step_s, &magnitude),
+        ],
+    )
 }

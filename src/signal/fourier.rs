@@ -11,17 +11,17 @@ use super::SignalError;
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
 /// A transform of one length, planned once for many signals.
-pub(super) struct Forward(Arc<dyn RealToComplex<f64>>);
+pub(crate) struct Forward(Arc<dyn RealToComplex<f64>>);
 
 impl Forward {
     /// Transform over `points` N.
-    pub(super) fn new(points: usize) -> Self {
+    pub(crate) fn new(points: usize) -> Self {
         Self(RealFftPlanner::new().plan_fft_forward(points))
     }
 
     /// Spectrum X_m = sum_n x_n exp(-2 pi i m n / N), m = 0 ..= N/2, of x padded with zeros to N (cut if longer). Not
     /// scaled.
-    pub(super) fn transform(
+    pub(crate) fn transform(
         &self,
         values: impl IntoIterator<Item = f64>,
     ) -> Result<Vec<Complex<f64>>, SignalError> {
@@ -64,7 +64,7 @@ pub(super) fn inverse(mut bins: Vec<Complex<f64>>, points: usize) -> Result<Vec<
 }
 
 /// Smallest even N >= `needed` whose prime factors are 2, 3 and 5: lengths that transform fast.
-pub(super) fn fast_length(needed: usize) -> usize {
+pub(crate) fn fast_length(needed: usize) -> usize {
     let mut best = needed.max(2).next_power_of_two();
     let mut fives = 1;
     while fives < best {

@@ -38,6 +38,7 @@ mod spectrum;
 mod speed_estimate;
 mod third_octave;
 mod welch;
+mod white_spectrum;
 mod whitening;
 mod window_function;
 
@@ -50,6 +51,7 @@ pub use envelope_analysis::{
     EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum, usual_high_pass_hz,
 };
 pub use error::SignalError;
+pub(crate) use fourier::{Forward, fast_length};
 pub use frequency_axis::FrequencyAxis;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{
@@ -65,5 +67,7 @@ pub use spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
 pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
 pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
+pub(crate) use white_spectrum::running_median;
+pub use white_spectrum::{BandEnvelope, WhiteSpectrum};
 pub use whitening::{Emphasis, whiten};
 pub use window_function::WindowFunction;

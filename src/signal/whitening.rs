@@ -40,9 +40,8 @@ pub enum Emphasis {
 /// # Errors
 /// [`SignalError::Segments`] or [`SignalError::TooShort`] for less than 8 segments' worth.
 pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, SignalError> {
-    let wanted = (SEGMENT_S * series.rate_hz()).round() as usize;
-    let segment_samples = fast_length(wanted.max(FEWEST_SAMPLES));
-    let overlap_samples = segment_samples * 3 / 4;
+    let segment_samples = segment_samples(series);
+    let overlap_samples = overlap(segment_samples);
     let window_function = WindowFunction::Hann;
     let welch = Welch {
         window_function,
@@ -64,21 +63,9 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
     let last = gains.len() - 1;
     (gains[0], gains[last]) = (gains[1], gains[last - 1]);
     if emphasis == Emphasis::Impulsive {
-        let found = spectral_kurtosis(
-            series,
-            window_function,
-            segment_samples,
-            overlap_samples,
-            0.99,
-        )?;
-        // without the bins at zero and at half the rate
-        let kurtosis = found.kurtosis;
+        let kurtosis = smoothed_kurtosis(series)?;
         for (bin, gain) in gains.iter_mut().enumerate() {
-            let middle = bin.clamp(1, kurtosis.len()) - 1;
-            let first = middle.saturating_sub(SMOOTHED_BINS);
-            let end = (middle + SMOOTHED_BINS + 1).min(kurtosis.len());
-            let mean = kurtosis[first..end].iter().sum::<f64>() / (end - first) as f64;
-            *gain *= mean.max(LEAST_KURTOSIS).powf(0.25);
+            *gain *= kurtosis[bin.min(kurtosis.len() - 1)].powf(0.25);
         }
     }
     let points = fast_length(series.values().len());
@@ -97,6 +84,47 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
     values.truncate(series.values().len());
     let (start, step) = (series.start_s(), series.step_s());
     Ok(TimeSeries::new(start, step, "", values)?)
+}
+
+/// Kurtosis of the bins from zero to half the rate, averaged over five; at least a thousandth.
+fn smoothed_kurtosis(series: &TimeSeries) -> Result<Vec<f64>, SignalError> {
+    let segment = segment_samples(series);
+    let found = spectral_kurtosis(
+        series,
+        WindowFunction::Hann,
+        segment,
+        overlap(segment),
+        0.99,
+    )?;
+    // without the bins at zero and at half the rate
+    let kurtosis = found.kurtosis;
+    let mean = |bin: usize| {
+        let middle = bin.clamp(1, kurtosis.len()) - 1;
+        let first = middle.saturating_sub(SMOOTHED_BINS);
+        let end = (middle + SMOOTHED_BINS + 1).min(kurtosis.len());
+        let mean = kurtosis[first..end].iter().sum::<f64>() / (end - first) as f64;
+        mean.max(LEAST_KURTOSIS)
+    };
+    Ok((0..=kurtosis.len() + 1).map(mean).collect())
+}
+
+/// Gains at frequencies that are `hz` apart, from zero to half the rate, that emphasise impulsive ones: see [`Emphasis::Impulsive`].
+///
+/// # Errors
+/// As [`whiten`].
+pub(super) fn impulsive_gains(series: &TimeSeries) -> Result<(f64, Vec<f64>), SignalError> {
+    let kurtosis = smoothed_kurtosis(series)?;
+    let hz = series.rate_hz() / segment_samples(series) as f64;
+    Ok((hz, kurtosis.into_iter().map(|k| k.powf(0.25)).collect()))
+}
+
+fn segment_samples(series: &TimeSeries) -> usize {
+    let wanted = (SEGMENT_S * series.rate_hz()).round() as usize;
+    fast_length(wanted.max(FEWEST_SAMPLES))
+}
+
+fn overlap(segment_samples: usize) -> usize {
+    segment_samples * 3 / 4
 }
 
 #[cfg(test)]

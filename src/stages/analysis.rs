@@ -2,7 +2,7 @@
 
 use super::{AskedBand, Kinematics, StageError, UsedBand};
 use crate::case::Case;
-use crate::diagnosis::{Diagnosis, DiagnosisError, Fault, FaultOrders, judged_envelopes};
+use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
 use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
@@ -24,8 +24,10 @@ const SHOWN_POINTS: usize = 4000;
 /// What is analysed of a signal.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct AnalysisSettings {
-    /// Band before the envelope; `None`: the signal as it is.
+    /// Band that is asked for; `None`: verdicts look at all bands.
     pub band: Option<AskedBand>,
+    /// Band of the envelope that is shown where none is asked for; `None`: the signal as it is.
+    pub shown_band: Option<AskedBand>,
     /// Whether the envelope spectra are those of the whitened signal's squared envelope; verdicts look at both anyway.
     pub whiten: bool,
     /// Windows, s.
@@ -39,6 +41,7 @@ impl AnalysisSettings {
         let windows = case.analysis.envelope.iter();
         Self {
             band: AskedBand::of(case),
+            shown_band: None,
             whiten: case.analysis.whiten,
             windows: windows
                 .map(|window| TimeWindow {
@@ -108,7 +111,13 @@ pub fn analyse(
             let speed_hz = kinematics.mean_speed_hz(window);
             let orders = kinematics.orders(window)?;
             let read = |window, margin_s: f64| read(window, margin_s.max(to - from));
-            let band = UsedBand::of(settings.band, window, read, speed_hz, &orders)?;
+            let band = UsedBand::of(
+                settings.band.or(settings.shown_band),
+                window,
+                read,
+                speed_hz,
+                &orders,
+            )?;
             let filter = EnvelopeAnalysis {
                 high_pass_hz: band.high_pass_hz,
                 ..EnvelopeAnalysis::default()
@@ -127,9 +136,13 @@ pub fn analyse(
             let part = stretch.window(from, to)?;
             let spectrum = filter.window_of(whitened.as_ref().unwrap_or(&envelope), from, to)?;
             let turns = |time| kinematics.turns(time);
-            let diagnosis = judged_envelopes(&stretch, envelope_of)
-                .map_err(DiagnosisError::from)
-                .and_then(|envelopes| Diagnosis::of(&envelopes, window, turns, &orders));
+            let diagnosis = Diagnosis::of(
+                &stretch,
+                band.judged_hz(settings.band),
+                window,
+                turns,
+                &orders,
+            );
             let lines = lines(speed_hz, &orders, diagnosis.as_ref().ok())?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),

@@ -2,7 +2,7 @@
 
 use super::WindowAnalysis;
 use super::band_search_report::{band_facts, kurtogram_plot};
-use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, line_name};
+use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict};
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
     Verdict, significant,
@@ -145,7 +145,7 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     let mut plot = Plot::new(
         format!(
             "{} over the shaft's angle, {}, {}-{} s",
-            capital(diagnosis.envelope),
+            capital(&diagnosis.envelope),
             window.sensor,
             round(window.from),
             round(window.to)
@@ -243,16 +243,15 @@ fn harmonic_table(diagnosis: &Diagnosis) -> Table {
     let harmonics = diagnosis
         .faults
         .iter()
-        .flat_map(|verdict: &FaultVerdict| verdict.harmonics.iter().map(move |h| (verdict, h)));
-    for (verdict, harmonic) in harmonics {
-        let remark = match (&harmonic.coincides_with, &harmonic.leakage_of) {
-            (Some(other), _) => format!("coincides with {other}: does not count"),
-            (None, Some(other)) => format!("may be leakage of {other}: no evidence"),
-            (None, None) if harmonic.seen => "stands out".to_owned(),
-            (None, None) => String::new(),
+        .flat_map(|verdict: &FaultVerdict| &verdict.harmonics);
+    for harmonic in harmonics {
+        let remark = match &harmonic.coincides_with {
+            Some(other) => format!("coincides with {other}: does not count"),
+            None if harmonic.seen => "stands out".to_owned(),
+            None => String::new(),
         };
         table = table.row([
-            Cell::text(line_name(verdict.fault, harmonic.harmonic, harmonic.side)),
+            Cell::text(harmonic.name.clone()),
             Cell::number(harmonic.order, 5),
             Cell::number(harmonic.frequency_hz, 4),
             Cell::number(100.0 * harmonic.depth, 2),

@@ -145,6 +145,16 @@ impl UsedBand {
             .or(asked.map(<[f64; 2]>::from))
     }
 
+    /// The band that a verdict is sought in, Hz: what was asked for and found; `None`: all.
+    #[must_use]
+    pub(super) fn judged_hz(&self, asked: Option<AskedBand>) -> Option<[f64; 2]> {
+        match asked? {
+            AskedBand::HighPass(corner) => Some([corner, f64::INFINITY]),
+            AskedBand::Between(edges) => Some(edges),
+            AskedBand::Kurtogram => self.band_hz(),
+        }
+    }
+
     /// The search, if there was one.
     #[must_use]
     pub fn found(&self) -> Option<&BandSearch> {

@@ -26,7 +26,7 @@ pub fn compute_analysis(
             own.windows.push(series.span());
         }
         let usual = AskedBand::HighPass(usual_high_pass_hz(series.rate_hz()));
-        own.band.get_or_insert(usual);
+        own.shown_band.get_or_insert(usual);
         let read = |window: TimeWindow, margin_s: f64| {
             let samples = series.values().len();
             let inside = window.check_inside(series.start_s(), series.step_s(), samples);

@@ -1,0 +1,157 @@
+//! Lines that have a reason already: multiples of the shaft, and the lines of what was found before.
+
+use super::fault::Fault;
+use super::line_spectrum::LineSpectrum;
+
+/// A line takes so many times the resolution to each side; a strong one, whose foot stands above the floor, one more.
+const HALF_WIDTH: f64 = 1.5;
+const STRONG_HALF_WIDTH: f64 = 2.5;
+/// Lines of a short window, tapered less, are narrower by this.
+const SHORT_WIDTH: f64 = 0.8;
+/// Power over the floor of a strong line, 13 dB: the Hann window's foot is 15 dB lower at 1.5 bins, 32 dB at 2.5.
+const STRONG: f64 = 20.0;
+/// Relative uncertainty of an explained line's order: slip that varies within the window.
+const WANDERING: f64 = 5e-4;
+/// Side lines of a part: to so many revolutions of the shaft, and of the cage, on each side of a harmonic; and where the resolution is
+/// coarser than this order to one, since they would cover everything.
+const SHAFT_SIDES: u32 = 3;
+const CAGE_SIDES: u32 = 2;
+const FINE_RESOLUTION: f64 = 0.03;
+
+/// A line that has a reason, and which.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct KnownLine {
+    pub(super) order: f64,
+    /// Relative uncertainty of the order.
+    pub(super) error: f64,
+    pub(super) name: String,
+}
+
+/// Multiples of the shaft's order up to one; its speed is known within a relative error.
+pub(super) fn shaft_lines(highest: f64, error: f64) -> Vec<KnownLine> {
+    let count = highest.max(0.0) as u32;
+    (1..=count)
+        .map(|multiple| KnownLine {
+            order: f64::from(multiple),
+            error,
+            name: format!("{multiple} x shaft"),
+        })
+        .collect()
+}
+
+/// What carries a fault through the load zone.
+pub(super) fn carrier(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Ball => "cage",
+        _ => "shaft",
+    }
+}
+
+/// What a line of a part is called: "2 x ball -1 x cage".
+#[must_use]
+pub fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
+    let name = fault.name();
+    match side {
+        0 => format!("{harmonic} x {name}"),
+        _ => format!("{harmonic} x {name} {side:+} x {}", carrier(fault)),
+    }
+}
+
+/// The lines of repeated impacts of the order given: harmonics up to an order, and those beside them at the distance of the shaft and of
+/// the cage, since load and sensor see an impact once a revolution of either.
+pub(super) fn impact_lines(
+    name: &str,
+    order: f64,
+    cage: Option<f64>,
+    highest: f64,
+    resolution: f64,
+) -> Vec<KnownLine> {
+    let fine = resolution < FINE_RESOLUTION;
+    let sides = |count: u32| if fine { count } else { 1 };
+    let mut lines = Vec::new();
+    let mut push = |order: f64, name: String| {
+        if order > 0.0 {
+            lines.push(KnownLine {
+                order,
+                error: WANDERING,
+                name,
+            });
+        }
+    };
+    let count = (highest / order).min(10_000.0) as u32 + 1;
+    for harmonic in 1..=count {
+        let line = f64::from(harmonic) * order;
+        push(line, format!("{harmonic} x {name}"));
+        let mut beside = |spacing: f64, count: u32, carrier: &str| {
+            // lines nearer than they are wide are not told apart
+            if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
+                return;
+            }
+            for side in 1..=sides(count) {
+                for sign in [-1.0, 1.0] {
+                    let offset = sign * f64::from(side);
+                    push(
+                        line + offset * spacing,
+                        format!("{harmonic} x {name} {offset:+} x {carrier}"),
+                    );
+                }
+            }
+        };
+        beside(1.0, SHAFT_SIDES, "shaft");
+        if let Some(cage) = cage {
+            beside(cage, CAGE_SIDES, "cage");
+        }
+    }
+    lines
+}
+
+/// Half of the width, in orders, that a known line takes in a spectrum.
+fn half_width(spectrum: &LineSpectrum, line: &KnownLine) -> f64 {
+    let mut widths = if spectrum.ratio(line.order) > STRONG {
+        STRONG_HALF_WIDTH
+    } else {
+        HALF_WIDTH
+    };
+    if spectrum.is_short() {
+        widths *= SHORT_WIDTH;
+    }
+    widths * spectrum.resolution + line.error * line.order
+}
+
+/// Which bins of a spectrum known lines take.
+#[derive(Debug, Clone)]
+pub(super) struct Mask(Vec<bool>);
+
+impl Mask {
+    pub(super) fn new(spectrum: &LineSpectrum) -> Self {
+        Self(vec![false; spectrum.bins()])
+    }
+
+    /// Takes the bins of more lines.
+    pub(super) fn take(&mut self, spectrum: &LineSpectrum, lines: &[KnownLine]) {
+        for line in lines {
+            let half = half_width(spectrum, line);
+            let first = spectrum.bin((line.order - half).max(0.0));
+            let Some(first) = first else { continue };
+            let last = spectrum.bin(line.order + half).unwrap_or(self.0.len() - 1);
+            self.0[first..=last].fill(true);
+        }
+    }
+
+    pub(super) fn taken(&self, bin: usize) -> bool {
+        self.0[bin]
+    }
+}
+
+/// The known line that takes an order, the nearest.
+pub(super) fn coincidence<'a>(
+    spectrum: &LineSpectrum,
+    order: f64,
+    known: &'a [KnownLine],
+) -> Option<&'a KnownLine> {
+    let distance = |line: &KnownLine| (line.order - order).abs();
+    let about = known
+        .iter()
+        .filter(|line| distance(line) <= half_width(spectrum, line));
+    about.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}

@@ -1,0 +1,104 @@
+//! The shaft's speed, sharpened by the lines that it leaves in a signal and in its envelope.
+
+use super::DiagnosisError;
+use super::angle_grid::AngleGrid;
+use super::control::ByChance;
+use super::line_spectrum::LineSpectrum;
+
+/// Largest relative error of a speed that is looked for: a motor's nominal speed under load.
+const LARGEST_ERROR: f64 = 0.03;
+/// Relative uncertainty of a speed that the signal does not show.
+pub(super) const UNSEEN_ERROR: f64 = 3e-3;
+/// Revolutions of a stretch whose spectra are averaged.
+const REVOLUTIONS: f64 = 256.0;
+/// Fewest revolutions: the lines of fewer are no sharper than the speed is known.
+const FEWEST_REVOLUTIONS: f64 = 48.0;
+/// Multiples of the shaft's order that are looked at.
+const MULTIPLES: u32 = 12;
+/// Places of the search in the resolution of the highest multiple.
+const PLACES: f64 = 3.0;
+/// Factors of the speed at which the same comb is tried for what it scores by chance lie between these.
+const CONTROLS: [f64; 2] = [0.4, 2.6];
+/// Probability by chance below which the lines are the shaft's.
+const SEEN_BELOW: f64 = 0.02;
+/// Combs that score this part of the best are as good: they bound the uncertainty.
+const AS_GOOD: f64 = 0.9;
+
+/// The speed that the signal shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SpeedFit {
+    /// Over the speed that was given.
+    pub(super) factor: f64,
+    /// Relative uncertainty.
+    pub(super) error: f64,
+}
+
+/// Sharpens the speed by the comb of the shaft's multiples in the spectra of `series` (start and step in s, values). `None` where the
+/// window is short or the lines do not show.
+pub(super) fn sharpened(
+    grid: &AngleGrid,
+    series: &[(f64, f64, &[f64])],
+) -> Result<Option<SpeedFit>, DiagnosisError> {
+    if grid.turns() < FEWEST_REVOLUTIONS {
+        return Ok(None);
+    }
+    let highest = (f64::from(MULTIPLES) + 1.0) * CONTROLS[1];
+    let spectra: Result<Vec<LineSpectrum>, DiagnosisError> = series
+        .iter()
+        .map(|(start_s, step_s, values)| {
+            let means = grid.means(*start_s, *step_s, values);
+            LineSpectrum::new(&means, grid.per_turn(), highest, 1.0, REVOLUTIONS)
+        })
+        .collect();
+    let spectra = spectra?;
+    let Some(resolution) = spectra.first().map(|spectrum| spectrum.resolution) else {
+        return Ok(None);
+    };
+    let score = |order: f64| {
+        let teeth = (1..=MULTIPLES).flat_map(|k| {
+            let line = f64::from(k) * order;
+            spectra.iter().map(move |spectrum| {
+                let level = spectrum.bin(line).map(|bin| spectrum.level(bin));
+                level.unwrap_or(0.0)
+            })
+        });
+        teeth.sum::<f64>()
+    };
+    let step = resolution / (f64::from(MULTIPLES) * PLACES);
+    let best = |centre: f64| {
+        let steps = (LARGEST_ERROR * centre / step).ceil();
+        let places = -(steps as i32)..=steps as i32;
+        let fits = places.map(|place| {
+            let order = centre * (1.0 + LARGEST_ERROR * f64::from(place) / steps);
+            (score(order), order)
+        });
+        let fits: Vec<(f64, f64)> = fits.collect();
+        let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
+        // the middle of those that are about as good, and how far they reach
+        let near = fits.iter().filter(|fit| fit.0 >= AS_GOOD * most);
+        let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| {
+            (low.min(fit.1), high.max(fit.1))
+        });
+        (most, low, high)
+    };
+    let (most, low, high) = best(1.0);
+    let mut controls = Vec::new();
+    let mut centre = CONTROLS[0];
+    while centre < CONTROLS[1] {
+        let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
+        let related = simple
+            .iter()
+            .any(|ratio| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR);
+        if !related {
+            controls.push(best(centre).0);
+        }
+        centre *= 1.0 + 0.5 * LARGEST_ERROR;
+    }
+    let chance = ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0));
+    Ok(
+        (chance < SEEN_BELOW && high - low < LARGEST_ERROR).then_some(SpeedFit {
+            factor: 0.5 * (low + high),
+            error: (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES)),
+        }),
+    )
+}
