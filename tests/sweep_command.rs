@@ -239,7 +239,7 @@ fn interrupted_runs_go_on() {
                 "--set",
                 "transient.step=2.5e-7",
                 "--set",
-                "transient.end=0.2",
+                "transient.end=0.8",
             ])
             .args(["--set", "analysis.envelope=[{from=0.05,to=0.2}]"])
             .args(more)
