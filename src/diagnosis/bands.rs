@@ -16,6 +16,11 @@ const HARMONICS_A_BAND: f64 = 3.0;
 /// What is added to a squared envelope over its mean before the logarithm is taken: silence would be without end.
 const LEAST_POWER: f64 = 0.01;
 
+/// Revolutions of a stretch, and highest order, of the spectra in which the cage's lines are sought. These are sharp, since slip
+/// spreads a line in proportion to its order, and the cage turns less than half as often as the shaft.
+const FINE_REVOLUTIONS: f64 = 256.0;
+const HIGHEST_FINE_ORDER: f64 = 6.0;
+
 /// What of an envelope a spectrum is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum EnvelopeKind {
@@ -54,8 +59,17 @@ fn bands([from, to]: [f64; 2], narrowest: f64, levels: u32) -> Vec<[f64; 2]> {
     bands
 }
 
-/// Spectra up to the order `highest` of the envelopes of all bands within `within_hz`, and of the whole of the emphasised signal; `strikes_hz` is the highest frequency at which a part
-/// strikes.
+/// The spectra that verdicts are sought in.
+#[derive(Debug, Clone)]
+pub(super) struct Spectra {
+    /// Averaged over stretches of 64 revolutions.
+    pub(super) lines: Vec<BandSpectrum>,
+    /// The low orders of the same envelopes, averaged over stretches of 256 revolutions.
+    pub(super) fine: Vec<BandSpectrum>,
+}
+
+/// Spectra up to the order `highest` of the envelopes of all bands within `within_hz`, and of the whole of the emphasised signal;
+/// `strikes_hz` is the highest frequency at which a part strikes.
 pub(super) fn band_spectra(
     signal: &WhiteSpectrum,
     impulsive: Option<&WhiteSpectrum>,
@@ -63,13 +77,13 @@ pub(super) fn band_spectra(
     within_hz: [f64; 2],
     strikes_hz: f64,
     highest: f64,
-) -> Result<Vec<BandSpectrum>, DiagnosisError> {
+) -> Result<Spectra, DiagnosisError> {
     let levels = match stretches(grid.turns()) {
         1 => SHORT_LEVELS,
         _ => LEVELS,
     };
     let bands = bands(within_hz, HARMONICS_A_BAND * strikes_hz, levels);
-    let spectra: Result<Vec<Vec<BandSpectrum>>, DiagnosisError> = bands
+    let spectra: Result<Vec<Vec<[BandSpectrum; 2]>>, DiagnosisError> = bands
         .into_par_iter()
         .enumerate()
         .map(|(place, band_hz)| {
@@ -77,7 +91,7 @@ pub(super) fn band_spectra(
             let (start_s, step_s) = (envelope.start_s, envelope.step_s);
             // an envelope has nothing beyond the width of its band
             let own = (band_hz[1] - band_hz[0]) / grid.fastest_hz;
-            let of = |kind, values: &[f64]| -> Result<BandSpectrum, DiagnosisError> {
+            let of = |kind, values: &[f64]| -> Result<[BandSpectrum; 2], DiagnosisError> {
                 let means = grid.means(start_s, step_s, values);
                 let scale = match kind {
                     EnvelopeKind::Magnitude | EnvelopeKind::Impulsive => {
@@ -87,13 +101,19 @@ pub(super) fn band_spectra(
                 };
                 let scale = scale.max(f64::MIN_POSITIVE);
                 let highest = highest.min(own);
-                let per_turn = grid.per_turn();
-                let lines = LineSpectrum::new(&means, per_turn, highest, scale, REVOLUTIONS)?;
-                Ok(BandSpectrum {
-                    band_hz,
-                    kind,
-                    lines,
-                })
+                let spectrum = |highest: f64, revolutions: f64| {
+                    let lines =
+                        LineSpectrum::new(&means, grid.per_turn(), highest, scale, revolutions)?;
+                    Ok::<_, DiagnosisError>(BandSpectrum {
+                        band_hz,
+                        kind,
+                        lines,
+                    })
+                };
+                Ok([
+                    spectrum(highest, REVOLUTIONS)?,
+                    spectrum(highest.min(HIGHEST_FINE_ORDER), FINE_REVOLUTIONS)?,
+                ])
             };
             let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
             let mut found = vec![of(EnvelopeKind::Magnitude, &magnitude)?];
@@ -116,5 +136,10 @@ pub(super) fn band_spectra(
             Ok(found)
         })
         .collect();
-    Ok(spectra?.into_iter().flatten().collect())
+    let (lines, fine) = spectra?
+        .into_iter()
+        .flatten()
+        .map(|[lines, fine]| (lines, fine))
+        .unzip();
+    Ok(Spectra { lines, fine })
 }

@@ -17,6 +17,10 @@ const WANDERING: f64 = 5e-4;
 const SHAFT_SIDES: u32 = 3;
 const CAGE_SIDES: u32 = 2;
 const FINE_RESOLUTION: f64 = 0.03;
+/// A comb beside a stronger one, so many revolutions away: its k-th tooth is the stronger one's k-th harmonic and k times as many
+/// sidebands. In a 6203 the inner race less one is within 1 % of the ball, and less two of the outer race.
+const COMBS_BESIDE: u32 = 2;
+const HARMONICS_BESIDE: u32 = 8;
 
 /// A line that has a reason, and which.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,14 +86,14 @@ pub(super) fn impact_lines(
     for harmonic in 1..=count {
         let line = f64::from(harmonic) * order;
         push(line, format!("{harmonic} x {name}"));
-        let mut beside = |spacing: f64, count: u32, carrier: &str| {
+        let mut beside = |spacing: f64, step: u32, count: u32, carrier: &str| {
             // lines nearer than they are wide are not told apart
             if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
                 return;
             }
-            for side in 1..=sides(count) {
+            for side in 1..=count {
                 for sign in [-1.0, 1.0] {
-                    let offset = sign * f64::from(side);
+                    let offset = sign * f64::from(step * side);
                     push(
                         line + offset * spacing,
                         format!("{harmonic} x {name} {offset:+} x {carrier}"),
@@ -97,9 +101,12 @@ pub(super) fn impact_lines(
                 }
             }
         };
-        beside(1.0, SHAFT_SIDES, "shaft");
+        beside(1.0, 1, sides(SHAFT_SIDES), "shaft");
+        if harmonic <= HARMONICS_BESIDE {
+            beside(1.0, harmonic, COMBS_BESIDE, "shaft");
+        }
         if let Some(cage) = cage {
-            beside(cage, CAGE_SIDES, "cage");
+            beside(cage, 1, sides(CAGE_SIDES), "cage");
         }
     }
     lines

@@ -20,17 +20,20 @@
 
 mod angle_grid;
 mod bands;
+mod cage_lines;
 mod comb;
 mod control;
 mod error;
 mod explain;
 mod fault;
+mod findings;
 mod known;
 mod line_spectrum;
 mod order_spectrum;
 mod shaft_speed;
 #[cfg(test)]
 mod tests;
+mod unexplained;
 mod verdict;
 mod window;
 

@@ -95,10 +95,12 @@ pub(super) fn sharpened(
         centre *= 1.0 + 0.5 * LARGEST_ERROR;
     }
     let chance = ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0));
+    let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
+    // lines that leave more room than the given speed has do not sharpen it
     Ok(
-        (chance < SEEN_BELOW && high - low < LARGEST_ERROR).then_some(SpeedFit {
+        (chance < SEEN_BELOW && error < UNSEEN_ERROR).then_some(SpeedFit {
             factor: 0.5 * (low + high),
-            error: (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES)),
+            error,
         }),
     )
 }

@@ -23,11 +23,16 @@ pub const LEAST_SHORT_HARMONICS: usize = 2;
 pub const LEAST_SHORT_STRENGTH_DB: f64 = 12.0;
 /// The same for a cage. Balls of unequal size, and a ball that is damaged, change the vibration once a revolution of the cage as well.
 pub const LEAST_CAGE_STRENGTH_DB: f64 = 18.0;
+/// Mean power over the floor of the cage's lines from which they indicate a ball, dB at a resolution of 1 / 256 of a revolution. Sound
+/// bearings and damaged races without that have 7.4 dB at most, balls from 6.3 on (`docs/diagnosis.md`).
+pub const LEAST_CAGE_LINES_DB: f64 = 8.0;
+/// Probability by chance below which the cage's lines indicate a ball: they are an indirect sign.
+pub const BALL_BY_CAGE_BELOW: f64 = 1e-6;
 /// Least impulsiveness of a fault, [`FaultVerdict::impulsiveness`].
 pub const LEAST_IMPULSIVENESS: f64 = 0.2;
 
 /// The same in a window of fewer than 96 revolutions, where the noise in more and coarser harmonics adds to it.
-pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.4;
+pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.2;
 
 /// What is said of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -126,8 +131,29 @@ pub struct FaultVerdict {
     pub side_spacing: Option<f64>,
     /// Sidebands about the first harmonics.
     pub side_lines: Vec<SideLine>,
+    /// The lines of the cage, where it is by these that a ball is indicated: `false_alarm` is theirs then.
+    pub cage_lines: Option<CageLines>,
     /// Why this, and why not more.
     pub why: String,
+}
+
+/// The lines of the cage, by which a ball shows that differs from the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CageLines {
+    /// Probability by chance.
+    pub false_alarm: f64,
+    /// Order of the cage where they fit best, revolutions per revolution of the shaft.
+    pub order: f64,
+    /// That order at the mean speed, Hz.
+    pub frequency_hz: f64,
+    /// Band whose envelope shows them best, Hz.
+    pub band_hz: [f64; 2],
+    /// Harmonics among the deciding ones that stand out.
+    pub harmonics_seen: usize,
+    /// Mean power of the free harmonics over their floor, dB, at a resolution of 1 / 256 of a revolution.
+    pub strength_db: f64,
+    /// The harmonics.
+    pub harmonics: Vec<Harmonic>,
 }
 
 impl FaultVerdict {
@@ -147,6 +173,7 @@ impl FaultVerdict {
             impulsiveness: None,
             side_spacing,
             side_lines: Vec::new(),
+            cage_lines: None,
             why: String::new(),
         }
     }
@@ -174,7 +201,8 @@ pub struct UnexplainedImpacts {
 pub(super) struct Evidence {
     pub(super) free: usize,
     pub(super) seen: usize,
-    first: bool,
+    /// Whether the fundamental or the second harmonic is seen.
+    pub(super) first: bool,
     pub(super) strength_db: Option<f64>,
     pub(super) impulsiveness: Option<f64>,
     least: Least,

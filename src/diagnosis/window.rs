@@ -3,7 +3,8 @@
 use super::angle_grid::AngleGrid;
 use super::bands::band_spectra;
 use super::comb::SHOWN_HARMONICS;
-use super::explain::{Search, envelope_name};
+use super::explain::Search;
+use super::findings::envelope_name;
 use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened};
 use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict};
@@ -99,7 +100,8 @@ impl Diagnosis {
             (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
         let speed_hz = factor * given_speed_hz;
         let search = Search {
-            spectra: &spectra,
+            spectra: &spectra.lines,
+            fine: &spectra.fine,
             orders,
             turns: grid.turns(),
             speed_hz,
@@ -107,6 +109,7 @@ impl Diagnosis {
         };
         let found = search.run();
         let best = spectra
+            .lines
             .get(found.spectrum)
             .ok_or(DiagnosisError::NoEnvelope)?;
         let envelope = white.envelope(best.band_hz);
@@ -122,7 +125,7 @@ impl Diagnosis {
             speed_error,
             speed_source,
             envelope: envelope_name(best),
-            envelopes: spectra.len(),
+            envelopes: spectra.lines.len(),
             spectrum: EnvelopeOrderSpectrum::new(&shown, shown_window, sharp, highest)?,
             faults: found.faults,
             unexplained: found.unexplained,

@@ -1,0 +1,188 @@
+//! What is found of a part: its harmonics and sidebands, and the verdict that they amount to.
+
+use super::bands::{BandSpectrum, EnvelopeKind};
+use super::comb::{Fit, LEAST_FREE, SHOWN_HARMONICS};
+use super::explain::{Candidate, Search, turns_needed};
+use super::fault::Fault;
+use super::known::{KnownLine, coincidence, line_name};
+use super::verdict::{Evidence, FaultVerdict, Harmonic, SideLine, conclude};
+
+/// Side lines that are looked at: to so many spacings on each side of so many harmonics.
+const SIDES: i32 = 2;
+const SIDED_HARMONICS: u32 = 3;
+
+impl Search<'_> {
+    pub(super) fn side_spacing(&self, fault: Fault) -> Option<f64> {
+        match fault {
+            Fault::InnerRace => Some(1.0),
+            Fault::Ball => self.orders.order(Fault::Cage),
+            Fault::OuterRace | Fault::Cage => None,
+        }
+    }
+
+    pub(super) fn empty(&self, fault: Fault, expected: f64) -> FaultVerdict {
+        FaultVerdict::new(fault, expected, self.side_spacing(fault))
+    }
+
+    pub(super) fn too_short(&self, fault: Fault, expected: f64) -> FaultVerdict {
+        let why = format!(
+            "The window has {:.1} revolutions. At least {:.1} are needed to tell these lines from the floor about them.",
+            self.turns,
+            turns_needed(expected)
+        );
+        FaultVerdict {
+            why,
+            ..self.empty(fault, expected)
+        }
+    }
+
+    /// A part whose lines cannot be told from others, or lie beyond the spectrum.
+    pub(super) fn hidden(&self, fault: Fault, expected: f64, known: &[KnownLine]) -> FaultVerdict {
+        let ends = |band: &BandSpectrum| band.lines.end();
+        let widest = (0..self.spectra.len())
+            .max_by(|&a, &b| ends(&self.spectra[a]).total_cmp(&ends(&self.spectra[b])))
+            .unwrap_or(0);
+        let ends = ends(&self.spectra[widest]);
+        let why = if ends < LEAST_FREE as f64 * expected {
+            format!(
+                "The envelope's spectrum ends at order {ends:.1}, below the third harmonic of this part. A higher sampling rate is needed."
+            )
+        } else {
+            format!(
+                "Fewer than {LEAST_FREE} of the first harmonics are free of other lines. A longer window separates more."
+            )
+        };
+        let candidate = Candidate {
+            fault: Some(fault),
+            fit: Fit {
+                score: 0.0,
+                order: expected,
+                spectrum: widest,
+                sided: false,
+            },
+            beside: None,
+            relative_reach: 0.0,
+        };
+        FaultVerdict {
+            why,
+            harmonics: self.part_harmonics(&candidate, fault, known),
+            ..self.empty(fault, expected)
+        }
+    }
+
+    pub(super) fn verdict(
+        &self,
+        fault: Fault,
+        expected: f64,
+        candidate: &Candidate,
+        chance: f64,
+        known: &[KnownLine],
+    ) -> FaultVerdict {
+        let fit = candidate.fit;
+        let band = &self.spectra[fit.spectrum];
+        let spacing = self.side_spacing(fault);
+        let harmonics = self.part_harmonics(candidate, fault, known);
+        let evidence = Evidence::of(&harmonics, &band.lines);
+        let side_lines = self.side_lines(&fit, spacing, known);
+        let mut verdict = FaultVerdict {
+            false_alarm: Some(chance),
+            order: Some(fit.order),
+            frequency_hz: Some(fit.order * self.speed_hz),
+            band_hz: Some(band.band_hz),
+            harmonics_free: evidence.free,
+            harmonics_seen: evidence.seen,
+            strength_db: evidence.strength_db,
+            impulsiveness: evidence.impulsiveness,
+            harmonics,
+            side_lines,
+            ..self.empty(fault, expected)
+        };
+        (verdict.conclusion, verdict.why) = conclude(&verdict, &evidence, chance);
+        verdict
+    }
+
+    /// The harmonics of a part's comb.
+    pub(super) fn part_harmonics(
+        &self,
+        candidate: &Candidate,
+        fault: Fault,
+        known: &[KnownLine],
+    ) -> Vec<Harmonic> {
+        self.harmonics(candidate, known, |harmonic, side| {
+            line_name(fault, harmonic, side)
+        })
+    }
+
+    /// The harmonics of a comb, and the lines beside them where they count.
+    pub(super) fn harmonics(
+        &self,
+        candidate: &Candidate,
+        known: &[KnownLine],
+        name: impl Fn(u32, i32) -> String,
+    ) -> Vec<Harmonic> {
+        let fit = candidate.fit;
+        let lines = &self.spectra[fit.spectrum].lines;
+        let sides: &[i32] = if fit.sided { &[-1, 0, 1] } else { &[0] };
+        let places = (1..=SHOWN_HARMONICS).flat_map(|k| sides.iter().map(move |side| (k, *side)));
+        places
+            .filter_map(|(harmonic, side)| {
+                let beside = f64::from(side) * candidate.beside.unwrap_or(0.0);
+                let order = f64::from(harmonic) * fit.order + beside;
+                lines.bin(order)?;
+                let other = coincidence(lines, order, known);
+                Some(Harmonic {
+                    name: name(harmonic, side),
+                    harmonic,
+                    side,
+                    order,
+                    frequency_hz: order * self.speed_hz,
+                    depth: lines.amplitude(order),
+                    above_floor_db: 10.0 * lines.ratio(order).max(1e-3).log10(),
+                    seen: other.is_none() && lines.seen(order),
+                    coincides_with: other.map(|line| line.name.clone()),
+                })
+            })
+            .collect()
+    }
+
+    pub(super) fn side_lines(
+        &self,
+        fit: &Fit,
+        spacing: Option<f64>,
+        known: &[KnownLine],
+    ) -> Vec<SideLine> {
+        let Some(spacing) = spacing else {
+            return Vec::new();
+        };
+        let lines = &self.spectra[fit.spectrum].lines;
+        let mut found = Vec::new();
+        for harmonic in 1..=SIDED_HARMONICS {
+            for offset in (-SIDES..=SIDES).filter(|&offset| offset != 0) {
+                let order = f64::from(harmonic) * fit.order + f64::from(offset) * spacing;
+                if order <= 0.0 || lines.bin(order).is_none() {
+                    continue;
+                }
+                let free = spacing > lines.resolution && coincidence(lines, order, known).is_none();
+                found.push(SideLine {
+                    harmonic,
+                    offset,
+                    order,
+                    above_floor_db: 10.0 * lines.ratio(order).max(1e-3).log10(),
+                    seen: free && lines.seen(order),
+                });
+            }
+        }
+        found
+    }
+}
+
+/// What an envelope is called in a report.
+pub(super) fn envelope_name(band: &BandSpectrum) -> String {
+    let [from, to] = band.band_hz;
+    let kind = match band.kind {
+        EnvelopeKind::Magnitude => "envelope",
+        EnvelopeKind::Impulsive => "envelope of the impulsive frequencies",
+        EnvelopeKind::Logarithm => "logarithm of the envelope",
+    };
+    format!("{kind} of the whitened signal, {from:.0} to {to:.0} Hz")
+}

@@ -1,0 +1,116 @@
+//! Repeated impacts that belong to no part of the bearing: another bearing, a wrong speed, a gear.
+
+use super::comb::Masked;
+use super::comb::{Fit, best_fit};
+use super::explain::{Candidate, Search, turns_needed};
+use super::fault::Fault;
+use super::known::KnownLine;
+use super::line_spectrum::REVOLUTIONS;
+use super::verdict::{Evidence, UnexplainedImpacts};
+
+/// Lowest and highest order of impacts of something else.
+pub(super) const UNEXPLAINED_ORDERS: [f64; 2] = [0.3, 16.0];
+/// Impacts of something else are said below this probability by chance.
+const UNEXPLAINED_BELOW: f64 = 1e-4;
+/// Ratios and sums in which orders are related, so that a comb of the one is one of the other's lines.
+const RELATED: u32 = 4;
+const RELATED_SIDES: i32 = 3;
+/// A comb at a part of another's order is the same impacts' where it scores at least this part of the other's score.
+const SAME_COMB: f64 = 0.7;
+/// Parts of an order in which its fundamental is sought.
+const LOWEST_PART: u32 = 5;
+
+impl Search<'_> {
+    /// The best comb that is none of a part, of the shaft, or of what one of them and the shaft or the cage make together.
+    pub(super) fn something_else(&self, masked: &[Masked<'_>]) -> Option<Candidate> {
+        let [from, to] = UNEXPLAINED_ORDERS;
+        let resolution = self.spectra.first()?.lines.resolution;
+        let mut best: Option<Fit> = None;
+        // so that every place is looked at by one search of half the resolution to each side
+        let least = from.max(turns_needed(1.0) / self.turns);
+        let mut order = least;
+        let fit_at = |order: f64| {
+            let fit = best_fit(masked, order, 0.0, None)?;
+            (!self.is_related(fit.order, resolution)).then_some(fit)
+        };
+        while order < to {
+            if let Some(fit) = fit_at(order)
+                && best.is_none_or(|best| fit.score > best.score)
+            {
+                best = Some(fit);
+            }
+            order += resolution;
+        }
+        // the harmonics of a harmonic score as much as those of its fundamental
+        let lowest = best.and_then(|best| {
+            let parts = (2..=LOWEST_PART).rev();
+            let mut fits = parts
+                .map(|part| best.order / f64::from(part))
+                .filter(|order| *order >= least)
+                .filter_map(fit_at);
+            fits.find(|fit| fit.score >= SAME_COMB * best.score)
+        });
+        lowest.or(best).map(|fit| Candidate {
+            fault: None,
+            fit,
+            beside: None,
+            relative_reach: 0.0,
+        })
+    }
+
+    /// Whether an order is one of the lines that a part or the shaft has anyway, or one of which they are harmonics.
+    pub(super) fn is_related(&self, order: f64, resolution: f64) -> bool {
+        let cage = self.orders.order(Fault::Cage);
+        let near = |line: f64, reach: f64| (order - line).abs() < reach + 3.0 * resolution;
+        // half and third revolutions: belts, rubs
+        if (1..=3).any(|n| {
+            let multiple = (order * f64::from(n)).round() / f64::from(n);
+            near(multiple, self.speed_error * order)
+        }) {
+            return true;
+        }
+        Fault::ALL.into_iter().any(|fault| {
+            let Some(part) = self.orders.order(fault) else {
+                return false;
+            };
+            let reach = self.orders.error(fault) * part;
+            let ratios = (1..=RELATED).flat_map(|i| (1..=RELATED).map(move |j| (i, j)));
+            let mut ratios = ratios.map(|(i, j)| f64::from(i) / f64::from(j));
+            if ratios.any(|ratio| near(ratio * part, ratio * reach)) {
+                return true;
+            }
+            (1..=2).any(|harmonic| {
+                (-RELATED_SIDES..=RELATED_SIDES).any(|side| {
+                    let (line, side) = (f64::from(harmonic) * part, f64::from(side));
+                    let reach = f64::from(harmonic) * reach;
+                    near(line + side, reach)
+                        || cage.is_some_and(|cage| near(line + side * cage, reach))
+                })
+            })
+        })
+    }
+
+    /// Impacts of something else, if they are as clear as those of a part have to be.
+    pub(super) fn unexplained(
+        &self,
+        candidate: &Candidate,
+        chance: f64,
+        known: &[KnownLine],
+    ) -> Option<UnexplainedImpacts> {
+        let order = candidate.fit.order;
+        let harmonics = self.harmonics(candidate, known, |harmonic, _| format!("{harmonic}"));
+        let band = &self.spectra[candidate.fit.spectrum];
+        let evidence = Evidence::of(&harmonics, &band.lines);
+        if chance >= UNEXPLAINED_BELOW || !evidence.is_clear() {
+            return None;
+        }
+        Some(UnexplainedImpacts {
+            order,
+            frequency_hz: order * self.speed_hz,
+            false_alarm: chance,
+            harmonics_seen: evidence.seen,
+            strength_db: evidence.strength_db,
+            band_hz: band.band_hz,
+        })
+    }
+}
