@@ -8,6 +8,7 @@ use std::fs;
 use std::process::Output;
 
 use plummer::case::Case;
+use plummer::exchange::NpzWriter;
 use plummer::stages::{Unwatched, WindowAnalysis, compute_run};
 use program::{errors, plummer, scratch};
 use serde_json::Value;
@@ -584,6 +585,23 @@ fn many_files_are_one_table() {
         report.contains("This report has no plots: there are 13 windows, and it shows at most 12.")
     );
     assert!(!out.join("tables/analysis-2-verdict.csv").exists());
+    // an array that is no signal is left out
+    let values = recorded("")
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split_once(',')?.1.parse().ok())
+        .collect::<Vec<f64>>();
+    let mut npz = NpzWriter::create(folder.join("m.npz")).unwrap();
+    npz.array("rate_hz", &[16e3]).unwrap();
+    npz.matrix("map", 2, 3, &[0.0; 6]).unwrap();
+    npz.array("P1", &values).unwrap();
+    npz.finish().unwrap();
+    let arrays = analyze(&["m.npz", "a.csv"], &["--force"]);
+    assert_eq!(arrays.status.code(), Some(0), "{}", errors(&arrays));
+    let found: Vec<String> = rows(&out).iter().map(|row| row[..2].join(" ")).collect();
+    assert_eq!(found, ["m.npz P1", "a.csv P1"]);
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(report.contains("is left out: it is no signal (shape [2, 3])"));
     // of one file as well
     let one = analyze(&["a.csv"], &[]);
     assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
