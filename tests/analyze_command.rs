@@ -8,6 +8,7 @@ use std::fs;
 use std::process::Output;
 
 use plummer::case::Case;
+use plummer::exchange::NpzWriter;
 use plummer::stages::{Unwatched, WindowAnalysis, compute_run};
 use program::{errors, plummer, scratch};
 use serde_json::Value;
@@ -280,11 +281,11 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     for (output, expected) in [
         (
             by(&[]),
-            "error: nothing says how fast the shaft turns\nhelp: --speed HZ, or --speed T:HZ,T:HZ,...\n",
+            "error: bench.csv: nothing says how fast the shaft turns\nhelp: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n",
         ),
         (
             analyze(&["--speed", "25"]),
-            "error: nothing says which bearing it is\nhelp: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+            "error: bench.csv: nothing says which bearing it is\nhelp: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
         ),
         (
             analyze(&["--speed", "25", "--bearing", "no/6205"]),
@@ -329,4 +330,402 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         "{}",
         errors(&still)
     );
+}
+
+/// A table with these channels, rings of 3 kHz as of [`recorded`] in the first of them and its noise in the others.
+fn channels(names: &[&str], with_time: bool) -> String {
+    let table = recorded("");
+    let rows: Vec<(&str, &str)> = table
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split_once(','))
+        .collect();
+    let mut text = if with_time {
+        "time,".to_owned()
+    } else {
+        String::new()
+    };
+    text.push_str(&names.join(","));
+    for (place, (time, ring)) in rows.iter().enumerate() {
+        text.push('\n');
+        if with_time {
+            write!(text, "{time},").unwrap();
+        }
+        text.push_str(ring);
+        for _ in 1..names.len() {
+            // no order that any part has
+            let far = (place * 7_919) % rows.len();
+            write!(text, ",{}", rows[far].1).unwrap();
+        }
+    }
+    text + "\n"
+}
+
+const ORDERS: &str = "outer=3.585,inner=5.415,ball=4.713,cage=0.398";
+
+#[test]
+fn a_speed_has_a_unit_and_a_large_one_without_is_doubted() {
+    let folder = scratch("analyze-speed");
+    fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
+    let at = |speed: &str, more: &[&str]| {
+        let words = [
+            "analyze",
+            "bench.csv",
+            "--force",
+            "--orders",
+            ORDERS,
+            "--speed",
+            speed,
+        ];
+        plummer(&folder, &[&words[..], more].concat())
+    };
+    for speed in [
+        "1500rpm",
+        "1500 RPM",
+        "25 hz",
+        "25",
+        "1500 1/min",
+        "0:1500rpm,1:1500rpm",
+    ] {
+        let output = at(speed, &["--json"]);
+        assert_eq!(errors(&output), "", "{speed}");
+        let found = json(&output);
+        assert_eq!(named(&found["windows"][0]), ["outer race"], "{speed}");
+        let hz = found["windows"][0]["speed_hz"].as_f64().unwrap();
+        assert!((hz - 25.0).abs() < 1e-9, "{speed}: {hz}");
+    }
+    let report = || fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    at("1500 rpm", &[]);
+    assert!(report().contains("--speed &#x27;1500 rpm&#x27;"));
+    assert!(report().contains("The shaft turns as --speed says: 1500 rpm."));
+    let doubted = at("1797", &[]);
+    let words = "--speed 1797 is read as 1797 Hz (107 820 rpm): write 1797rpm if revolutions per minute were meant";
+    assert!(
+        errors(&doubted).starts_with(&format!("warning: {words}\n")),
+        "{}",
+        errors(&doubted)
+    );
+    assert!(report().contains(words));
+    assert!(!errors(&at("1797", &["--quiet"])).contains("warning"));
+    let unknown = at("1797 rps", &[]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(
+        errors(&unknown)
+            .contains("SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz), found \"1797 rps\""),
+        "{}",
+        errors(&unknown)
+    );
+}
+
+#[test]
+fn orders_have_the_names_of_catalogues_too() {
+    let folder = scratch("analyze-orders");
+    fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
+    let by = |orders: &str| {
+        let words = [
+            "analyze",
+            "bench.csv",
+            "--force",
+            "--speed",
+            "25",
+            "--json",
+            "--orders",
+            orders,
+        ];
+        plummer(&folder, &words)
+    };
+    let orders = |output: &Output| json(output)["defect_orders"].clone();
+    let usual = by("outer=3.585,inner=5.415,ball=4.714,cage=0.398");
+    let output = by("BPFO=3.585,bpfi=5.415,Bsf=2.357,FTF=0.398");
+    assert_eq!(orders(&output), orders(&usual));
+    assert_eq!(errors(&output), "");
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    let command = "outer=3.585,inner=5.415,ball=4.714,cage=0.398";
+    assert!(report.contains(command), "the command line");
+    let spin = by("outer=3.585,inner=5.415,ball=2.357");
+    assert!(
+        errors(&spin).contains("write BSF=2.357 if the spin of a ball is meant"),
+        "{}",
+        errors(&spin)
+    );
+}
+
+#[test]
+fn all_that_is_missing_is_said_at_once() {
+    let folder = scratch("analyze-missing");
+    fs::write(folder.join("two.csv"), channels(&["P1", "P2"], false)).unwrap();
+    let bearing = "help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n";
+    let speed = "help: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n";
+    let channel = "help: --channel NAME (repeatable), of \"P1\", \"P2\"\n";
+    let rate = "help: --rate HZ, the sampling rate\n";
+    for (more, expected) in [
+        (
+            &[][..],
+            format!("error: two.csv: nothing says which channel is meant, how fast it was sampled, which bearing it is and how fast the shaft turns\n{channel}{rate}{bearing}{speed}"),
+        ),
+        (
+            &["--rate", "16000", "--speed", "25"],
+            format!("error: two.csv: nothing says which channel is meant and which bearing it is\n{channel}{bearing}"),
+        ),
+        (
+            &["--channel", "P1", "--bearing", "6205"],
+            format!("error: two.csv: nothing says how fast it was sampled and how fast the shaft turns\n{rate}{speed}"),
+        ),
+        (
+            &["--rate", "16000", "--speed", "25", "--bearing", "6205"],
+            "error: two.csv: expected one signal or the name of one, found \"P1\", \"P2\"\nhelp: name it with --channel NAME (repeatable)\n".to_owned(),
+        ),
+        (
+            &["--channel", "P1", "--speed", "25", "--bearing", "6205"],
+            "error: two.csv: expected a time or a sampling rate, found neither\nhelp: give the sampling rate with --rate HZ\n".to_owned(),
+        ),
+    ] {
+        let output = plummer(&folder, &[&["analyze", "two.csv"][..], more].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(errors(&output), expected);
+        assert!(!folder.join("out").exists());
+    }
+}
+
+/// Rows of `analysis.csv`, without the head.
+fn rows(folder: &std::path::Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(folder.join("analysis.csv")).unwrap();
+    let rows = text.lines().skip(1);
+    rows.map(|row| row.split(',').map(str::to_owned).collect())
+        .collect()
+}
+
+#[test]
+fn many_files_are_one_table() {
+    let folder = scratch("analyze-many");
+    fs::write(folder.join("a.csv"), recorded("time,P1 (g)")).unwrap();
+    fs::write(folder.join("b.csv"), channels(&["P1", "P2"], true)).unwrap();
+    let shared = ["--orders", ORDERS, "--speed", "1500rpm"];
+    let analyze = |files: &[&str], more: &[&str]| {
+        plummer(&folder, &[&["analyze"], files, &shared[..], more].concat())
+    };
+    let all = analyze(
+        &["b.csv", "a.csv"],
+        &["--window", "0:0.5", "--window", "0.5:0.9"],
+    );
+    assert_eq!(all.status.code(), Some(0), "{}", errors(&all));
+    assert_eq!(errors(&all), "");
+    let text = String::from_utf8(all.stdout.clone()).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(
+        lines[0].starts_with("file   channel  window s  speed Hz"),
+        "{text}"
+    );
+    assert!(lines[1].starts_with("b.csv  P1       0-0.5"), "{text}");
+    assert!(lines[1].contains("outer race "), "{text}");
+    assert!(
+        lines[7].starts_with("wrote out/analysis/analysis.json"),
+        "{text}"
+    );
+    let out = folder.join("out/analysis");
+    let found: Vec<[String; 4]> = rows(&out)
+        .iter()
+        .map(|row| [&row[0], &row[1], &row[2], &row[8]].map(String::clone))
+        .collect();
+    let outer = "outer race";
+    let expected = [
+        ["b.csv", "P1", "0", outer],
+        ["b.csv", "P1", "0.5", outer],
+        ["b.csv", "P2", "0", "none"],
+        ["b.csv", "P2", "0.5", "none"],
+        ["a.csv", "P1", "0", outer],
+        ["a.csv", "P1", "0.5", outer],
+    ];
+    assert_eq!(found, expected.map(|row| row.map(str::to_owned)));
+    let written = fs::read_to_string(out.join("analysis.json")).unwrap();
+    let written: Value = serde_json::from_str(&written).unwrap();
+    let windows = written["windows"].as_array().unwrap();
+    assert_eq!(windows.len(), 6);
+    assert_eq!(
+        (&windows[0]["input"], &windows[4]["input"]),
+        (&"b.csv".into(), &"a.csv".into())
+    );
+    assert_eq!(named(&windows[4]), [outer]);
+    assert_eq!(written["inputs"][1]["input"], "a.csv");
+    assert!(
+        (written["inputs"][1]["defect_orders"]["outer"]
+            .as_f64()
+            .unwrap()
+            - 3.585)
+            .abs()
+            < 1e-12
+    );
+    // the report has the table first, then the windows
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(
+        report.contains("plummer analyze b.csv a.csv --orders"),
+        "the command line"
+    );
+    assert!(report.contains("a.csv: P1, 0.000-0.5000 s"));
+    let first = fs::read_to_string(out.join("tables/analysis-1-verdicts.csv")).unwrap();
+    assert_eq!(first, fs::read_to_string(out.join("analysis.csv")).unwrap());
+    // whatever the number of threads
+    let same = |threads| {
+        let output = analyze(
+            &["b.csv", "a.csv", "b.csv"],
+            &["--force", "--json", "--threads", threads],
+        );
+        json(&output)["windows"].clone()
+    };
+    assert_eq!(same("1"), same("3"));
+    // a named channel is the only one
+    let named = analyze(&["a.csv", "b.csv"], &["--force", "--channel", "P1"]);
+    assert_eq!(named.status.code(), Some(0), "{}", errors(&named));
+    assert_eq!(rows(&out).len(), 2);
+    // more than a report shows
+    let many = analyze(&["a.csv"; 13], &["--force", "--window", "0:0.5"]);
+    assert_eq!(many.status.code(), Some(0), "{}", errors(&many));
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(
+        report.contains("This report has no plots: there are 13 windows, and it shows at most 12.")
+    );
+    assert!(!out.join("tables/analysis-2-verdict.csv").exists());
+    // an array that is no signal is left out
+    let values = recorded("")
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split_once(',')?.1.parse().ok())
+        .collect::<Vec<f64>>();
+    let mut npz = NpzWriter::create(folder.join("m.npz")).unwrap();
+    npz.array("rate_hz", &[16e3]).unwrap();
+    npz.matrix("map", 2, 3, &[0.0; 6]).unwrap();
+    npz.array("P1", &values).unwrap();
+    npz.finish().unwrap();
+    let arrays = analyze(&["m.npz", "a.csv"], &["--force"]);
+    assert_eq!(arrays.status.code(), Some(0), "{}", errors(&arrays));
+    let found: Vec<String> = rows(&out).iter().map(|row| row[..2].join(" ")).collect();
+    assert_eq!(found, ["m.npz P1", "a.csv P1"]);
+    let report = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(report.contains("is left out: it is no signal (shape [2, 3])"));
+    // of one file as well
+    let one = analyze(&["a.csv"], &[]);
+    assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
+    assert_eq!(rows(&folder.join("out/a"))[0][8], outer);
+}
+
+#[test]
+fn a_file_that_cannot_be_analysed_does_not_stop_the_others() {
+    let folder = scratch("analyze-some");
+    fs::write(folder.join("a.csv"), recorded("time,P1 (g)")).unwrap();
+    fs::write(folder.join("empty.csv"), "").unwrap();
+    fs::write(folder.join("other.csv"), recorded("time,P2 (g)")).unwrap();
+    fs::create_dir(folder.join("folder")).unwrap();
+    let analyze = |files: &[&str], more: &[&str]| {
+        let shared = ["--orders", ORDERS, "--channel", "P1"];
+        plummer(&folder, &[&["analyze"], files, &shared[..], more].concat())
+    };
+    let files = ["empty.csv", "folder", "a.csv", "missing.csv", "other.csv"];
+    let output = analyze(&files, &["--speed", "25"]);
+    assert_eq!(output.status.code(), Some(2));
+    let expected = "\
+error: 4 of 5 inputs could not be analysed in full:
+  empty.csv:1: expected a header and rows of numbers, found \"none\"
+  folder has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals
+  cannot read missing.csv: No such file or directory (os error 2)
+  other.csv: expected a channel \"P1\", found \"P2\"
+help: did you mean --channel 'P2'?
+";
+    assert_eq!(errors(&output), expected);
+    let out = folder.join("out/analysis");
+    let rows = rows(&out);
+    let found: Vec<[&str; 2]> = rows
+        .iter()
+        .map(|row| [row[0].as_str(), row[8].as_str()])
+        .collect();
+    let expected = [
+        ["empty.csv", "not analysed"],
+        ["folder", "not analysed"],
+        ["a.csv", "outer race"],
+        ["missing.csv", "not analysed"],
+        ["other.csv", "not analysed"],
+    ];
+    assert_eq!(found, expected);
+    assert!(rows[3].last().unwrap().contains("No such file"), "{rows:?}");
+    let written = fs::read_to_string(out.join("analysis.json")).unwrap();
+    let written: Value = serde_json::from_str(&written).unwrap();
+    assert_eq!(written["windows"].as_array().unwrap().len(), 1);
+    assert_eq!(written["failures"][1]["input"], "folder");
+    // of no use at all: nothing is written
+    let none = analyze(&["a.csv", "other.csv"], &["--out", "none"]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(
+        errors(&none).contains("a.csv: nothing says how fast the shaft turns\n"),
+        "{}",
+        errors(&none)
+    );
+    assert!(
+        errors(&none).contains("\nhelp: --speed 29.95Hz or 1797rpm"),
+        "{}",
+        errors(&none)
+    );
+    assert!(!folder.join("none/analysis.json").exists());
+}
+
+/// A run-up smears every line over Hz, and none over orders.
+#[test]
+fn peaks_of_a_run_up_are_not_compared_with_lines() {
+    let folder = scratch("analyze-run-up");
+    fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
+    let at = |speed: &str| {
+        let words = [
+            "analyze",
+            "bench.csv",
+            "--force",
+            "--json",
+            "--orders",
+            ORDERS,
+            "--speed",
+            speed,
+        ];
+        let output = plummer(&folder, &words);
+        let window = json(&output)["windows"][0].clone();
+        let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+        let peaks =
+            fs::read_to_string(folder.join("out/bench/tables/analysis-2-strongest-peaks.csv"));
+        (window, report, peaks.unwrap())
+    };
+    let why = "The speed changes in this window and smears all lines over Hz";
+    let (steady, report, peaks) = at("0:25,1:25");
+    assert_eq!(steady["envelope_peaks"][0]["nearest"], "outer race");
+    assert!(steady["lines_smeared_above_order"].is_null());
+    assert!(steady["outer_race"][0]["found_hz"].is_number());
+    assert!(!report.contains(why));
+    assert_eq!(report.matches("\">outer race</option>").count(), 2);
+    assert!(peaks.contains("1 x outer race"), "{peaks}");
+    // the mean is 25 Hz still
+    let (rise, report, peaks) = at("0:20,1:30");
+    for peak in rise["envelope_peaks"].as_array().unwrap() {
+        assert!(peak["nearest"].is_null(), "{peak}");
+        assert_eq!(peak["labels"], serde_json::json!([]), "{peak}");
+    }
+    let order = rise["lines_smeared_above_order"].as_f64().unwrap();
+    assert!((order - 0.1).abs() < 1e-4, "{order}");
+    assert!(rise["outer_race"][0]["found_hz"].is_null());
+    assert!(report.contains(why));
+    // the order spectrum's cursors stay
+    assert_eq!(report.matches("\">outer race</option>").count(), 1);
+    assert!(!peaks.contains(" x "), "{peaks}");
+    // 0.2 Hz: sharp up to the order 5, so that the outer race's second harmonic is not compared
+    let (some, report, _) = at("0:24.9,1:25.1");
+    for peak in some["envelope_peaks"].as_array().unwrap() {
+        let labels = peak["labels"].as_array().unwrap();
+        let allowed = [
+            "1 x outer race",
+            "1 x shaft",
+            "2 x shaft",
+            "3 x shaft",
+            "1 x ball",
+        ];
+        let all = labels
+            .iter()
+            .all(|label| allowed.contains(&label.as_str().unwrap()));
+        assert!(all, "{peak}");
+    }
+    assert_eq!(some["envelope_peaks"][0]["labels"][0], "1 x outer race");
+    assert!(report.contains("smears lines above the order 5.00 over Hz"));
 }

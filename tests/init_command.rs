@@ -338,13 +338,30 @@ fn the_catalogue_is_listed_with_its_sources() {
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let text = String::from_utf8(output.stdout).unwrap();
     for part in [
-        "6205     25     52     15      9          7.938          39.10   0.128  GMN",
-        "6305     25     62     17      7         11.906          43.50*  0.222  Timken",
+        "6205     25     52     15      9          7.938          39.10   0.128 3.5864 5.4136 2.3614 0.3985  GMN",
+        "6305     25     62     17      7         11.906          43.50*  0.222 2.5420 4.4580 1.6900 0.3631  Timken",
+        "BSF is the spin of a ball: a flaw on it strikes both races, twice a spin",
         "GMN: GMN, High precision ball bearings, catalogue 4000 0813 EN (2013)",
     ] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     let json = init(&folder, &["--list-bearings"]);
-    assert_eq!(json["bearings"].as_array().unwrap().len(), 34);
+    let bearings = json["bearings"].as_array().unwrap();
+    assert_eq!(bearings.len(), 34);
+    let bearing = bearings
+        .iter()
+        .find(|bearing| bearing["name"] == "6205")
+        .unwrap();
+    // with gamma = 7.938 / 39.1: 4.5 (1 - gamma), 4.5 (1 + gamma), (1 - gamma^2) / (2 gamma), (1 - gamma) / 2
+    let gamma = 7.938 / 39.1;
+    for (key, order) in [
+        ("bpfo", 4.5 * (1.0 - gamma)),
+        ("bpfi", 4.5 * (1.0 + gamma)),
+        ("bsf", 0.5 * (1.0 - gamma * gamma) / gamma),
+        ("ftf", 0.5 * (1.0 - gamma)),
+    ] {
+        let found = bearing[key].as_f64().unwrap();
+        assert!((found / order - 1.0).abs() < 1e-12, "{key}: {found}");
+    }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }

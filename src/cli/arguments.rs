@@ -91,21 +91,28 @@ Files:
 Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
 
 const ANALYZE_EXAMPLE: &str = "\
-Examples: a run of this program; a recorder's table, with a bearing by its drawing, and by its name; a run-up of a bearing with orders of a catalogue
+Examples: a run of this program; a recorder's table, with a bearing by its drawing, and by its name; a run-up of a bearing with orders of a catalogue;
+many files in one table
   plummer analyze out/outer-dent --window 1.0:2.6
   plummer analyze bench.csv --channel P1 --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 29.95
-  plummer analyze bench.csv --channel P1 --bearing 6205 --speed 29.95
-  plummer analyze rise.wav --orders outer=3.585,inner=5.415,ball=4.713,cage=0.398 --speed 0:10,8:50 --band 6000:12000
+  plummer analyze bench.csv --channel P1 --bearing 6205 --speed 1797rpm
+  plummer analyze rise.wav --orders BPFO=3.585,BPFI=5.415,BSF=2.357,FTF=0.398 --speed 0:600rpm,8:3000rpm --band 6000:12000
+  plummer analyze records/*.csv --bearing 6205 --speed 1797rpm --out out/records
 
 Signals: .npz (an array time_s, time or t, or a rate fs), .csv or .txt (a column time; units in the header: P1 (m/s^2); decimal
 points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+
+Several files: a row a file, channel and window; every channel of each file unless --channel names some. A file that cannot be
+analysed has a row that says why, the others are analysed, and the exit code is 2.
 
 Verdicts: named, not enough evidence, not seen, each with its evidence and the probability that noise alone looks like it;
 docs/diagnosis.md says what they rest on. Windows need 16 events of a part at least: 7 shaft turns for most bearings.
 
 Files:
   analysis.json  windows with strongest peaks and verdicts
-  report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons";
+  analysis.csv   a row a window: RMS, kurtosis, what is indicated; of each part conclusion, probability, strength
+  report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons; of several files their table, and
+                 plots of up to 12 windows";
 
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
@@ -398,7 +405,7 @@ impl Command {
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
     /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; analyze: the run's own
-    /// folder, or out/ and the file's name; inspect writes only if named); of init: the case file
+    /// folder, or out/ and the file's name, or out/analysis of several files; inspect writes only if named); of init: the case file
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)

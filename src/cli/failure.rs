@@ -79,6 +79,14 @@ pub enum CliError {
         /// What to try.
         help: Option<String>,
     },
+    /// Some of many inputs, or all of them, are wrong; the results of the others are written.
+    #[error("{what}")]
+    WrongInput {
+        /// Which, and what is wrong with it.
+        what: String,
+        /// What to try.
+        help: Option<String>,
+    },
     /// A stage of the computation failed, by its input or by itself.
     #[error(transparent)]
     Stage(Box<StageError>),
@@ -150,6 +158,7 @@ impl CliError {
             | Self::Analyze(_)
             | Self::Init(_)
             | Self::Record(_)
+            | Self::WrongInput { .. }
             | Self::ResultExists { .. }
             | Self::Folder { .. }
             | Self::Finished { .. }
@@ -191,7 +200,7 @@ impl CliError {
             }
             Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
-            Self::BadAnswer { help, .. } => help.clone(),
+            Self::BadAnswer { help, .. } | Self::WrongInput { help, .. } => help.clone(),
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::ResumeAnew
@@ -200,12 +209,12 @@ impl CliError {
         }
     }
 
-    /// Writes the lines `error: ...` and, if there is something to do, `help: ...`. Nothing can be done about a failure
+    /// Writes the lines `error: ...` and, for each thing that can be done, `help: ...`. Nothing can be done about a failure
     /// to write them.
     pub fn report(&self, to: &mut impl Write) {
         let _ = writeln!(to, "error: {}", printable(&self.to_string()));
-        if let Some(help) = self.help() {
-            let _ = writeln!(to, "help: {}", printable(&help));
+        for line in self.help().iter().flat_map(|help| help.lines()) {
+            let _ = writeln!(to, "help: {}", printable(line));
         }
     }
 }
@@ -215,6 +224,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
+    use super::super::analyze::Missing;
     use super::{
         AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, SweepError,
         VerificationError,
@@ -353,15 +363,30 @@ mod tests {
                  help: name the folder with the results of a command\n",
             ),
             (
-                CliError::from(AnalyzeError::NoSpeed),
+                CliError::from(AnalyzeError::Missing {
+                    input: path(),
+                    missing: vec![
+                        Missing::Channel {
+                            known: vec!["P1".to_owned(), "P2".to_owned()],
+                        },
+                        Missing::Rate,
+                        Missing::Speed,
+                    ],
+                }),
                 2,
-                "error: nothing says how fast the shaft turns\nhelp: --speed HZ, or --speed T:HZ,T:HZ,...\n",
+                "error: out/a: nothing says which channel is meant, how fast it was sampled and how fast the shaft turns\n\
+                 help: --channel NAME (repeatable), of \"P1\", \"P2\"\n\
+                 help: --rate HZ, the sampling rate\n\
+                 help: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n",
             ),
             (
-                CliError::from(AnalyzeError::NoBearing),
+                CliError::from(AnalyzeError::Missing {
+                    input: path(),
+                    missing: vec![Missing::Bearing],
+                }),
                 2,
-                "error: nothing says which bearing it is\n\
-                 help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..\n",
+                "error: out/a: nothing says which bearing it is\n\
+                 help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
             ),
             (
                 CliError::from(ChartError::TooShort {

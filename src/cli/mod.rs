@@ -33,7 +33,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed};
+pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
 pub use export::ExportError;
 pub use failure::CliError;
@@ -103,6 +103,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
     match outcome.verdict {
         Verdict::Good => Ok(()),
         Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
+        Verdict::WrongInput { what, help } => Err(CliError::WrongInput { what, help }),
     }
 }
 

@@ -30,6 +30,13 @@ pub enum Verdict {
         /// What to try.
         help: Option<String>,
     },
+    /// Some of the input is wrong; the results of the rest are written.
+    WrongInput {
+        /// Which, and what is wrong with it.
+        what: String,
+        /// What to try.
+        help: Option<String>,
+    },
 }
 
 impl Outcome {

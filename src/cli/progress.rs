@@ -30,6 +30,7 @@ pub struct StageTime {
 const STEPS: u64 = 10_000;
 const WITHOUT_END: &str = "{spinner} {msg} {elapsed}";
 const WITH_END: &str = "{spinner} {msg} {bar:30} {percent} %, {eta} left";
+const COUNTED: &str = "{spinner} {msg} {bar:30} {pos} of {len} files, {eta} left";
 
 /// The progress of a command through its stages. It can be shared between threads.
 #[derive(Debug)]
@@ -82,6 +83,15 @@ impl Progress {
             return;
         }
         self.bar.set_position(position);
+    }
+
+    /// Shows how many files of a stage are done.
+    pub fn count(&self, done: usize, of: usize) {
+        if self.bar.length().is_none() {
+            self.bar.set_style(style(COUNTED));
+            self.bar.set_length(of as u64);
+        }
+        self.bar.set_position(done as u64);
     }
 
     /// The meshes that were read, with each content that they had.
@@ -148,7 +158,7 @@ mod tests {
 
     use indicatif::{ProgressDrawTarget, ProgressStyle, TermLike};
 
-    use super::{Progress, STEPS, Visibility, WITH_END, WITHOUT_END};
+    use super::{COUNTED, Progress, STEPS, Visibility, WITH_END, WITHOUT_END};
 
     /// A terminal that keeps what is written to it.
     #[derive(Debug, Clone, Default)]
@@ -187,7 +197,7 @@ mod tests {
 
     #[test]
     fn templates_are_well_formed() {
-        for template in [WITH_END, WITHOUT_END] {
+        for template in [WITH_END, WITHOUT_END, COUNTED] {
             assert!(ProgressStyle::with_template(template).is_ok());
         }
     }
@@ -228,6 +238,21 @@ mod tests {
         // leave a hundredth of a second
         let left = progress.bar.eta();
         assert!(left > Duration::from_millis(300), "{left:?}");
+    }
+
+    #[test]
+    fn files_are_counted() {
+        let paper = Paper::default();
+        let progress = Progress::on(ProgressDrawTarget::term_like(Box::new(paper.clone())));
+        progress.stage("analyse");
+        progress.count(0, 79);
+        sleep(Duration::from_millis(100));
+        progress.count(12, 79);
+        progress.bar.tick();
+        let shown = paper.0.lock().unwrap().clone();
+        assert!(shown.contains("12 of 79 files"), "{shown}");
+        progress.stage("write");
+        assert_eq!((progress.bar.position(), progress.bar.length()), (0, None));
     }
 
     #[test]

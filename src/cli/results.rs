@@ -127,7 +127,12 @@ pub(super) fn run_json<R: Recording>(
 
 /// What a result says of analysed windows.
 pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
-    let verdict = |window: &WindowAnalysis| match &window.diagnosis {
+    windows.iter().map(window_json).collect()
+}
+
+/// What a result says of an analysed window.
+pub(super) fn window_json(window: &WindowAnalysis) -> Value {
+    let verdict = match &window.diagnosis {
         Ok(diagnosis) => json!({
             "sentence": diagnosis.sentence(),
             "envelope": diagnosis.envelope,
@@ -141,34 +146,32 @@ pub(super) fn windows_json(windows: &[WindowAnalysis]) -> Value {
         }),
         Err(reason) => json!({ "sentence": format!("no verdict: {reason}") }),
     };
-    let window = |window: &WindowAnalysis| {
-        let outer = window.outer.iter().map(|(expected, found)| {
-            json!({
-                "expected_hz": expected,
-                "found_hz": found.map(|found| found.0),
-                "amplitude": found.map(|found| found.1),
-            })
-        });
+    let outer = window.outer.iter().map(|(expected, found)| {
         json!({
-            "sensor": window.sensor,
-            "unit": window.unit,
-            "whitened": window.whitened,
-            "from": window.from,
-            "to": window.to,
-            "speed_hz": window.speed_hz,
-            "rms": window.rms,
-            "peak": window.peak,
-            "kurtosis": window.kurtosis,
-            "high_pass_hz": window.band.high_pass_hz,
-            "band_hz": window.band.band_hz(),
-            "kurtosis_of_band": window.band.found().map(|search| search.best.kurtosis),
-            "kurtosis_limit": window.band.found().map(|search| search.best.limit),
-            "outer_race": outer.collect::<Vec<_>>(),
-            "envelope_peaks": window.peaks,
-            "verdict": verdict(window),
+            "expected_hz": expected,
+            "found_hz": found.map(|found| found.0),
+            "amplitude": found.map(|found| found.1),
         })
-    };
-    windows.iter().map(window).collect()
+    });
+    json!({
+        "sensor": window.sensor,
+        "unit": window.unit,
+        "whitened": window.whitened,
+        "from": window.from,
+        "to": window.to,
+        "speed_hz": window.speed_hz,
+        "rms": window.rms,
+        "peak": window.peak,
+        "kurtosis": window.kurtosis,
+        "high_pass_hz": window.band.high_pass_hz,
+        "band_hz": window.band.band_hz(),
+        "kurtosis_of_band": window.band.found().map(|search| search.best.kurtosis),
+        "kurtosis_limit": window.band.found().map(|search| search.best.limit),
+        "outer_race": outer.collect::<Vec<_>>(),
+        "lines_smeared_above_order": window.smeared_above,
+        "envelope_peaks": window.peaks,
+        "verdict": verdict,
+    })
 }
 
 /// Where, and the frequencies there.

@@ -80,12 +80,14 @@ pub struct WindowAnalysis {
     pub whitened: bool,
     /// Envelope spectrum.
     pub spectrum: EnvelopeSpectrum,
-    /// Fault lines and the shaft's.
+    /// Fault lines and the shaft's, with those harmonics that the speed's change leaves sharp.
     pub lines: Vec<NamedLine>,
+    /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
+    pub smeared_above: Option<f64>,
     /// Strongest peaks.
     pub peaks: Vec<EnvelopePeak>,
     /// For the outer race's line and its second harmonic: expected frequency, peak found within
-    /// three percent (Hz, amplitude). Empty where its order is not known.
+    /// three percent (Hz, amplitude); none where the line is smeared. Empty where its order is not known.
     pub outer: Vec<(f64, Option<(f64, f64)>)>,
     /// Verdict on each part of the bearing, or why there is none.
     pub diagnosis: Result<Diagnosis, String>,
@@ -143,7 +145,8 @@ pub fn analyse(
                 turns,
                 &orders,
             );
-            let lines = lines(speed_hz, &orders, diagnosis.as_ref().ok())?;
+            let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
+            let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;
             let search = PeakSearch {
                 to_hz: Some(HIGHEST_ORDER * speed_hz),
                 ..PeakSearch::default()
@@ -156,6 +159,7 @@ pub fn analyse(
             let near = |harmonic: f64, order: f64| {
                 let expected = harmonic * order * speed_hz;
                 let found = spectrum.peak_near(expected, LINE_TOLERANCE);
+                let found = found.filter(|_| harmonic * order <= sharp);
                 (
                     expected,
                     found.map(|peak| (peak.frequency_hz, peak.amplitude)),
@@ -182,6 +186,7 @@ pub fn analyse(
                 band,
                 spectrum,
                 lines,
+                smeared_above: smeared.then_some(sharp),
                 peaks,
                 diagnosis: diagnosis.map_err(|error| error.to_string()),
             })
@@ -196,14 +201,21 @@ fn thinned(name: &str, series: &TimeSeries) -> Curve {
     Curve::of_thinned(name, [series.start_s(), series.step_s()], thinner)
 }
 
-/// The shaft's line and those of the faults whose order is known.
+/// The highest order whose line over Hz a change of the speed (Hz) spreads over no more than what a window (s) separates, 1 / T.
+fn sharp_order(spread_hz: f64, duration_s: f64) -> f64 {
+    1.0 / (spread_hz * duration_s)
+}
+
+/// The shaft's line and those of the faults whose order is known, with their harmonics up to the order `sharp`; and whether there
+/// are others.
 fn lines(
     speed_hz: f64,
     orders: &FaultOrders,
     diagnosis: Option<&Diagnosis>,
-) -> Result<Vec<NamedLine>, StageError> {
+    sharp: f64,
+) -> Result<(Vec<NamedLine>, bool), StageError> {
     if speed_hz <= 0.0 {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), false));
     }
     let harmonics = |fault: Fault| {
         let mut named = diagnosis.into_iter().flat_map(Diagnosis::named);
@@ -215,8 +227,44 @@ fn lines(
     let known = faults
         .into_iter()
         .filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
-    std::iter::once(("shaft", 1.0, HARMONICS))
-        .chain(known)
-        .map(|(name, order, harmonics)| Ok(NamedLine::new(name, order * speed_hz, harmonics)?))
-        .collect()
+    let mut lines = Vec::new();
+    let mut smeared = false;
+    for (name, order, harmonics) in std::iter::once(("shaft", 1.0, HARMONICS)).chain(known) {
+        let kept = (1..=harmonics).take_while(|&k| f64::from(k) * order <= sharp);
+        let kept = kept.last().unwrap_or(0);
+        smeared |= kept < harmonics;
+        if kept > 0 {
+            lines.push(NamedLine::new(name, order * speed_hz, kept)?);
+        }
+    }
+    Ok((lines, smeared))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_the_speed_smears_are_left_out() {
+        let orders = FaultOrders::new([Some(3.5), Some(5.5), None, None], 0.01).unwrap();
+        let kept = |spread_hz: f64| {
+            let sharp = sharp_order(spread_hz, 2.0);
+            let (lines, smeared) = lines(25.0, &orders, None, sharp).unwrap();
+            let kept = lines
+                .iter()
+                .map(|line| (line.name().to_owned(), line.harmonics()));
+            (kept.collect::<Vec<_>>(), smeared)
+        };
+        let line = |name: &str, harmonics| (name.to_owned(), harmonics);
+        let all = vec![
+            line("shaft", 3),
+            line("outer race", 3),
+            line("inner race", 3),
+        ];
+        assert_eq!(kept(0.0), (all, false));
+        // 0.5 Hz is what 2 s separate: sharp up to the order 0.5 / 0.1
+        let some = vec![line("shaft", 3), line("outer race", 1)];
+        assert_eq!(kept(0.1), (some, true));
+        assert_eq!(kept(0.6), (Vec::new(), true));
+    }
 }

@@ -116,6 +116,9 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         .plot(time_plot(window))
         .facts(facts.into_iter().chain(band_facts(&window.band)))
         .table(peak_table(window));
+    if let Some(text) = smeared(window) {
+        section = section.paragraph(text);
+    }
     if let Some(search) = window.band.found() {
         section = section.plot(kurtogram_plot(&window.sensor, search));
     }
@@ -284,12 +287,14 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
             .within(0.0, top.max(1.0))
             .style(CurveStyle::Line),
     );
-    for family in window
-        .diagnosis
-        .iter()
-        .flat_map(|found| families(found, window.speed_hz))
-    {
-        plot = plot.family(family);
+    match smeared(window) {
+        Some(text) => plot = plot.caption(text),
+        None => {
+            let diagnosis = window.diagnosis.iter();
+            for family in diagnosis.flat_map(|found| families(found, window.speed_hz)) {
+                plot = plot.family(family);
+            }
+        }
     }
     for (family, line) in window.lines.iter().enumerate() {
         for harmonic in 1..=line.harmonics() {
@@ -305,6 +310,19 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
         }
     }
     plot
+}
+
+/// Why lines over Hz are not compared with peaks, if the speed changes too much for it.
+fn smeared(window: &WindowAnalysis) -> Option<String> {
+    let order = window.smeared_above?;
+    let what = if order < 1.0 {
+        "all lines".to_owned()
+    } else {
+        format!("lines above the order {}", significant(order, 3))
+    };
+    Some(format!(
+        "The speed changes in this window and smears {what} over Hz: peaks are not compared with them. The order spectrum and the table of harmonics compare orders instead."
+    ))
 }
 
 fn peak_table(window: &WindowAnalysis) -> Table {

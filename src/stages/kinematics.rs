@@ -63,6 +63,19 @@ impl<'a> Kinematics<'a> {
         (turned / (window.to - window.from)).abs()
     }
 
+    /// How far the speed of the shaft changes in a window: the highest less the lowest, Hz.
+    #[must_use]
+    pub fn speed_spread_hz(&self, window: TimeWindow) -> f64 {
+        let shaft = self.shaft();
+        let (from, to) = (window.from, window.to);
+        let knots = shaft.knot_times().filter(|&time| from < time && time < to);
+        let speeds = knots.chain([from, to]).map(|time| shaft.speed(time) / TAU);
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let [lowest, highest] =
+            speeds.fold(ends, |[low, high], speed| [low.min(speed), high.max(speed)]);
+        highest - lowest
+    }
+
     /// Orders of the faults in a window. With the cage's slip: outer `N r`, inner `N (1 - r)` for a cage order r. The
     /// ball's own spin is not prescribed; its order stays that of pure rolling.
     ///
@@ -87,6 +100,31 @@ impl<'a> Kinematics<'a> {
                 Ok(FaultOrders::of(&orders, *error)?)
             }
             Self::Given { orders, .. } => Ok(*orders),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bearing::SpeedKnot;
+
+    #[test]
+    fn the_spread_of_the_speed_is_that_within_the_window() {
+        let knots = [(0.0, 10.0), (1.0, 30.0), (2.0, 20.0)];
+        let knots = knots.map(|(time, frequency_hz)| SpeedKnot { time, frequency_hz });
+        let motion = Kinematics::Given {
+            orders: FaultOrders::new([Some(3.5), None, None, None], 0.01).unwrap(),
+            speed: SpeedProfile::new(&knots).unwrap(),
+        };
+        for (from, to, expected) in [
+            (0.0, 1.0, 20.0),
+            (0.5, 1.5, 10.0),
+            (1.25, 1.75, 5.0),
+            (2.0, 9.0, 0.0),
+        ] {
+            let spread = motion.speed_spread_hz(TimeWindow { from, to });
+            assert!((spread - expected).abs() < 1e-9, "{from}-{to}: {spread}");
         }
     }
 }

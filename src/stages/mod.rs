@@ -6,6 +6,8 @@
 
 mod analysis;
 mod analysis_report;
+mod analysis_survey;
+mod analysis_table;
 mod band_search;
 mod band_search_report;
 #[cfg(test)]
@@ -77,6 +79,8 @@ mod unfinished;
 
 pub use analysis::{AnalysisSettings, WindowAnalysis, analyse};
 pub use analysis_report::analysis_report;
+pub use analysis_survey::{SHOWN_WINDOWS, survey_report, survey_section};
+pub use analysis_table::{AnalysisRow, PartFigures, WindowFigures, analysis_table};
 pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
 pub use bearing_table::bearing_table;

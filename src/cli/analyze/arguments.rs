@@ -1,22 +1,21 @@
 //! What `plummer analyze` takes.
 
-use std::fmt;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bearing::{SpeedKnot, SpeedProfile};
+use super::{GivenOrders, GivenSpeed};
 use crate::case::EnvelopeBand;
-use crate::diagnosis::FaultOrders;
 use crate::series::TimeWindow;
 
 /// A signal, a bearing, a speed, and what is to be looked at.
 #[derive(Debug, Clone, Args)]
 pub struct AnalyzeArguments {
-    /// Folder with results of `plummer run`, or a file of signals: .npz, .csv, .txt, .wav, .uff, .unv
-    #[arg(value_name = "DIR|FILE")]
-    pub input: PathBuf,
-    /// Signal to analyse, by name; can be repeated (default: the only one; of a folder every sensor)
+    /// Folders with results of `plummer run`, or files of signals: .npz, .csv, .txt, .wav, .uff, .unv
+    #[arg(value_name = "DIR|FILE", required = true)]
+    pub inputs: Vec<PathBuf>,
+    /// Signal to analyse, by name; can be repeated (default: the only one; of a folder every sensor; of several files every
+    /// channel of each)
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
     /// Sampling rate in Hz, in the place of what the file says
@@ -38,11 +37,13 @@ pub struct AnalyzeArguments {
     /// Contact angle in degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
     pub contact_angle: f64,
-    /// Events per shaft turn, as catalogues have them: outer=3.58,inner=5.42,ball=4.71,cage=0.398 or some of them; ball: both races, twice the spin
-    #[arg(long, value_name = "NAME=ORDER,...", value_parser = orders, conflicts_with_all = ["bearing", "balls"])]
+    /// Events per revolution of the shaft: outer=3.58,inner=5.42,ball=4.71,cage=0.398 or some of them; BPFO, BPFI and FTF are other
+    /// names of outer, inner and cage. BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
+    #[arg(long, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
     pub orders: Option<GivenOrders>,
-    /// Shaft speed: HZ, or T:HZ,T:HZ,... with straight lines between (s, Hz)
-    #[arg(long, value_name = "HZ|T:HZ,...", value_parser = speed)]
+    /// Shaft speed: 29.95, 29.95Hz, 1797rpm or "1797 1/min" (without a unit in Hz), or over time with straight lines between,
+    /// T in s: 0:600rpm,8:3000rpm
+    #[arg(long, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse)]
     pub speed: Option<GivenSpeed>,
     /// Stretch of time in s; can be repeated (default: the case's windows, or the whole signal)
     #[arg(long, value_name = "FROM:TO", value_parser = window)]
@@ -63,31 +64,17 @@ pub struct AnalyzeArguments {
     pub geometry_error: Option<f64>,
 }
 
-/// Orders of outer race, inner race, ball and cage.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GivenOrders(pub [Option<f64>; 4]);
-
-impl fmt::Display for GivenOrders {
-    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = NAMES.iter().zip(self.0);
-        let known = known.filter_map(|(name, order)| Some(format!("{name}={}", order?)));
-        to.write_str(&known.collect::<Vec<_>>().join(","))
+impl AnalyzeArguments {
+    /// What is read as it was typed, and more likely meant in another way.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let speed = self.speed.as_ref().and_then(GivenSpeed::doubt);
+        let orders = self.orders.as_ref().and_then(GivenOrders::doubt);
+        speed.into_iter().chain(orders).collect()
     }
 }
 
-/// A shaft speed, and how it was typed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GivenSpeed {
-    /// Over time.
-    pub profile: SpeedProfile,
-    /// As typed.
-    pub text: String,
-}
-
-/// Names of the orders, in the order of [`GivenOrders`].
-const NAMES: [&str; 4] = ["outer", "inner", "ball", "cage"];
-
-fn number(text: &str) -> Option<f64> {
+/// A finite number.
+pub(super) fn number(text: &str) -> Option<f64> {
     text.trim()
         .parse()
         .ok()
@@ -124,70 +111,18 @@ fn band(text: &str) -> Result<EnvelopeBand, String> {
     }
 }
 
-fn speed(text: &str) -> Result<GivenSpeed, String> {
-    let given = |profile: SpeedProfile| GivenSpeed {
-        profile,
-        text: text.to_owned(),
-    };
-    if let Some(hz) = number(text) {
-        let constant = SpeedProfile::constant(hz);
-        return constant.map(given).map_err(|error| error.to_string());
-    }
-    let knot = |part: &str| {
-        let [time, frequency_hz] = pair(part)
-            .ok_or_else(|| format!("expected HZ or T:HZ,T:HZ,... (s, Hz), found \"{part}\""))?;
-        Ok(SpeedKnot { time, frequency_hz })
-    };
-    let knots: Result<Vec<SpeedKnot>, String> = text.split(',').map(knot).collect();
-    let profile = SpeedProfile::new(&knots?);
-    profile.map(given).map_err(|error| error.to_string())
-}
-
-fn orders(text: &str) -> Result<GivenOrders, String> {
-    let mut orders = [None; 4];
-    for part in text.split(',') {
-        let found = part.split_once('=').and_then(|(name, order)| {
-            let place = NAMES.iter().position(|known| *known == name.trim())?;
-            Some((place, number(order)?))
-        });
-        let Some((place, order)) = found else {
-            return Err(format!(
-                "expected outer=, inner=, ball= or cage= and a number, found \"{part}\""
-            ));
-        };
-        if orders[place].replace(order).is_some() {
-            return Err(format!("{} is there twice", NAMES[place]));
-        }
-    }
-    FaultOrders::new(orders, 0.0).map_err(|error| error.to_string())?;
-    Ok(GivenOrders(orders))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[allow(clippy::float_cmp)] // numbers as typed
     #[test]
-    fn pairs_orders_and_speeds_are_read() {
+    fn pairs_of_numbers_are_read() {
         let read = window("2.2:2.8").unwrap();
         assert_eq!([read.from, read.to], [2.2, 2.8]);
         let between = EnvelopeBand::Between([500.0, 2e4]);
         assert_eq!(band("500:2e4").unwrap(), between);
         assert_eq!(band("kurtogram").unwrap(), EnvelopeBand::Kurtogram);
-        assert_eq!(
-            orders("inner=5.4,outer=3.6").unwrap().0,
-            [Some(3.6), Some(5.4), None, None]
-        );
-        let run_up = speed("0:10,2:30").unwrap();
-        let turns = run_up.profile.angle(2.0) / std::f64::consts::TAU;
-        assert!((turns - 40.0).abs() < 1e-9, "{turns}");
-        assert_eq!(run_up.text, "0:10,2:30");
-        assert_eq!(
-            orders("inner=5.4,outer=3.6").unwrap().to_string(),
-            "outer=3.6,inner=5.4"
-        );
-        assert!(speed("25").is_ok());
         for (message, expected) in [
             (
                 window("2.8:2.2").unwrap_err(),
@@ -196,26 +131,6 @@ mod tests {
             (
                 band("0:5").unwrap_err(),
                 "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"0:5\"",
-            ),
-            (
-                orders("outer=3.6,top=1").unwrap_err(),
-                "expected outer=, inner=, ball= or cage= and a number, found \"top=1\"",
-            ),
-            (
-                orders("outer=3.6,outer=1").unwrap_err(),
-                "outer is there twice",
-            ),
-            (
-                orders("outer=-1").unwrap_err(),
-                "order of the outer race: expected a number above 0 and at most 200, found -1",
-            ),
-            (
-                speed("0:10,x").unwrap_err(),
-                "expected HZ or T:HZ,T:HZ,... (s, Hz), found \"x\"",
-            ),
-            (
-                speed("2:10,1:5").unwrap_err(),
-                "speed profile row 1: time 1 s must be later than 2 s in the row before",
             ),
             (
                 positive("nan").unwrap_err(),

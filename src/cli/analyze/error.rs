@@ -35,12 +35,14 @@ pub enum AnalyzeError {
         /// As typed.
         found: String,
     },
-    /// Nothing says how often parts strike.
-    #[error("nothing says which bearing it is")]
-    NoBearing,
-    /// Nothing says how fast the shaft turns.
-    #[error("nothing says how fast the shaft turns")]
-    NoSpeed,
+    /// Things that nothing says.
+    #[error("{}: nothing says {}", input.display(), listed(missing))]
+    Missing {
+        /// The file or folder.
+        input: PathBuf,
+        /// What is missing.
+        missing: Vec<Missing>,
+    },
 }
 
 impl AnalyzeError {
@@ -48,15 +50,70 @@ impl AnalyzeError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::NoBearing => Some(
-                "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=..".to_owned(),
-            ),
+            Self::Missing { missing, .. } => {
+                let lines: Vec<String> = missing.iter().map(Missing::help).collect();
+                Some(lines.join("\n"))
+            }
             Self::UnknownBearing { .. } => Some(format!("bearings: {}", bearing_names())),
-            Self::NoSpeed => Some("--speed HZ, or --speed T:HZ,T:HZ,...".to_owned()),
-            Self::Damaged { .. } => Some(
-                "name the file of signals itself, with --bearing and --speed".to_owned(),
-            ),
+            Self::Damaged { .. } => {
+                Some("name the file of signals itself, with --bearing and --speed".to_owned())
+            }
             Self::NoRun { .. } | Self::CaseWithoutBearing { .. } => None,
         }
+    }
+}
+
+/// Most channels that are listed.
+const LISTED: usize = 20;
+
+/// What an analysis needs and nothing says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Missing {
+    /// Which of these channels is meant.
+    Channel {
+        /// Channels of the file.
+        known: Vec<String>,
+    },
+    /// How fast the signal was sampled.
+    Rate,
+    /// How often parts strike.
+    Bearing,
+    /// How fast the shaft turns.
+    Speed,
+}
+
+impl Missing {
+    fn what(&self) -> &'static str {
+        match self {
+            Self::Channel { .. } => "which channel is meant",
+            Self::Rate => "how fast it was sampled",
+            Self::Bearing => "which bearing it is",
+            Self::Speed => "how fast the shaft turns",
+        }
+    }
+
+    /// What to type.
+    fn help(&self) -> String {
+        match self {
+            Self::Channel { known } => {
+                let first = known.iter().take(LISTED).map(|name| format!("\"{name}\""));
+                let more = if known.len() > LISTED { ", ..." } else { "" };
+                let names = first.collect::<Vec<_>>().join(", ");
+                format!("--channel NAME (repeatable), of {names}{more}")
+            }
+            Self::Rate => "--rate HZ, the sampling rate".to_owned(),
+            Self::Bearing => "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)".to_owned(),
+            Self::Speed => "--speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...".to_owned(),
+        }
+    }
+}
+
+/// Everything that is missing, in words.
+fn listed(missing: &[Missing]) -> String {
+    let words: Vec<&str> = missing.iter().map(Missing::what).collect();
+    match words.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }

@@ -1,103 +1,76 @@
-//! `plummer analyze`: from a signal to a verdict.
+//! `plummer analyze`: from signals to verdicts.
 
 mod arguments;
+mod bearing;
+mod each;
 mod error;
+mod failures;
+mod machine;
+mod orders;
+mod read;
+mod single;
 mod source;
+mod speed;
+mod survey;
+mod terminal;
 
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
+pub use arguments::AnalyzeArguments;
+pub(super) use bearing::catalogue_orders;
+pub use error::{AnalyzeError, Missing};
+pub use orders::GivenOrders;
+pub use speed::GivenSpeed;
 
-pub use arguments::{AnalyzeArguments, GivenOrders, GivenSpeed};
-pub use error::AnalyzeError;
-
-use self::source::Source;
-use super::report_files::ReportFiles;
-use super::results::{stages_s, windows_json};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder, emit};
 use crate::case::EnvelopeBand;
-use crate::diagnosis::{Conclusion, Fault};
-use crate::report::significant;
 use crate::shell_word::shell_word;
-use crate::stages::{WindowAnalysis, analysis_report, compute_analysis};
+use crate::stages::{AnalysisRow, analysis_table};
 
 /// Result file and report belong to this word.
 const RESULT: &str = "analysis";
 
-/// Analyses a run's signals or measured ones and writes the report, its tables and, last, `analysis.json`.
+/// Analyses a run's signals or measured ones and writes the report, its tables, `analysis.csv` and, last, `analysis.json`.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong or a file cannot be written.
 pub fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
-    let folder = folder(asked, options);
-    let progress = Progress::new(options.visibility());
-    progress.stage("read");
-    let source = Source::open(asked, options)?;
-    folder.claim(RESULT, options.force)?;
-    let kinematics = source.kinematics();
-    let windows = compute_analysis(&source.signals, &source.settings, &kinematics, &progress)?;
-    progress.stage("write");
-    let input = asked.input.display().to_string();
-    let report = analysis_report(&input, &source.assumptions, &windows, &command(asked));
-    let files = ReportFiles::without_case(&folder, RESULT, report)?;
-    let first = windows.first().map(|window| crate::series::TimeWindow {
-        from: window.from,
-        to: window.to,
-    });
-    let orders = first.map(|window| kinematics.orders(window)).transpose()?;
-    let order = |fault| orders.and_then(|orders| orders.order(fault));
-    let mut map = Map::new();
-    for (key, value) in [
-        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
-        ("command", json!("analyze")),
-        ("case", json!(source.case)),
-        ("input", json!(asked.input)),
-        ("wall_s", json!(started.elapsed().as_secs_f64())),
-        ("stages_s", stages_s(&progress)),
-        ("threads", json!(rayon::current_num_threads())),
-        ("tables", json!(files.tables)),
-        (
-            "defect_orders",
-            json!({
-                "cage": order(Fault::Cage),
-                "outer": order(Fault::OuterRace),
-                "inner": order(Fault::InnerRace),
-                "ball": order(Fault::Ball),
-                "relative_error": orders.map(|orders| orders.error(Fault::OuterRace)),
-            }),
-        ),
-        ("windows", windows_json(&windows)),
-    ] {
-        map.insert(key.to_owned(), value);
+    if !options.quiet {
+        for text in asked.doubts() {
+            // nothing can be done about a closed standard error
+            let _ = emit(&mut io::stderr().lock(), &format!("warning: {text}"));
+        }
     }
-    let json = Value::Object(map);
-    let path = folder.write("analysis.json", format!("{json:#}\n").as_bytes())?;
-    progress.finish();
-    Ok(Outcome {
-        summary: summary(&windows),
-        result: json,
-        written: [vec![path], files.paths].concat(),
-        verdict: verdict(&windows),
-    })
+    let folder = folder(asked, options);
+    match asked.inputs.as_slice() {
+        [input] => single::single(input, asked, options, &folder),
+        inputs => survey::survey(inputs, asked, options, &folder),
+    }
 }
 
-/// `--out`, else the run's own folder, else `out/` and the file's name.
+/// Writes `analysis.csv`.
+fn write_table(folder: &OutputFolder, rows: &[AnalysisRow]) -> Result<PathBuf, CliError> {
+    folder.write("analysis.csv", analysis_table(rows).to_csv().as_bytes())
+}
+
+/// `--out`, else the run's own folder, else `out/` and the file's name; of several inputs `out/analysis`.
 fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
     if let Some(out) = &options.out {
         return OutputFolder::at(out);
     }
-    if asked.input.is_dir() {
-        return OutputFolder::at(&asked.input);
+    match asked.inputs.as_slice() {
+        [folder] if folder.is_dir() => OutputFolder::at(folder),
+        [file] => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
+        _ => OutputFolder::at(Path::new("out/analysis")),
     }
-    let name = asked.input.file_stem().unwrap_or_default();
-    OutputFolder::at(&Path::new("out").join(name))
 }
 
 /// The command line that analyses this again.
 fn command(asked: &AnalyzeArguments) -> String {
     let file = |path: &Path| shell_word(&path.to_string_lossy());
-    let mut words = vec![format!("plummer analyze {}", file(&asked.input))];
+    let mut words = vec!["plummer analyze".to_owned()];
+    words.extend(asked.inputs.iter().map(|input| file(input)));
     let mut push = |key: &str, value: String| words.push(format!("--{key} {value}"));
     for channel in &asked.channel {
         push("channel", shell_word(channel));
@@ -121,7 +94,7 @@ fn command(asked: &AnalyzeArguments) -> String {
         push("orders", given.to_string());
     }
     if let Some(speed) = &asked.speed {
-        push("speed", speed.text.clone());
+        push("speed", shell_word(&speed.text));
     }
     match asked.band {
         Some(EnvelopeBand::Between([from, to])) => push("band", format!("{from}:{to}")),
@@ -135,61 +108,4 @@ fn command(asked: &AnalyzeArguments) -> String {
         words.push("--whiten".to_owned());
     }
     words.join(" ")
-}
-
-fn judged(window: &WindowAnalysis) -> bool {
-    let diagnosis = window.diagnosis.as_ref();
-    diagnosis.is_ok_and(|diagnosis| {
-        let mut faults = diagnosis.faults.iter();
-        faults.any(|verdict| verdict.false_alarm.is_some())
-    })
-}
-
-fn verdict(windows: &[WindowAnalysis]) -> Verdict {
-    if windows.iter().any(judged) {
-        return Verdict::Good;
-    }
-    let reason = windows.iter().find_map(|window| match &window.diagnosis {
-        Ok(diagnosis) => Some(diagnosis.faults.first()?.why.clone()),
-        Err(reason) => Some(reason.clone()),
-    });
-    Verdict::Bad {
-        what: format!(
-            "no part could be judged in any window: {}",
-            reason.unwrap_or_else(|| "no orders".to_owned())
-        ),
-        help: Some(
-            "take a longer --window, and check --speed: at least 16 events of a part are needed"
-                .to_owned(),
-        ),
-    }
-}
-
-fn summary(windows: &[WindowAnalysis]) -> String {
-    let mut lines = Vec::new();
-    for window in windows {
-        let place = format!(
-            "{} from {} to {} s",
-            window.sensor,
-            significant(window.from, 5),
-            significant(window.to, 5)
-        );
-        match &window.diagnosis {
-            Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
-            Ok(diagnosis) => {
-                lines.push(format!(
-                    "{place} (shaft {} Hz, {} turns): {}",
-                    significant(diagnosis.speed_hz, 4),
-                    significant(diagnosis.spectrum.turns, 3),
-                    diagnosis.sentence()
-                ));
-                for verdict in &diagnosis.faults {
-                    if verdict.conclusion != Conclusion::NotSeen {
-                        lines.push(format!("  {}: {}", verdict.fault.name(), verdict.why));
-                    }
-                }
-            }
-        }
-    }
-    lines.join("\n")
 }

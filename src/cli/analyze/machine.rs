@@ -1,0 +1,135 @@
+//! The machine whose signals are analysed: its bearing and the speed of its shaft.
+
+use super::bearing::{Named, described, named_bearing, orders, without_bearing};
+use super::{AnalyzeArguments, GivenSpeed};
+use crate::bearing::SpeedProfile;
+use crate::case::Case;
+use crate::cli::{CliError, Options};
+use crate::diagnosis::{Fault, FaultOrders};
+use crate::exchange::MeasuredSignal;
+use crate::report::significant;
+use crate::stages::{Kinematics, bearing_setup};
+use crate::system::BearingSetup;
+
+/// Relative error of the orders of a real bearing: the contact angle under load and the cage's slip.
+const GEOMETRY_ERROR: f64 = 0.01;
+
+/// A bearing and what is said of its shaft's speed.
+pub(super) struct Machine {
+    /// `None` where nothing says the bearing.
+    pub(super) orders: Option<FaultOrders>,
+    /// The bearing of a case that says its motion too, and the relative error of its orders.
+    setup: Option<(Box<BearingSetup>, f64)>,
+    typed: Option<GivenSpeed>,
+    of_case: Option<SpeedProfile>,
+    catalogue: Option<String>,
+}
+
+impl Machine {
+    /// What was typed goes before what a case says. `case` is the one of a run's folder, or that of `--bearing`.
+    ///
+    /// # Errors
+    /// [`CliError`]: a bearing that is none, a case without one.
+    pub(super) fn of(
+        asked: &AnalyzeArguments,
+        is_run: bool,
+        case: Option<&Case>,
+        options: &Options,
+    ) -> Result<Self, CliError> {
+        // a folder's case may be told another bearing
+        let (other, catalogue) = match named_bearing(asked)? {
+            Some(Named::Catalogue(bearing)) => (None, Some(bearing)),
+            Some(Named::Case(path)) if is_run => (Some(Case::load(path, &options.set)?), None),
+            _ => (None, None),
+        };
+        let typed = asked.orders.is_some() || asked.balls.is_some() || catalogue.is_some();
+        let bearing = other.as_ref().or(case);
+        let moved = |case: Option<&Case>| {
+            let case = case.filter(|case| case.speed.is_some() && asked.speed.is_none());
+            let setup = case.map(|case| {
+                let setup = bearing_setup(case)?;
+                Ok::<_, CliError>(setup.ok_or_else(|| without_bearing(case))?)
+            });
+            setup.transpose()
+        };
+        let setup: Option<BearingSetup> = moved(bearing.filter(|_| !typed))?;
+        let of_case: Option<BearingSetup> = match setup {
+            Some(_) => None,
+            None => moved(case)?,
+        };
+        let simulated = is_run && other.is_none();
+        let exact = if simulated { 0.0 } else { GEOMETRY_ERROR };
+        Ok(Self {
+            orders: orders(
+                asked,
+                catalogue,
+                bearing,
+                asked.geometry_error.unwrap_or(GEOMETRY_ERROR),
+            )?,
+            setup: setup.map(|setup| (Box::new(setup), asked.geometry_error.unwrap_or(exact))),
+            typed: asked.speed.clone(),
+            of_case: of_case.map(|setup| setup.cage.shaft().clone()),
+            catalogue: catalogue.map(described),
+        })
+    }
+
+    /// How a signal's machine moves, and what is taken for granted then, in words. `None` where nothing says the bearing or the
+    /// speed.
+    pub(super) fn motion(&self, signal: &MeasuredSignal) -> Option<(Kinematics<'_>, Vec<String>)> {
+        if let (Some((setup, error)), None) = (&self.setup, own_speed(signal)) {
+            let kinematics = match Kinematics::of(setup) {
+                Kinematics::Cage {
+                    cage,
+                    balls,
+                    rolling,
+                    ..
+                } => Kinematics::Cage {
+                    cage,
+                    balls,
+                    rolling,
+                    error: *error,
+                },
+                given => given,
+            };
+            let words = "Speed, slip and orders are those of the case, whose cage is prescribed.";
+            return Some((kinematics, vec![words.to_owned()]));
+        }
+        let orders = self.orders?;
+        let (speed, words) = self.speed_for(Some(signal))?;
+        let notes = self.catalogue.iter().cloned().chain([words, format!(
+            "Orders are known within {} %, a ball's as well as the geometry gives it then; the cage rolls without slip but for that.",
+            100.0 * orders.error(Fault::OuterRace)
+        )]);
+        Some((Kinematics::Given { orders, speed }, notes.collect()))
+    }
+
+    /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.
+    pub(super) fn speed_for(
+        &self,
+        signal: Option<&MeasuredSignal>,
+    ) -> Option<(SpeedProfile, String)> {
+        if let Some(typed) = &self.typed {
+            let words = format!("The shaft turns as --speed says: {}.", typed.text.trim());
+            return Some((typed.profile.clone(), words));
+        }
+        if let Some(hz) = signal.and_then(own_speed) {
+            let words = format!(
+                "The shaft turns as the file says: {} Hz.",
+                significant(hz, 6)
+            );
+            return Some((SpeedProfile::constant(hz).ok()?, words));
+        }
+        let of_case = self.setup.as_ref().map(|(setup, _)| setup.cage.shaft());
+        let profile = of_case.or(self.of_case.as_ref())?;
+        Some((
+            profile.clone(),
+            "The shaft turns as the case says.".to_owned(),
+        ))
+    }
+}
+
+/// The shaft's speed that a file states of itself, Hz. No reader finds one yet.
+fn own_speed(_signal: &MeasuredSignal) -> Option<f64> {
+    let stated: Option<f64> = None;
+    stated.filter(|&hz| hz.is_finite() && hz > 0.0)
+}
