@@ -19,8 +19,12 @@ impl Search<'_> {
     pub(super) fn judge_balls_by_cage_lines(&self, faults: &mut [FaultVerdict]) {
         let strong = |verdict: &FaultVerdict| {
             verdict.conclusion == Conclusion::Named
-                || verdict.false_alarm.is_some_and(|chance| chance < NAMED_BELOW)
-                    && verdict.strength_db.is_some_and(|db| db >= LEAST_STRENGTH_DB)
+                || verdict
+                    .false_alarm
+                    .is_some_and(|chance| chance < NAMED_BELOW)
+                    && verdict
+                        .strength_db
+                        .is_some_and(|db| db >= LEAST_STRENGTH_DB)
         };
         if faults.iter().any(strong) {
             return;

@@ -41,6 +41,17 @@ impl Fault {
             Self::Cage => "cage",
         }
     }
+
+    /// What the field calls its line. BSF is the spin of a ball, and a flaw meets both races once a spin.
+    #[must_use]
+    pub fn line(self) -> &'static str {
+        match self {
+            Self::OuterRace => "BPFO",
+            Self::InnerRace => "BPFI",
+            Self::Ball => "2 x BSF",
+            Self::Cage => "FTF",
+        }
+    }
 }
 
 /// How often the parts strike, in events per shaft turn, and how well that is known.

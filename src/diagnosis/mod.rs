@@ -5,7 +5,8 @@
 //! 3. `line_spectrum`: their spectra, averaged over stretches of 64 revolutions, against their own floor.
 //! 4. `comb`: a line and its harmonics, moved together within the uncertainty of their order.
 //! 5. `control`: how good a comb is by chance, from the same comb at hundreds of other orders.
-//! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`).
+//! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`). `unexplained`: combs of no part.
+//!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
 //!
 //! A healthy bearing has the ball-pass line of the outer race too: balls that pass under the load make its compliance vary. That is a smooth
@@ -33,6 +34,8 @@ mod order_spectrum;
 mod shaft_speed;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_cage;
 mod unexplained;
 mod verdict;
 mod window;
@@ -45,8 +48,9 @@ pub use fault::{Fault, FaultOrders};
 pub use known::line_name;
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use verdict::{
-    Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_STRENGTH_DB, LEAST_HARMONICS,
-    LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS, LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB,
-    LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts, probability,
+    BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,
+    LEAST_CAGE_STRENGTH_DB, LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS,
+    LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB, LEAST_STRENGTH_DB, NAMED_BELOW, SideLine,
+    UNSEEN_ABOVE, UnexplainedImpacts, probability,
 };
 pub use window::{Diagnosis, SpeedSource};

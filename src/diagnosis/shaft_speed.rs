@@ -21,6 +21,8 @@ const PLACES: f64 = 3.0;
 const CONTROLS: [f64; 2] = [0.4, 2.6];
 /// Probability by chance below which the lines are the shaft's.
 const SEEN_BELOW: f64 = 0.02;
+/// A speed that is so many times its uncertainty away from the given one is clearly another.
+const CLEARLY: f64 = 2.0;
 /// Combs that score this part of the best are as good: they bound the uncertainty.
 const AS_GOOD: f64 = 0.9;
 
@@ -96,11 +98,11 @@ pub(super) fn sharpened(
     }
     let chance = ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0));
     let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
-    // lines that leave more room than the given speed has do not sharpen it
+    let factor = 0.5 * (low + high);
+    // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+    let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
     Ok(
-        (chance < SEEN_BELOW && error < UNSEEN_ERROR).then_some(SpeedFit {
-            factor: 0.5 * (low + high),
-            error,
-        }),
+        (chance < SEEN_BELOW && sharper && high - low < LARGEST_ERROR)
+            .then_some(SpeedFit { factor, error }),
     )
 }

@@ -5,7 +5,6 @@ use super::comb::{Fit, best_fit};
 use super::explain::{Candidate, Search, turns_needed};
 use super::fault::Fault;
 use super::known::KnownLine;
-use super::line_spectrum::REVOLUTIONS;
 use super::verdict::{Evidence, UnexplainedImpacts};
 
 /// Lowest and highest order of impacts of something else.

@@ -314,7 +314,9 @@ pub(super) fn conclude(
         found.push_str(&format!(", band {from:.0} to {to:.0} Hz"));
     }
     if let Some(impulsiveness) = verdict.impulsiveness {
-        found.push_str(&format!("; impulsiveness {impulsiveness:.1}"));
+        found.push_str(&format!(
+            "; impulsiveness {impulsiveness:.1} (1 or more: impacts; {LEAST_IMPULSIVENESS} or less: slow modulation)"
+        ));
     }
     let sides = verdict.side_lines.iter().filter(|line| line.seen).count();
     if !verdict.side_lines.is_empty() {

@@ -41,10 +41,15 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
     for window in windows {
         if let Ok(diagnosis) = &window.diagnosis {
             let named: Vec<&str> = diagnosis.named().map(|v| v.fault.name()).collect();
-            let text = if named.is_empty() {
-                "no fault named".to_owned()
-            } else {
-                format!("fault: {}", named.join(", "))
+            let judged = diagnosis.faults.iter().any(|v| v.false_alarm.is_some());
+            let text = match (named.is_empty(), judged, diagnosis.unexplained.first()) {
+                (false, ..) => format!("fault indicated: {}", named.join(", ")),
+                (true, _, Some(impacts)) => format!(
+                    "impacts at {} Hz belong to no part: check bearing and speed",
+                    significant(impacts.frequency_hz, 4)
+                ),
+                (true, true, None) => "no fault indicated".to_owned(),
+                (true, false, None) => "too short for a verdict".to_owned(),
             };
             let what = format!(
                 "{}, {}-{} s",
@@ -203,7 +208,7 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
         [
             Column::text("Part"),
             Column::text("Verdict"),
-            Column::number("Probability under noise alone", ""),
+            Column::number("Probability by chance", ""),
             Column::number("Order, expected", ""),
             Column::number("Order, found", ""),
             Column::number("Line", "Hz"),
@@ -219,13 +224,31 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
             Conclusion::NotEnough | Conclusion::NotSeen => Verdict::None,
         };
         table = table.row([
-            Cell::text(verdict.fault.name()),
+            Cell::text(format!(
+                "{} ({})",
+                verdict.fault.name(),
+                verdict.fault.line()
+            )),
             Cell::text(verdict.conclusion.words()).judged(judged),
             number(verdict.false_alarm, 2),
             Cell::number(verdict.expected_order, 5),
             number(verdict.order, 5),
             number(verdict.frequency_hz, 4),
             Cell::text(verdict.why.clone()),
+        ]);
+    }
+    for impacts in &diagnosis.unexplained {
+        table = table.row([
+            Cell::text("none of these"),
+            Cell::text("impacts").judged(Verdict::Bad),
+            Cell::number(impacts.false_alarm, 2),
+            Cell::text(""),
+            Cell::number(impacts.order, 5),
+            Cell::number(impacts.frequency_hz, 4),
+            Cell::text(format!(
+                "{} harmonics stand out. These impacts belong to no part of this bearing: check bearing and speed, and what else turns.",
+                impacts.harmonics_seen
+            )),
         ]);
     }
     table
@@ -243,10 +266,13 @@ fn harmonic_table(diagnosis: &Diagnosis) -> Table {
             Column::text("Remark"),
         ],
     );
-    let harmonics = diagnosis
-        .faults
-        .iter()
-        .flat_map(|verdict: &FaultVerdict| &verdict.harmonics);
+    let harmonics = diagnosis.faults.iter().flat_map(|verdict: &FaultVerdict| {
+        let cage = verdict.cage_lines.iter();
+        verdict
+            .harmonics
+            .iter()
+            .chain(cage.flat_map(|lines| &lines.harmonics))
+    });
     for harmonic in harmonics {
         let remark = match &harmonic.coincides_with {
             Some(other) => format!("coincides with {other}: does not count"),

@@ -32,10 +32,10 @@ pub fn run_report<R: Recording>(
     for text in &result.not_analysed {
         report = report.warning(format!("Not analysed: {text}"));
     }
-    report = report.section(signals(result)?);
     for window in &result.windows {
         report = report.section(window_section(window));
     }
+    report = report.section(signals(result)?);
     for scalogram in &result.scalograms {
         report = report.section(scalogram.section());
     }
@@ -63,8 +63,8 @@ pub fn run_report<R: Recording>(
     Ok(report)
 }
 
-fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report {
-    report = report.headline(
+fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
+    let mut report = verdict_headlines(report, &result.windows).headline(
         "Simulated",
         format!("{} s", significant(result.simulation.simulated_s, 4)),
         Verdict::of(matches!(result.simulation.end, RunEnd::Complete)),
@@ -80,6 +80,10 @@ fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report 
             format!("{} m/s^2", significant(window.peak, 3)),
             Verdict::None,
         );
+    }
+    // a window in which the speed smears no line over Hz
+    let mut windows = result.windows.iter();
+    if let Some(window) = windows.find(|window| window.smeared_above.is_none()) {
         for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
             if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
                 report = report.headline(
@@ -93,7 +97,7 @@ fn headlines<R: Recording>(mut report: Report, result: &RunResult<R>) -> Report 
             }
         }
     }
-    verdict_headlines(report, &result.windows)
+    report
 }
 
 fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
