@@ -97,8 +97,8 @@ Examples: a run of this program; a recorder's table, with a bearing by its drawi
   plummer analyze bench.csv --channel P1 --bearing 6205 --speed 29.95
   plummer analyze rise.wav --orders outer=3.585,inner=5.415,ball=4.713,cage=0.398 --speed 0:10,8:50 --band 6000:12000
 
-Signals: .npz (an array time_s, time or t, or a rate fs), .csv or .txt (a column time; units in the header: P1 (m/s^2); decimal
-points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
+the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
 
 Verdicts: named, not enough evidence, not seen, each with its evidence and the probability that noise alone looks like it;
 docs/diagnosis.md says what they rest on. Windows need 16 events of a part at least: 7 shaft turns for most bearings.

@@ -130,6 +130,7 @@ fn in_acceleration(signal: &MeasuredSignal) -> Result<MeasuredSignal, StageError
     Ok(MeasuredSignal {
         name: signal.name.clone(),
         series,
+        speed_hz: signal.speed_hz,
     })
 }
 
