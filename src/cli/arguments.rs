@@ -99,8 +99,8 @@ many files in one table
   plummer analyze rise.wav --orders BPFO=3.585,BPFI=5.415,BSF=2.357,FTF=0.398 --speed 0:600rpm,8:3000rpm --band 6000:12000
   plummer analyze records/*.csv --bearing 6205 --speed 1797rpm --out out/records
 
-Signals: .npz (an array time_s, time or t, or a rate fs), .csv or .txt (a column time; units in the header: P1 (m/s^2); decimal
-points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
+the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
 
 Several files: a row a file, channel and window; every channel of each file unless --channel names some. A file that cannot be
 analysed has a row that says why, the others are analysed, and the exit code is 2.

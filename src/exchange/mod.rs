@@ -10,7 +10,7 @@
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
 //! | superelement ([`superelement`]) | `.npz`, `.op4`, `.fem` | everything of a condensed housing | `.npz` |
 //! | columns of a run under way ([`ColumnFiles`]) | `.f64` | time, sensors, forces | the same |
-//! | measured signals ([`measured`]) | `.npz`, `.csv`, `.wav`, `.uff` | | signals over time |
+//! | measured signals ([`measured`]) | `.npz`, `.mat`, `.csv`, `.wav`, `.uff` | | signals over time |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
 //! Every file is written under a temporary name and renamed ([`AtomicFile`]): a half-written file never carries its name.

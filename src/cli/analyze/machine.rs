@@ -128,8 +128,7 @@ impl Machine {
     }
 }
 
-/// The shaft's speed that a file states of itself, Hz. No reader finds one yet.
-fn own_speed(_signal: &MeasuredSignal) -> Option<f64> {
-    let stated: Option<f64> = None;
-    stated.filter(|&hz| hz.is_finite() && hz > 0.0)
+/// The shaft's speed that a file states of itself, Hz.
+fn own_speed(signal: &MeasuredSignal) -> Option<f64> {
+    signal.speed_hz.filter(|&hz| hz.is_finite() && hz > 0.0)
 }

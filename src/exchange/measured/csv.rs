@@ -101,6 +101,7 @@ impl Table<'_> {
             unit,
             values,
             clock: Rc::clone(&clock),
+            speed_hz: None,
         });
         Ok(channels.collect())
     }

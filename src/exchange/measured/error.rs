@@ -15,7 +15,7 @@ pub enum MeasuredError {
     #[error(transparent)]
     File(#[from] FileError),
     /// An ending that says of no format.
-    #[error("{}: expected a file .npz, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`", path.display())]
+    #[error("{}: expected a file .npz, .mat, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`", path.display())]
     Ending {
         /// The file.
         path: PathBuf,
@@ -33,6 +33,26 @@ pub enum MeasuredError {
         path: PathBuf,
         /// What the library found.
         found: String,
+    },
+    /// A MATLAB file that is damaged or none.
+    #[error("{}: {place}: expected {expected}, found {found}", path.display())]
+    Mat {
+        /// The file.
+        path: PathBuf,
+        /// Array and byte, counted from 0.
+        place: String,
+        /// What the format has there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A MATLAB file of a version that is not read.
+    #[error("{}: expected a MATLAB file of version 5 to 7, found version {found}", path.display())]
+    MatVersion {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: &'static str,
     },
     /// Numbers with a comma.
     #[error("{}:{line}: expected numbers with a decimal point, found \"{found}\"", path.display())]
@@ -152,6 +172,13 @@ impl MeasuredError {
             Self::Uneven { .. } | Self::Drift { .. } => Some(
                 "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place".to_owned(),
             ),
+            Self::MatVersion { path, .. } => {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy();
+                Some(format!(
+                    "write it again as version 7: in MATLAB m = load('{name}.mat'); save('{name}-v7.mat', '-struct', 'm', '-v7'), \
+                     or in Python scipy.io.savemat('{name}-v7.mat', {{'x': x}})"
+                ))
+            }
             Self::DecimalComma { .. } => {
                 Some("write the table with decimal points; the separator may stay a semicolon".to_owned())
             }

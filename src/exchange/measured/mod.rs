@@ -3,22 +3,28 @@
 //! | ending | time | channels |
 //! |---|---|---|
 //! | `.npz` | array `time_s`, `time` or `t`, or a rate `rate_hz`, `fs` or `sampling_rate` (Hz) | arrays as long as the time; without one, every array of one dimension |
+//! | `.mat` (MATLAB 5 to 7) | the same beside the signal, in its struct or in the file; more names of rates | vectors; columns of tables `x(:,1)`; fields of structs `bearing.gs` |
 //! | `.csv`, `.txt` | a column `time`, `time_s`, `t`, with a unit `(ms)` or `[us]` if it is not s; without a header the first column | the others; names and units from the header, `P1 (m/s^2)` |
 //! | `.wav` | the file's rate | one a channel, full scale 1 (`channel 1`, `channel 2`) |
 //! | `.uff`, `.unv` | of the data set | data sets 58 and 58b of function type 1 over time |
+//!
+//! Archives and MATLAB files may state the shaft's speed too, by a number called `speed_hz`, `shaft_speed_hz` or `...rpm`; MATLAB
+//! files also by `rate` beside a sampling rate in one struct.
 //!
 //! A rate that is asked for goes before what the file says of time; the first instant stays the file's. A time that is not
 //! uniform is refused ([`MeasuredError::Uneven`]): a spectrum of such samples has lines that the signal does not have.
 //!
 //! This is a part of `exchange` and no row of its own: it reads files of other programs, and what it hands on is a
-//! [`TimeSeries`]. Memory stays below ten times the file's size (npz arrays: what [`NpzReader`](super::NpzReader) says): sizes that
-//! a file only promises are not believed.
+//! [`TimeSeries`]. Memory stays below ten times the file's size (npz arrays: what [`NpzReader`](super::NpzReader) says;
+//! MATLAB files: 20 times, or 20 000 times where variables are packed): sizes that a file only promises are not believed.
 
 mod clock;
 mod csv;
 mod error;
 mod header;
+mod mat;
 mod npz;
+mod stated;
 #[cfg(test)]
 mod tests;
 mod uff;
@@ -27,6 +33,7 @@ mod wav;
 use std::path::Path;
 
 pub use error::MeasuredError;
+pub use mat::signals_from_mat;
 
 use crate::series::TimeSeries;
 use clock::Clock;
@@ -38,6 +45,8 @@ pub struct MeasuredSignal {
     pub name: String,
     /// The samples; the unit is empty where the file does not say it.
     pub series: TimeSeries,
+    /// Shaft speed that the file itself states, Hz, > 0.
+    pub speed_hz: Option<f64>,
 }
 
 /// What is wanted of a file.
@@ -60,6 +69,7 @@ pub fn read_signals(
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let channels = match ending.to_ascii_lowercase().as_str() {
         "npz" => npz::read(path, request),
+        "mat" => mat::read(path, request),
         "csv" | "txt" => csv::read(path, request),
         "wav" => wav::read(path, request),
         "uff" | "unv" => uff::read(path, request),
@@ -79,6 +89,8 @@ struct Channel {
     unit: String,
     values: Vec<f64>,
     clock: std::rc::Rc<Clock>,
+    /// Shaft speed that the file states, Hz, > 0.
+    speed_hz: Option<f64>,
 }
 
 impl Channel {
@@ -95,6 +107,7 @@ impl Channel {
         Ok(MeasuredSignal {
             name: self.name,
             series,
+            speed_hz: self.speed_hz,
         })
     }
 }

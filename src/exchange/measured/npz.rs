@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::super::NpzReader;
 use super::clock::Clock;
 use super::header::time_unit;
+use super::stated::{one_speed, speed_unit};
 use super::{Channel, MeasuredError, SignalRequest, choose};
 
 /// Names of arrays of one value that are a rate in Hz.
@@ -48,9 +49,12 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
         }
         (None, None) => Clock::Unknown,
     };
+    let speeds = speeds(&mut archive, &names);
+    let speed_hz = one_speed(speeds.iter().map(|(_, hz)| *hz));
+    let is_speed = |name: &String| speeds.iter().any(|(speed, _)| speed == name);
     let channels: Vec<String> = names
         .iter()
-        .filter(|name| Some(*name) != time && Some(*name) != rate)
+        .filter(|name| Some(*name) != time && Some(*name) != rate && !is_speed(name))
         .cloned()
         .collect();
     let rows = match &clock {
@@ -79,7 +83,22 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             unit: String::new(),
             values: array.values,
             clock: Rc::clone(&clock),
+            speed_hz,
         });
     }
     Ok(found)
+}
+
+/// Arrays of one number that is a shaft speed by its name, with the speed in Hz; others of such a name are signals.
+fn speeds(archive: &mut NpzReader, names: &[String]) -> Vec<(String, f64)> {
+    let mut found = Vec::new();
+    for name in names {
+        if let Some(unit) = speed_unit(name)
+            && let Ok(array) = archive.real(name)
+            && let &[speed] = array.values.as_slice()
+        {
+            found.push((name.clone(), unit * speed));
+        }
+    }
+    found
 }

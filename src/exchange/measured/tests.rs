@@ -9,28 +9,34 @@ use super::super::NpzWriter;
 use super::*;
 
 /// `x_k = sin(0.7 k) + k / 8`.
-fn sample(k: usize) -> f64 {
+pub(super) fn sample(k: usize) -> f64 {
     (0.7 * k as f64).sin() + k as f64 / 8.0
 }
 
-fn samples(count: usize) -> Vec<f64> {
+pub(super) fn samples(count: usize) -> Vec<f64> {
     (0..count).map(sample).collect()
 }
 
-fn request(channels: &[&str], rate_hz: Option<f64>) -> SignalRequest {
+pub(super) fn request(channels: &[&str], rate_hz: Option<f64>) -> SignalRequest {
     SignalRequest {
         channels: channels.iter().map(|&name| name.to_owned()).collect(),
         rate_hz,
     }
 }
 
-fn only(mut signals: Vec<MeasuredSignal>) -> MeasuredSignal {
+pub(super) fn only(mut signals: Vec<MeasuredSignal>) -> MeasuredSignal {
     assert_eq!(signals.len(), 1);
     signals.remove(0)
 }
 
 /// A signal has these samples, to a part of their largest.
-fn assert_samples(signal: &MeasuredSignal, start_s: f64, step_s: f64, values: &[f64], part: f64) {
+pub(super) fn assert_samples(
+    signal: &MeasuredSignal,
+    start_s: f64,
+    step_s: f64,
+    values: &[f64],
+    part: f64,
+) {
     let series = &signal.series;
     assert!((series.start_s() - start_s).abs() <= 1e-9 * step_s + part * start_s.abs());
     assert!(
@@ -240,6 +246,31 @@ fn archives_are_read_with_a_time_or_a_rate() {
         error.help().unwrap(),
         "give the sampling rate with --rate HZ"
     );
+}
+
+#[test]
+fn archives_may_state_the_speed() {
+    let values = samples(50);
+    let found = |speeds: &[(&str, &[f64])], channels: &[&str]| {
+        let (_kept, path) = archive("speed.npz", |npz| {
+            put(npz, "x", &[50], &values);
+            put(npz, "fs", &[1], &[2048.0]);
+            for (name, speed) in speeds {
+                put(npz, name, &[speed.len()], speed);
+            }
+        });
+        let found = read_signals(&path, &request(channels, None)).unwrap();
+        found.iter().map(|own| own.speed_hz).collect::<Vec<_>>()
+    };
+    assert_eq!(found(&[], &[]), [None]);
+    // a number that states the speed is no signal
+    assert_eq!(found(&[("speed_hz", &[29.5])], &[]), [Some(29.5)]);
+    assert_eq!(found(&[("Motor_RPM", &[1770.0])], &[]), [Some(29.5)]);
+    let both: [(&str, &[f64]); 2] = [("rpm", &[1770.0]), ("speed_hz", &[29.0])];
+    assert_eq!(found(&both, &[]), [None]);
+    // a speed over time is one, and states nothing
+    let over_time = [("rpm", &values[..])];
+    assert_eq!(found(&over_time, &["x", "rpm"]), [None, None]);
 }
 
 #[test]
@@ -471,12 +502,12 @@ fn binary_numbers_of_both_orders_and_precisions_are_read() {
 #[test]
 fn files_of_other_kinds_and_none_are_refused() {
     let any = request(&[], None);
-    let error = read_signals(Path::new("signal.mat"), &any).unwrap_err();
+    let error = read_signals(Path::new("signal.xls"), &any).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "signal.mat: expected a file .npz, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`"
+        "signal.xls: expected a file .npz, .mat, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`"
     );
-    for name in ["no.npz", "no.csv", "no.wav", "no.uff"] {
+    for name in ["no.npz", "no.mat", "no.csv", "no.wav", "no.uff"] {
         let error = read_signals(Path::new(name), &any).unwrap_err().to_string();
         assert!(
             error.starts_with(&format!("cannot read {name}: ")),

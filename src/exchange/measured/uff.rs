@@ -33,6 +33,7 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             unit: signal.unit,
             values: signal.values,
             clock: Rc::new(clock),
+            speed_hz: None,
         });
     }
     Ok(channels)

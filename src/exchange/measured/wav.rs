@@ -40,6 +40,7 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             .map(|frame| format.decode.value(&frame[place * width..][..width]))
             .collect(),
         clock: Rc::clone(&clock),
+        speed_hz: None,
     });
     Ok(made.collect())
 }

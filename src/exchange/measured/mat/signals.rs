@@ -1,0 +1,203 @@
+//! Signals among the arrays of a file.
+
+use std::borrow::Cow;
+use std::path::Path;
+use std::rc::Rc;
+
+use super::super::clock::Clock;
+use super::super::{Channel, MeasuredError, SignalRequest, choose};
+use super::array::{Array, Search, Shape};
+use super::beside::{Taken, is_time, speed_hz, taken};
+use super::element::{ByteOrder, Fault};
+use super::header::byte_order;
+use super::variable::{Variable, variables};
+
+/// A file whose arrays are known and not read.
+struct MatFile<'a> {
+    bytes: &'a [u8],
+    path: &'a Path,
+    order: ByteOrder,
+    variables: Vec<Variable>,
+    arrays: Vec<Array>,
+}
+
+/// A signal: an array, or a column or row of it.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    array: usize,
+    /// First of its numbers in the array, the step between them, how many.
+    start: usize,
+    step: usize,
+    count: usize,
+}
+
+impl Place {
+    fn numbers(self) -> (usize, usize, usize) {
+        (self.start, self.step, self.count)
+    }
+}
+
+/// The variable that was unpacked last.
+type Opened<'a> = Option<(usize, Cow<'a, [u8]>)>;
+
+/// Reads the wanted signals.
+pub(super) fn channels(
+    bytes: &[u8],
+    path: &Path,
+    request: &SignalRequest,
+) -> Result<Vec<Channel>, MeasuredError> {
+    let file = MatFile::of(bytes, path)?;
+    let (names, places) = file.signals();
+    let mut opened = None;
+    let mut clock: Option<(&str, Rc<Clock>)> = None;
+    let mut found = Vec::new();
+    for chosen in choose(path, &names, request)? {
+        let place = places[chosen];
+        let array = &file.arrays[place.array];
+        if array.complex {
+            return Err(MeasuredError::Array {
+                path: path.to_owned(),
+                name: names[chosen].clone(),
+                expected: "a signal of real numbers".to_owned(),
+                found: "complex numbers".to_owned(),
+            });
+        }
+        let taken = taken(&file.arrays, array, place.count, path, request)?;
+        let own = match (taken, &clock) {
+            // signals beside each other have one time
+            (Taken::Times(times, _), Some((path, clock))) if *path == times.path => {
+                Rc::clone(clock)
+            }
+            (Taken::Times(times, unit), _) => {
+                let mut times = file.values(&mut opened, times, (0, 1, place.count))?;
+                times.iter_mut().for_each(|time| *time *= unit);
+                Rc::new(Clock::Times {
+                    times,
+                    first_row: 0,
+                })
+            }
+            (Taken::Rate(rate), _) => Rc::new(Clock::Even {
+                start_s: 0.0,
+                step_s: 1.0 / rate,
+            }),
+            (Taken::Unknown, _) => Rc::new(Clock::Unknown),
+        };
+        if let Taken::Times(times, _) = taken {
+            clock = Some((&times.path, Rc::clone(&own)));
+        }
+        found.push(Channel {
+            name: names[chosen].clone(),
+            unit: String::new(),
+            values: file.values(&mut opened, array, place.numbers())?,
+            clock: own,
+            speed_hz: speed_hz(&file.arrays, array),
+        });
+    }
+    Ok(found)
+}
+
+impl<'a> MatFile<'a> {
+    /// Looks through a file, a variable at a time.
+    fn of(bytes: &'a [u8], path: &'a Path) -> Result<Self, MeasuredError> {
+        let order = byte_order(bytes, path)?;
+        let variables = variables(bytes, order).map_err(|fault| wrong(path, None, fault))?;
+        let (mut arrays, mut count) = (Vec::new(), 0);
+        for (variable, own) in variables.iter().enumerate() {
+            let searched = own.open(bytes, order).and_then(|(whole, part)| {
+                let mut search = Search {
+                    whole: &whole,
+                    order,
+                    variable,
+                    found: &mut arrays,
+                    count: &mut count,
+                };
+                search.variable(part)
+            });
+            searched.map_err(|fault| wrong(path, Some(own), fault))?;
+        }
+        Ok(Self {
+            bytes,
+            path,
+            order,
+            variables,
+            arrays,
+        })
+    }
+
+    /// Names and places of all signals. Those of a table run along its longer side: `x(:,1)` is a column, `x(1,:)` a row.
+    fn signals(&self) -> (Vec<String>, Vec<Place>) {
+        let (mut names, mut places) = (Vec::new(), Vec::new());
+        for (array, own) in self.arrays.iter().enumerate() {
+            let mut add = |name: String, start: usize, step: usize, count: usize| {
+                names.push(name);
+                places.push(Place {
+                    array,
+                    start,
+                    step,
+                    count,
+                });
+            };
+            let path = &own.path;
+            match own.shape {
+                Shape::Vector(count) if is_time(own).is_none() => add(path.clone(), 0, 1, count),
+                Shape::Scalar(_) | Shape::Vector(_) => {}
+                Shape::Matrix { rows, columns } if columns > rows => {
+                    for row in 0..rows {
+                        add(format!("{path}({},:)", row + 1), row, rows, columns);
+                    }
+                }
+                Shape::Matrix { rows, columns } => {
+                    for column in 0..columns {
+                        add(format!("{path}(:,{})", column + 1), rows * column, 1, rows);
+                    }
+                }
+            }
+        }
+        (names, places)
+    }
+
+    /// Numbers of an array: from `start` on, in steps, so many.
+    fn values(
+        &self,
+        opened: &mut Opened<'a>,
+        array: &Array,
+        (start, step, count): (usize, usize, usize),
+    ) -> Result<Vec<f64>, MeasuredError> {
+        let variable = &self.variables[array.variable];
+        if opened
+            .as_ref()
+            .is_none_or(|(last, _)| *last != array.variable)
+        {
+            // what was unpacked before is let go first
+            *opened = None;
+            let open = variable.open(self.bytes, self.order);
+            let (whole, _) = open.map_err(|fault| wrong(self.path, Some(variable), fault))?;
+            *opened = Some((array.variable, whole));
+        }
+        let whole = opened.as_ref().map_or(&[][..], |(_, whole)| whole);
+        let width = array.numbers.width();
+        let bytes = whole.get(array.data.clone()).unwrap_or_default();
+        let numbers = bytes.chunks_exact(width).skip(start);
+        let numbers = numbers.step_by(step).take(count);
+        let mut values = Vec::with_capacity(count);
+        values.extend(numbers.map(|bytes| array.numbers.value(bytes, self.order)));
+        Ok(values)
+    }
+}
+
+/// A fault of a variable or of the file, with its place.
+fn wrong(path: &Path, variable: Option<&Variable>, fault: Fault) -> MeasuredError {
+    let mut place = match variable.and_then(Variable::packed_at) {
+        Some(packed) => format!("byte {} of what byte {packed} packs", fault.at),
+        None => format!("byte {}", fault.at),
+    };
+    if let Some(array) = fault.array {
+        place = format!("array \"{array}\", {place}");
+    }
+    MeasuredError::Mat {
+        path: path.to_owned(),
+        place,
+        expected: fault.expected,
+        found: fault.found,
+    }
+}

@@ -1,0 +1,101 @@
+//! Numbers in a file that say how often samples were taken and how fast the shaft turned, by their names.
+
+/// Revolutions per minute in one Hz.
+const RPM: f64 = 60.0;
+
+/// Lower case, without underscores.
+fn bare(name: &str) -> String {
+    name.to_lowercase().replace('_', "")
+}
+
+/// Whether a number of this name is a sampling rate in Hz.
+pub(super) fn is_rate(name: &str) -> bool {
+    let name = bare(name);
+    // without its unit, "rate" alone may be of anything
+    if name == "ratehz" {
+        return true;
+    }
+    matches!(
+        name.strip_suffix("hz").unwrap_or(&name),
+        "fs" | "sr"
+            | "fsamp"
+            | "samplerate"
+            | "samplingrate"
+            | "samplefrequency"
+            | "samplingfrequency"
+            | "samplefreq"
+            | "samplingfreq"
+    )
+}
+
+/// Whether a number is called a rate and nothing more: beside a sampling rate it is the shaft's, in Hz.
+pub(super) fn is_bare_rate(name: &str) -> bool {
+    name.eq_ignore_ascii_case("rate")
+}
+
+/// Hz in the unit of a number that is a shaft speed by its name; `None` if it is none.
+pub(super) fn speed_unit(name: &str) -> Option<f64> {
+    let name = bare(name);
+    if name.ends_with("rpm") {
+        return Some(1.0 / RPM);
+    }
+    matches!(name.as_str(), "speedhz" | "shaftspeedhz").then_some(1.0)
+}
+
+/// The one speed that all numbers state, Hz, above 0; `None` if they differ or there is none.
+pub(super) fn one_speed(speeds: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let mut usable = speeds.into_iter().filter(|hz| *hz > 0.0 && hz.is_finite());
+    let first = usable.next()?;
+    usable.all(|other| same(first, other)).then_some(first)
+}
+
+/// Whether two numbers are the same but for rounding.
+pub(super) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_rates_and_speeds() {
+        for name in [
+            "fs",
+            "Fs",
+            "FS",
+            "sr",
+            "rate_hz",
+            "sample_rate",
+            "SamplingRate",
+            "sampling_frequency",
+            "fs_Hz",
+        ] {
+            assert!(is_rate(name), "{name}");
+        }
+        for name in ["rate", "f", "fs_khz", "offs", "hz", "", "strain_rate"] {
+            assert!(!is_rate(name), "{name}");
+        }
+        for (name, unit) in [
+            ("rpm", Some(1.0 / 60.0)),
+            ("X105RPM", Some(1.0 / 60.0)),
+            ("shaft_rpm", Some(1.0 / 60.0)),
+            ("speed_hz", Some(1.0)),
+            ("Shaft_Speed_Hz", Some(1.0)),
+            ("speed", None),
+            ("rate", None),
+            ("rpms", None),
+        ] {
+            assert_eq!(speed_unit(name), unit, "{name}");
+        }
+    }
+
+    #[test]
+    fn speeds_that_differ_are_none() {
+        assert_eq!(one_speed([25.0, 25.0]), Some(25.0));
+        assert_eq!(one_speed([0.0, 25.0, f64::NAN]), Some(25.0));
+        assert_eq!(one_speed([25.0, 24.8]), None);
+        assert_eq!(one_speed([-25.0, f64::INFINITY]), None);
+        assert_eq!(one_speed([]), None);
+    }
+}
