@@ -13,25 +13,26 @@ use super::verdict::{
     LEAST_HARMONICS, LEAST_STRENGTH_DB, NAMED_BELOW, probability,
 };
 
+/// A race whose lines are by so many dB stronger than the cage's explains these.
+const RACE_OVER_CAGE_DB: f64 = 2.0;
+
 impl Search<'_> {
     /// Indicates a ball by the lines of the cage, where no other part shows as clearly: a flaw on a race is struck harder by a ball that
     /// differs, once a revolution of the cage as well.
     pub(super) fn judge_balls_by_cage_lines(&self, faults: &mut [FaultVerdict]) {
-        let strong = |verdict: &FaultVerdict| {
-            verdict.conclusion == Conclusion::Named
-                || verdict
-                    .false_alarm
-                    .is_some_and(|chance| chance < NAMED_BELOW)
-                    && verdict
-                        .strength_db
-                        .is_some_and(|db| db >= LEAST_STRENGTH_DB)
-        };
-        if faults.iter().any(strong) {
-            return;
-        }
         let Some(lines) = self.cage_lines() else {
             return;
         };
+        let clearest = LEAST_STRENGTH_DB.min(lines.strength_db + RACE_OVER_CAGE_DB);
+        let clearer = |verdict: &FaultVerdict| {
+            let certain = verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW);
+            let strong = verdict.strength_db.is_some_and(|db| db >= clearest);
+            verdict.conclusion == Conclusion::Named
+                || verdict.fault != Fault::Cage && certain && strong
+        };
+        if faults.iter().any(clearer) {
+            return;
+        }
         for verdict in faults.iter_mut() {
             match verdict.fault {
                 Fault::Ball => {
@@ -43,6 +44,7 @@ impl Search<'_> {
                         probability(lines.false_alarm)
                     );
                     verdict.false_alarm = Some(lines.false_alarm);
+                    verdict.strength_db = Some(lines.strength_db);
                     verdict.cage_lines = Some(lines.clone());
                 }
                 Fault::Cage if verdict.conclusion != Conclusion::Named => {

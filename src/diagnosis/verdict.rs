@@ -131,7 +131,8 @@ pub struct FaultVerdict {
     pub side_spacing: Option<f64>,
     /// Sidebands about the first harmonics.
     pub side_lines: Vec<SideLine>,
-    /// The lines of the cage, where it is by these that a ball is indicated: `false_alarm` is theirs then.
+    /// The lines of the cage, where it is by these that a ball is indicated: `false_alarm` and
+    /// `strength_db` are theirs then.
     pub cage_lines: Option<CageLines>,
     /// Why this, and why not more.
     pub why: String,
