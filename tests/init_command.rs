@@ -338,8 +338,8 @@ fn the_catalogue_is_listed_with_its_sources() {
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let text = String::from_utf8(output.stdout).unwrap();
     for part in [
-        "6205     25     52     15      9          7.938          39.10   0.128 3.5864 5.4136 2.3614 0.3985  GMN",
-        "6305     25     62     17      7         11.906          43.50*  0.222 2.5420 4.4580 1.6900 0.3631  Timken",
+        "6205     25     52     15      9          7.938          39.10   0.128 3.5864 5.4136 2.3613 0.3985  GMN",
+        "6305     25     62     17      7         11.906          43.50*  0.222 2.5420 4.4580 1.6899 0.3631  Timken",
         "BSF is the spin of a ball: a flaw on it strikes both races, twice a spin",
         "GMN: GMN, High precision ball bearings, catalogue 4000 0813 EN (2013)",
     ] {

@@ -24,7 +24,7 @@ pub(super) fn list() -> Outcome {
 fn table() -> String {
     let mut text = String::from(
         "deep groove ball bearings, lengths in mm, mass in kg; orders per revolution of the shaft, without contact angle\n\
-         name   bore  outer  width  balls  ball diameter  pitch diameter  mass   BPFO   BPFI   BSF    FTF     source",
+         name   bore  outer  width  balls  ball diameter  pitch diameter  mass    BPFO   BPFI    BSF    FTF  source",
     );
     for bearing in CatalogueBearing::all() {
         let [bore, outer, width, ball, pitch] = [
