@@ -5,10 +5,10 @@ use super::bands::BandSpectrum;
 use super::comb::{Fit, Masked, best_fit};
 use super::control::{ByChance, control_scores};
 use super::fault::{Fault, FaultOrders};
-use super::known::{KnownLine, Mask, impact_lines, shaft_lines};
+use super::known::{COMBS_BESIDE, KnownLine, Mask, coincidence, impact_lines, shaft_lines};
 use super::line_spectrum::REVOLUTIONS;
 use super::unexplained::UNEXPLAINED_ORDERS;
-use super::verdict::{FaultVerdict, UnexplainedImpacts};
+use super::verdict::{Conclusion, FaultVerdict, UnexplainedImpacts};
 
 /// Probability by chance below which a comb explains lines, named or not.
 const EXPLAINS_BELOW: f64 = 0.01;
@@ -119,9 +119,46 @@ impl Search<'_> {
             };
             found.faults.push(verdict);
         }
+        self.doubt_sidebands_of_hidden_parts(&mut found.faults);
         self.judge_balls_by_cage_lines(&mut found.faults);
         found.faults.sort_by_key(|verdict| verdict.fault as usize);
         found
+    }
+
+    /// A comb one or two revolutions beside a place where the shaft's lines hide another part may be sidebands of that part.
+    fn doubt_sidebands_of_hidden_parts(&self, faults: &mut [FaultVerdict]) {
+        let shaft = shaft_lines(self.end(), self.speed_error);
+        let named = |verdict: &&mut FaultVerdict| verdict.conclusion == Conclusion::Named;
+        for verdict in faults.iter_mut().filter(named) {
+            let (Some(order), Some(band_hz)) = (verdict.order, verdict.band_hz) else {
+                continue;
+            };
+            let judged = |band: &&BandSpectrum| band.band_hz == band_hz;
+            let Some(band) = self.spectra.iter().find(judged) else {
+                continue;
+            };
+            let hidden = |fault: Fault| {
+                let part = self.orders.order(fault)?;
+                let reach = (self.orders.error(fault) + self.speed_error) * part;
+                let revolutions = (part - order).round();
+                let place = order + revolutions;
+                let beside = (1.0..=f64::from(COMBS_BESIDE)).contains(&revolutions.abs());
+                (fault != verdict.fault
+                    && beside
+                    && (place - part).abs() <= reach
+                    && coincidence(&band.lines, place, &shaft).is_some())
+                .then_some(fault)
+            };
+            let races = [Fault::OuterRace, Fault::InnerRace];
+            if let Some(fault) = races.into_iter().find_map(hidden) {
+                verdict.conclusion = Conclusion::NotEnough;
+                verdict.why = format!(
+                    "{} They may be sidebands of the {}, whose own lines the shaft's hide in this window. A longer window decides.",
+                    verdict.why,
+                    fault.name()
+                );
+            }
+        }
     }
 
     /// The order at which the widest spectrum ends.

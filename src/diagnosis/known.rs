@@ -19,7 +19,7 @@ const CAGE_SIDES: u32 = 2;
 const FINE_RESOLUTION: f64 = 0.03;
 /// A comb beside a stronger one, so many revolutions away: its k-th tooth is the stronger one's k-th harmonic and k times as many
 /// sidebands. In a 6203 the inner race less one is within 1 % of the ball, and less two of the outer race.
-const COMBS_BESIDE: u32 = 2;
+pub(super) const COMBS_BESIDE: u32 = 2;
 const HARMONICS_BESIDE: u32 = 8;
 
 /// A line that has a reason, and which.
