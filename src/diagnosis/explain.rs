@@ -75,13 +75,14 @@ impl Search<'_> {
             }
         }
         let mut strongest: Option<Fit> = None;
+        let mut explained = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let masked = self.masked(&known);
             let parts = open
                 .iter()
                 .filter_map(|&(fault, order)| self.part(&masked, fault, order));
-            let mut candidates: Vec<Candidate> =
-                parts.chain(self.something_else(&masked)).collect();
+            let other = self.something_else(&masked, &explained);
+            let mut candidates: Vec<Candidate> = parts.chain(other).collect();
             candidates.sort_by(|a, b| b.fit.score.total_cmp(&a.fit.score));
             // the wider a search is the more it scores by chance: one that says nothing does not silence the next
             let explains = candidates.into_iter().find_map(|candidate| {
@@ -99,6 +100,7 @@ impl Search<'_> {
                     let verdict = self.verdict(fault, expected, &best, chance, &known);
                     found.faults.push(verdict);
                     open.retain(|(other, _)| *other != fault);
+                    explained.push(fault);
                 }
                 None => found
                     .unexplained
@@ -130,12 +132,10 @@ impl Search<'_> {
         let shaft = shaft_lines(self.end(), self.speed_error);
         let named = |verdict: &&mut FaultVerdict| verdict.conclusion == Conclusion::Named;
         for verdict in faults.iter_mut().filter(named) {
-            let (Some(order), Some(band_hz)) = (verdict.order, verdict.band_hz) else {
-                continue;
-            };
-            let judged = |band: &&BandSpectrum| band.band_hz == band_hz;
-            let Some(band) = self.spectra.iter().find(judged) else {
-                continue;
+            let Some(order) = verdict.order else { continue };
+            let covered = |place: f64| {
+                let mut bands = self.spectra.iter();
+                bands.any(|band| coincidence(&band.lines, place, &shaft).is_some())
             };
             let hidden = |fault: Fault| {
                 let part = self.orders.order(fault)?;
@@ -146,7 +146,7 @@ impl Search<'_> {
                 (fault != verdict.fault
                     && beside
                     && (place - part).abs() <= reach
-                    && coincidence(&band.lines, place, &shaft).is_some())
+                    && covered(place))
                 .then_some(fault)
             };
             let races = [Fault::OuterRace, Fault::InnerRace];

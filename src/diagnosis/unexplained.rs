@@ -20,8 +20,12 @@ const SAME_COMB: f64 = 0.7;
 const LOWEST_PART: u32 = 5;
 
 impl Search<'_> {
-    /// The best comb that is none of a part, of the shaft, or of what one of them and the shaft or the cage make together.
-    pub(super) fn something_else(&self, masked: &[Masked<'_>]) -> Option<Candidate> {
+    /// The best comb that is none of a part, of the shaft, or of what an explained part and the shaft or the cage make together.
+    pub(super) fn something_else(
+        &self,
+        masked: &[Masked<'_>],
+        explained: &[Fault],
+    ) -> Option<Candidate> {
         let [from, to] = UNEXPLAINED_ORDERS;
         let resolution = self.spectra.first()?.lines.resolution;
         let mut best: Option<Fit> = None;
@@ -30,7 +34,7 @@ impl Search<'_> {
         let mut order = least;
         let fit_at = |order: f64| {
             let fit = best_fit(masked, order, 0.0, None)?;
-            (!self.is_related(fit.order, resolution)).then_some(fit)
+            (!self.is_related(fit.order, resolution, explained)).then_some(fit)
         };
         while order < to {
             if let Some(fit) = fit_at(order)
@@ -57,8 +61,10 @@ impl Search<'_> {
         })
     }
 
-    /// Whether an order is one of the lines that a part or the shaft has anyway, or one of which they are harmonics.
-    pub(super) fn is_related(&self, order: f64, resolution: f64) -> bool {
+    /// Whether an order is one of the shaft's, or one of a part: its first harmonics, and of a ball its spin. Of a part that explains lines also what
+    /// it makes with others. A part that explains nothing has no sidebands, and the harmonics of another order that coincide with its own are no
+    /// evidence for it.
+    fn is_related(&self, order: f64, resolution: f64, explained: &[Fault]) -> bool {
         let cage = self.orders.order(Fault::Cage);
         let near = |line: f64, reach: f64| (order - line).abs() < reach + 3.0 * resolution;
         // half and third revolutions: belts, rubs
@@ -72,20 +78,26 @@ impl Search<'_> {
             let Some(part) = self.orders.order(fault) else {
                 return false;
             };
-            let reach = self.orders.error(fault) * part;
-            let ratios = (1..=RELATED).flat_map(|i| (1..=RELATED).map(move |j| (i, j)));
-            let mut ratios = ratios.map(|(i, j)| f64::from(i) / f64::from(j));
-            if ratios.any(|ratio| near(ratio * part, ratio * reach)) {
+            let reach = (self.orders.error(fault) + self.speed_error) * part;
+            let of_part = |ratio: f64| near(ratio * part, ratio * reach);
+            let spin = fault == Fault::Ball && of_part(0.5);
+            if spin || (1..=RELATED).any(|harmonic| of_part(f64::from(harmonic))) {
                 return true;
             }
-            (1..=2).any(|harmonic| {
-                (-RELATED_SIDES..=RELATED_SIDES).any(|side| {
-                    let (line, side) = (f64::from(harmonic) * part, f64::from(side));
-                    let reach = f64::from(harmonic) * reach;
-                    near(line + side, reach)
-                        || cage.is_some_and(|cage| near(line + side * cage, reach))
+            if !explained.contains(&fault) {
+                return false;
+            }
+            let ratios = (1..=RELATED).flat_map(|i| (2..=RELATED).map(move |j| (i, j)));
+            let mut ratios = ratios.map(|(i, j)| f64::from(i) / f64::from(j));
+            ratios.any(of_part)
+                || (1..=2).any(|harmonic| {
+                    (-RELATED_SIDES..=RELATED_SIDES).any(|side| {
+                        let (line, side) = (f64::from(harmonic) * part, f64::from(side));
+                        let reach = f64::from(harmonic) * reach;
+                        near(line + side, reach)
+                            || cage.is_some_and(|cage| near(line + side * cage, reach))
+                    })
                 })
-            })
         })
     }
 
