@@ -120,9 +120,11 @@ pub(super) fn speed_hz(arrays: &[Array], array: &Array) -> Option<f64> {
         if speeds.peek().is_some() {
             return Some(one_speed(speeds));
         }
+        // among the variables of a file "rate" may be of anything
+        let is_struct = !scope.is_empty();
         let has_rate = numbers(arrays, scope).any(|(array, _)| is_rate(array.scope_and_name().1));
         let bare = numbers(arrays, scope)
-            .filter(|(array, _)| has_rate && is_bare_rate(array.scope_and_name().1));
+            .filter(|(array, _)| is_struct && has_rate && is_bare_rate(array.scope_and_name().1));
         let bare: Vec<f64> = bare.map(|(_, value)| value).collect();
         (!bare.is_empty()).then(|| one_speed(bare))
     })?

@@ -105,11 +105,7 @@ fn rates_and_speeds_are_taken_only_if_they_are_clear() {
     assert_eq!(found(&[number("rate", 25)]), missing);
     assert_eq!(found(&[number("FS", 8)]), Ok((8.0, None)));
     let rate = || number("Sampling_Rate", 8);
-    assert_eq!(found(&[rate(), number("rate", 25)]), Ok((8.0, Some(25.0))));
-    assert_eq!(
-        found(&[rate(), number("rate", 25), number("rpm", 60)]),
-        Ok((8.0, Some(1.0)))
-    );
+    assert_eq!(found(&[rate(), number("rate", 25)]), Ok((8.0, None)));
     assert_eq!(
         found(&[rate(), number("speed_hz", 2)]),
         Ok((8.0, Some(2.0)))
@@ -162,7 +158,15 @@ fn rates_and_speeds_are_taken_only_if_they_are_clear() {
     assert_eq!((own.series.rate_hz(), own.speed_hz), (16.0, Some(2.0)));
     let outer = from(&[rate(), other, field("y")], &SignalRequest::default()).unwrap();
     assert_eq!((outer.series.rate_hz(), outer.speed_hz), (8.0, Some(2.0)));
-    // `rate` is no speed by a sampling rate that stands elsewhere
+    // in one struct with a sampling rate `rate` is the speed, unless another number says so
+    let beside = |last: &str| {
+        let numbers = [number("", 25), number("", 16), number("", 60)];
+        let values = [&[array("", &[1, 3], &[1, 2, 3])][..], &numbers].concat();
+        let beside = structs("s", &[1, 1], &["x", "rate", "sr", last], &values);
+        from(&[beside], &SignalRequest::default()).unwrap().speed_hz
+    };
+    assert_eq!((beside("load"), beside("rpm")), (Some(25.0), Some(1.0)));
+    // and it is none by a sampling rate that stands elsewhere
     let values = [array("", &[1, 3], &[1, 2, 3]), number("", 25)];
     let apart = structs("s", &[1, 1], &["x", "rate"], &values);
     let apart = from(&[rate(), apart], &SignalRequest::default()).unwrap();
