@@ -31,9 +31,6 @@ pub const BALL_BY_CAGE_BELOW: f64 = 1e-6;
 /// Least impulsiveness of a fault, [`FaultVerdict::impulsiveness`].
 pub const LEAST_IMPULSIVENESS: f64 = 0.2;
 
-/// The same in a window of fewer than 96 revolutions, where the noise in more and coarser harmonics adds to it.
-pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.2;
-
 /// What is said of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Conclusion {
@@ -214,7 +211,6 @@ pub(super) struct Evidence {
 struct Least {
     seen: usize,
     strength_db: f64,
-    impulsiveness: f64,
 }
 
 /// Whether the fundamental or the second harmonic is seen.
@@ -237,13 +233,11 @@ impl Evidence {
             Least {
                 seen: LEAST_SHORT_HARMONICS,
                 strength_db: LEAST_SHORT_STRENGTH_DB,
-                impulsiveness: LEAST_SHORT_IMPULSIVENESS,
             }
         } else {
             Least {
                 seen: LEAST_HARMONICS,
                 strength_db: LEAST_STRENGTH_DB,
-                impulsiveness: LEAST_IMPULSIVENESS,
             }
         };
         Self {
@@ -263,9 +257,7 @@ impl Evidence {
             && self
                 .strength_db
                 .is_some_and(|db| db >= self.least.strength_db)
-            && self
-                .impulsiveness
-                .is_none_or(|x| x >= self.least.impulsiveness)
+            && self.impulsiveness.is_none_or(|x| x >= LEAST_IMPULSIVENESS)
     }
 }
 
@@ -339,7 +331,7 @@ pub(super) fn conclude(
     }
     if verdict
         .impulsiveness
-        .is_some_and(|x| x < evidence.least.impulsiveness)
+        .is_some_and(|x| x < LEAST_IMPULSIVENESS)
     {
         return not_enough(
             "That is a slow modulation, which balls passing under the load make without any damage.",
