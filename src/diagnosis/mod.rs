@@ -50,7 +50,7 @@ pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,
     LEAST_CAGE_STRENGTH_DB, LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS,
-    LEAST_SHORT_STRENGTH_DB, LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE,
-    UnexplainedImpacts, probability,
+    LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB, LEAST_STRENGTH_DB, NAMED_BELOW, SideLine,
+    UNSEEN_ABOVE, UnexplainedImpacts, probability,
 };
 pub use window::{Diagnosis, SpeedSource};

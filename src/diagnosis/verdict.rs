@@ -30,6 +30,9 @@ pub const LEAST_CAGE_LINES_DB: f64 = 8.0;
 pub const BALL_BY_CAGE_BELOW: f64 = 1e-6;
 /// Least impulsiveness of a fault, [`FaultVerdict::impulsiveness`].
 pub const LEAST_IMPULSIVENESS: f64 = 0.2;
+/// The same in a window of fewer than 96 revolutions, where the noise in more and coarser harmonics adds to it. A healthy bearing
+/// under ten times its shaft's weight has more than 0.2 in 13 revolutions.
+pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.4;
 
 /// What is said of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -211,6 +214,7 @@ pub(super) struct Evidence {
 struct Least {
     seen: usize,
     strength_db: f64,
+    impulsiveness: f64,
 }
 
 /// Whether the fundamental or the second harmonic is seen.
@@ -233,11 +237,13 @@ impl Evidence {
             Least {
                 seen: LEAST_SHORT_HARMONICS,
                 strength_db: LEAST_SHORT_STRENGTH_DB,
+                impulsiveness: LEAST_SHORT_IMPULSIVENESS,
             }
         } else {
             Least {
                 seen: LEAST_HARMONICS,
                 strength_db: LEAST_STRENGTH_DB,
+                impulsiveness: LEAST_IMPULSIVENESS,
             }
         };
         Self {
@@ -257,7 +263,9 @@ impl Evidence {
             && self
                 .strength_db
                 .is_some_and(|db| db >= self.least.strength_db)
-            && self.impulsiveness.is_none_or(|x| x >= LEAST_IMPULSIVENESS)
+            && self
+                .impulsiveness
+                .is_none_or(|x| x >= self.least.impulsiveness)
     }
 }
 
@@ -331,7 +339,7 @@ pub(super) fn conclude(
     }
     if verdict
         .impulsiveness
-        .is_some_and(|x| x < LEAST_IMPULSIVENESS)
+        .is_some_and(|x| x < evidence.least.impulsiveness)
     {
         return not_enough(
             "That is a slow modulation, which balls passing under the load make without any damage.",
