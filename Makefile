@@ -1,7 +1,7 @@
 # Everything a reader needs: `make demo`, then `make test`.
 
 CASE := examples/tadina2011/outer-dent.toml
-# 27 revolutions, which a verdict needs, and the paper's window
+# 26 revolutions, which suffice for a verdict on the races and the ball, and the paper's window
 WINDOWS := analysis.envelope=[{from=1.0,to=2.6},{from=2.3,to=2.4}]
 REPORT := out/outer-dent/report.html
 MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
