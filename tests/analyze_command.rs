@@ -729,3 +729,34 @@ fn peaks_of_a_run_up_are_not_compared_with_lines() {
     assert_eq!(some["envelope_peaks"][0]["labels"][0], "1 x outer race");
     assert!(report.contains("smears lines above the order 5.00 over Hz"));
 }
+
+/// The record of `examples/measured`, whose publisher says that the bearing is damaged, and not where. Both races have lines: the outer race five
+/// harmonics, the inner race two with sidebands at twice the shaft's distance. Its line is within a hundredth of an order of a sideband of the outer race.
+#[test]
+fn both_races_of_a_measured_bearing_are_named() {
+    let folder = scratch("analyze-measured");
+    let root = env!("CARGO_MANIFEST_DIR");
+    let file = format!("{root}/examples/measured/nmb_1560kk.npz");
+    let bearing = [
+        "--balls",
+        "7",
+        "--pitch-diameter",
+        "10.514",
+        "--ball-diameter",
+        "2.770",
+    ];
+    // as its publisher rounds the speed, and as the shaft's lines have it
+    for speed in ["306rpm", "304rpm"] {
+        let words = [
+            &["analyze", &file, "--json", "--force", "--speed", speed][..],
+            &bearing,
+        ]
+        .concat();
+        let found = json(&plummer(&folder, &words));
+        assert_eq!(
+            named(&found["windows"][0]),
+            ["outer race", "inner race"],
+            "{speed}"
+        );
+    }
+}

@@ -5,7 +5,7 @@ use super::bands::BandSpectrum;
 use super::comb::{Fit, Masked, best_fit};
 use super::control::{ByChance, control_scores};
 use super::fault::{Fault, FaultOrders};
-use super::known::{COMBS_BESIDE, KnownLine, Mask, coincidence, impact_lines, shaft_lines};
+use super::known::{COMBS_BESIDE, Impacts, KnownLine, Mask, coincidence, shaft_lines};
 use super::line_spectrum::REVOLUTIONS;
 use super::unexplained::UNEXPLAINED_ORDERS;
 use super::verdict::{Conclusion, FaultVerdict, UnexplainedImpacts};
@@ -217,12 +217,19 @@ impl Search<'_> {
         let resolution = self.spectra[candidate.fit.spectrum].lines.resolution;
         let cage = self.orders.order(Fault::Cage);
         let cage = cage.filter(|_| candidate.fault != Some(Fault::Cage));
-        let mut lines = impact_lines(&name, candidate.fit.order, cage, highest, resolution);
+        let impacts = Impacts {
+            name: &name,
+            order: candidate.fit.order,
+            cage,
+            of_race: matches!(candidate.fault, Some(Fault::OuterRace | Fault::InnerRace)),
+        };
+        let mut lines = impacts.lines(highest, resolution);
         if let (Some(_), Some(cage)) = (candidate.fault, cage) {
             lines.extend((1..=CAGE_MULTIPLES).map(|multiple| KnownLine {
                 order: f64::from(multiple) * cage,
                 error: self.orders.error(Fault::Cage) + self.speed_error,
                 name: format!("{multiple} x cage, at which each ball comes into the load"),
+                carrier: None,
             }));
         }
         lines

@@ -5,6 +5,7 @@ use super::comb::{Fit, LEAST_FREE, SHOWN_HARMONICS};
 use super::explain::{Candidate, Search, turns_needed};
 use super::fault::Fault;
 use super::known::{KnownLine, coincidence, line_name};
+use super::line_spectrum::LineSpectrum;
 use super::verdict::{Evidence, FaultVerdict, Harmonic, SideLine, conclude};
 
 /// Side lines that are looked at: to so many spacings on each side of so many harmonics.
@@ -82,8 +83,11 @@ impl Search<'_> {
         let band = &self.spectra[fit.spectrum];
         let spacing = self.side_spacing(fault);
         let harmonics = self.part_harmonics(candidate, fault, known);
-        let evidence = Evidence::of(&harmonics, &band.lines);
         let side_lines = self.side_lines(&fit, spacing, known);
+        let mut evidence = Evidence::of(&harmonics, &band.lines);
+        if fault == Fault::InnerRace {
+            evidence.strength_db = with_sidebands(&harmonics, &side_lines, &band.lines);
+        }
         let mut verdict = FaultVerdict {
             false_alarm: Some(chance),
             order: Some(fit.order),
@@ -174,6 +178,21 @@ impl Search<'_> {
         }
         found
     }
+}
+
+/// Strength of a comb whose harmonics count with the sidebands that are seen. The load sees a flaw of the inner race once a revolution, or
+/// twice where the outer ring is squeezed: the power of each harmonic is spread over its sidebands.
+fn with_sidebands(harmonics: &[Harmonic], sides: &[SideLine], lines: &LineSpectrum) -> Option<f64> {
+    let ratio = |db: f64| 10.0_f64.powf(0.1 * db);
+    let mut harmonics = harmonics.to_vec();
+    for line in &mut harmonics {
+        let sides = sides
+            .iter()
+            .filter(|side| side.seen && side.harmonic == line.harmonic);
+        let sides: f64 = sides.map(|side| ratio(side.above_floor_db)).sum();
+        line.above_floor_db = 10.0 * (ratio(line.above_floor_db) + sides).log10();
+    }
+    Evidence::of(&harmonics, lines).strength_db
 }
 
 /// What an envelope is called in a report.

@@ -29,6 +29,17 @@ pub(super) struct KnownLine {
     /// Relative uncertainty of the order.
     pub(super) error: f64,
     pub(super) name: String,
+    /// Order of the harmonic that a sideband of a race at the cage's distance belongs to: impacts all have one sign, and so has what
+    /// modulates them, so that no sideband is stronger than its carrier. `None`: any power is explained.
+    pub(super) carrier: Option<f64>,
+}
+
+impl KnownLine {
+    /// Whether it may have so much power over the floor.
+    fn explains(&self, spectrum: &LineSpectrum, ratio: f64) -> bool {
+        self.carrier
+            .is_none_or(|carrier| ratio <= spectrum.ratio(carrier))
+    }
 }
 
 /// Multiples of the shaft's order up to one; its speed is known within a relative error.
@@ -39,6 +50,7 @@ pub(super) fn shaft_lines(highest: f64, error: f64) -> Vec<KnownLine> {
             order: f64::from(multiple),
             error,
             name: format!("{multiple} x shaft"),
+            carrier: None,
         })
         .collect()
 }
@@ -61,55 +73,60 @@ pub fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
     }
 }
 
-/// The lines of repeated impacts of the order given: harmonics up to an order, and those beside them at the distance of the shaft and of
-/// the cage, since load and sensor see an impact once a revolution of either.
-pub(super) fn impact_lines(
-    name: &str,
-    order: f64,
-    cage: Option<f64>,
-    highest: f64,
-    resolution: f64,
-) -> Vec<KnownLine> {
-    let fine = resolution < FINE_RESOLUTION;
-    let sides = |count: u32| if fine { count } else { 1 };
-    let mut lines = Vec::new();
-    let mut push = |order: f64, name: String| {
-        if order > 0.0 {
+/// Repeated impacts whose lines have a reason.
+pub(super) struct Impacts<'a> {
+    pub(super) name: &'a str,
+    pub(super) order: f64,
+    /// Order of the cage.
+    pub(super) cage: Option<f64>,
+    /// Whether they are those of a race: a race passes the cage's load only as the balls differ.
+    pub(super) of_race: bool,
+}
+
+impl Impacts<'_> {
+    /// Their lines: harmonics up to an order, and those beside them at the distance of the shaft and of the cage, since load and sensor
+    /// see an impact once a revolution of either.
+    pub(super) fn lines(&self, highest: f64, resolution: f64) -> Vec<KnownLine> {
+        let fine = resolution < FINE_RESOLUTION;
+        let sides = |count: u32| if fine { count } else { 1 };
+        let count = (highest / self.order).min(10_000.0) as u32 + 1;
+        let mut lines = Vec::new();
+        for harmonic in 1..=count {
+            let line = f64::from(harmonic) * self.order;
             lines.push(KnownLine {
-                order,
+                order: line,
                 error: WANDERING,
-                name,
+                name: format!("{harmonic} x {}", self.name),
+                carrier: None,
             });
-        }
-    };
-    let count = (highest / order).min(10_000.0) as u32 + 1;
-    for harmonic in 1..=count {
-        let line = f64::from(harmonic) * order;
-        push(line, format!("{harmonic} x {name}"));
-        let mut beside = |spacing: f64, step: u32, count: u32, carrier: &str| {
-            // lines nearer than they are wide are not told apart
-            if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
-                return;
-            }
-            for side in 1..=count {
-                for sign in [-1.0, 1.0] {
-                    let offset = sign * f64::from(step * side);
-                    push(
-                        line + offset * spacing,
-                        format!("{harmonic} x {name} {offset:+} x {carrier}"),
-                    );
+            let mut beside = |(spacing, carrier): (f64, &str), step: u32, count: u32| {
+                // lines nearer than they are wide are not told apart
+                if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
+                    return;
                 }
+                let offsets = (1..=count).flat_map(|side| {
+                    let offset = f64::from(step * side);
+                    [-offset, offset]
+                });
+                lines.extend(offsets.map(|offset| KnownLine {
+                    order: line + offset * spacing,
+                    error: WANDERING,
+                    name: format!("{harmonic} x {} {offset:+} x {carrier}", self.name),
+                    carrier: (self.of_race && carrier == "cage").then_some(line),
+                }));
+            };
+            let shaft = (1.0, "shaft");
+            beside(shaft, 1, sides(SHAFT_SIDES));
+            if harmonic <= HARMONICS_BESIDE {
+                beside(shaft, harmonic, COMBS_BESIDE);
             }
-        };
-        beside(1.0, 1, sides(SHAFT_SIDES), "shaft");
-        if harmonic <= HARMONICS_BESIDE {
-            beside(1.0, harmonic, COMBS_BESIDE, "shaft");
+            if let Some(cage) = self.cage {
+                beside((cage, "cage"), 1, sides(CAGE_SIDES));
+            }
         }
-        if let Some(cage) = cage {
-            beside(cage, 1, sides(CAGE_SIDES), "cage");
-        }
+        lines.retain(|line| line.order > 0.0);
+        lines
     }
-    lines
 }
 
 /// Half of the width, in orders, that a known line takes in a spectrum.
@@ -141,7 +158,9 @@ impl Mask {
             let first = spectrum.bin((line.order - half).max(0.0));
             let Some(first) = first else { continue };
             let last = spectrum.bin(line.order + half).unwrap_or(self.0.len() - 1);
-            self.0[first..=last].fill(true);
+            for bin in first..=last {
+                self.0[bin] |= line.explains(spectrum, spectrum.ratio_at(bin));
+            }
         }
     }
 
@@ -157,8 +176,9 @@ pub(super) fn coincidence<'a>(
     known: &'a [KnownLine],
 ) -> Option<&'a KnownLine> {
     let distance = |line: &KnownLine| (line.order - order).abs();
-    let about = known
-        .iter()
-        .filter(|line| distance(line) <= half_width(spectrum, line));
+    let ratio = spectrum.ratio(order);
+    let about = known.iter().filter(|line| {
+        distance(line) <= half_width(spectrum, line) && line.explains(spectrum, ratio)
+    });
     about.min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

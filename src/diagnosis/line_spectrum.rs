@@ -146,6 +146,11 @@ impl LineSpectrum {
         self.level[bin]
     }
 
+    /// Power over the floor of a bin.
+    pub(super) fn ratio_at(&self, bin: usize) -> f64 {
+        self.ratio[bin]
+    }
+
     fn largest(values: &[f64], bin: usize) -> f64 {
         let about = &values[bin.saturating_sub(1)..(bin + 2).min(values.len())];
         about.iter().fold(0.0_f64, |most, &value| most.max(value))

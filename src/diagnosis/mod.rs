@@ -36,6 +36,8 @@ mod shaft_speed;
 mod tests;
 #[cfg(test)]
 mod tests_cage;
+#[cfg(test)]
+mod tests_races;
 mod unexplained;
 mod verdict;
 mod window;

@@ -122,7 +122,8 @@ pub struct FaultVerdict {
     pub harmonics_free: usize,
     /// Those of them that noise would show less than once in a hundred.
     pub harmonics_seen: usize,
-    /// Mean power of the free ones over their floor, dB, at a resolution of 1 / 64 of a revolution.
+    /// Mean power of the free ones over their floor, dB, at a resolution of 1 / 64 of a revolution; of an inner race with that of the
+    /// sidebands of the first three.
     pub strength_db: Option<f64>,
     /// Amplitudes A_k of the free harmonics beyond the first against those of a jump that decays, `sum A_k^2 / sum (A_1 / k)^2`: 1 or more for
     /// impacts, less where resonance, filters and slip damp high harmonics; 0.16 or less for what swells and ebbs once an event.
