@@ -5,16 +5,20 @@
 //! records of seeded faults that Smith and Randall (Mech. Syst. Signal Process. 64-65 (2015) 100-131) grade, those of balls have the
 //! cage's harmonics and hardly any of the ball's.
 
-use super::explain::Search;
+use super::comb::{Masked, best_fit};
+use super::explain::{Candidate, Search};
 use super::fault::Fault;
-use super::known::shaft_lines;
+use super::known::{KnownLine, shaft_lines};
 use super::verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB,
-    LEAST_HARMONICS, LEAST_STRENGTH_DB, NAMED_BELOW, probability,
+    LEAST_HARMONICS, LEAST_STRENGTH_DB, NAMED_BELOW, UnexplainedImpacts, probability,
 };
 
 /// A race whose lines are by so many dB stronger than the cage's explains these.
 const RACE_OVER_CAGE_DB: f64 = 2.0;
+
+/// Orders at which cages of ball bearings turn, `(1 - gamma) / 2`: gamma is 0.08 to 0.4.
+const CAGE_ORDERS: [f64; 2] = [0.3, 0.46];
 
 impl Search<'_> {
     /// Indicates a ball by the lines of the cage, where no other part shows as clearly: a flaw on a race is struck harder by a ball that
@@ -64,17 +68,70 @@ impl Search<'_> {
         if !self.can_judge(order) {
             return None;
         }
-        let fine = Search {
-            spectra: self.fine,
-            ..*self
-        };
+        let fine = self.fine_search();
         let known = shaft_lines(fine.end(), self.speed_error);
         let masked = fine.masked(&known);
         let best = fine.part(&masked, Fault::Cage, order)?;
-        let own = fine.own_lines(&best, fine.end());
-        let chance = fine.chance(&masked, &best, &own)?;
-        let harmonics = fine.part_harmonics(&best, Fault::Cage, &known);
-        let evidence = Evidence::of(&harmonics, &fine.spectra[best.fit.spectrum].lines);
+        fine.clear_cage_lines(&masked, &known, &best)
+    }
+
+    /// The lines of a cage of another bearing: a comb where cages turn, and this bearing's does not.
+    pub(super) fn other_cage_lines(&self) -> Option<UnexplainedImpacts> {
+        let [from, to] = CAGE_ORDERS;
+        if !self.can_judge(from) {
+            return None;
+        }
+        let fine = self.fine_search();
+        let resolution = fine.spectra.first()?.lines.resolution;
+        let known = shaft_lines(fine.end(), self.speed_error);
+        let masked = fine.masked(&known);
+        let own = self.orders.order(Fault::Cage).map(|order| {
+            let reach = (self.orders.error(Fault::Cage) + self.speed_error) * order;
+            (order, reach + 3.0 * resolution)
+        });
+        let places = ((to - from) / resolution) as u32;
+        let fits = (0..=places).filter_map(|place| {
+            let fit = best_fit(&masked, from + f64::from(place) * resolution, 0.0, None)?;
+            let of_own = own.is_some_and(|(order, reach)| (fit.order - order).abs() < reach);
+            (!of_own && !self.is_related(fit.order, resolution, &[])).then_some(fit)
+        });
+        let fit = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let best = Candidate {
+            fault: None,
+            fit,
+            beside: None,
+            relative_reach: 0.0,
+        };
+        let lines = fine.clear_cage_lines(&masked, &known, &best)?;
+        Some(UnexplainedImpacts {
+            order: lines.order,
+            frequency_hz: lines.frequency_hz,
+            false_alarm: lines.false_alarm,
+            harmonics_seen: lines.harmonics_seen,
+            strength_db: Some(lines.strength_db),
+            band_hz: lines.band_hz,
+        })
+    }
+
+    fn fine_search(&self) -> Self {
+        Self {
+            spectra: self.fine,
+            ..*self
+        }
+    }
+
+    /// A comb of the fine spectra, if it is as clear as lines of a cage have to be.
+    fn clear_cage_lines(
+        &self,
+        masked: &[Masked<'_>],
+        known: &[KnownLine],
+        best: &Candidate,
+    ) -> Option<CageLines> {
+        let own = self.own_lines(best, self.end());
+        let chance = self.chance(masked, best, &own)?;
+        let harmonics = self.part_harmonics(best, Fault::Cage, known);
+        let band = &self.spectra[best.fit.spectrum];
+        let evidence = Evidence::of(&harmonics, &band.lines);
         let strength_db = evidence.strength_db?;
         let clear = chance < BALL_BY_CAGE_BELOW
             && strength_db >= LEAST_CAGE_LINES_DB
@@ -84,7 +141,7 @@ impl Search<'_> {
             false_alarm: chance,
             order: best.fit.order,
             frequency_hz: best.fit.order * self.speed_hz,
-            band_hz: fine.spectra[best.fit.spectrum].band_hz,
+            band_hz: band.band_hz,
             harmonics_seen: evidence.seen,
             strength_db,
             harmonics,

@@ -123,6 +123,10 @@ impl Search<'_> {
         }
         self.doubt_sidebands_of_hidden_parts(&mut found.faults);
         self.judge_balls_by_cage_lines(&mut found.faults);
+        let named = |verdict: &FaultVerdict| verdict.conclusion == Conclusion::Named;
+        if found.unexplained.is_empty() && !found.faults.iter().any(named) {
+            found.unexplained.extend(self.other_cage_lines());
+        }
         found.faults.sort_by_key(|verdict| verdict.fault as usize);
         found
     }

@@ -38,6 +38,8 @@ mod tests;
 mod tests_cage;
 #[cfg(test)]
 mod tests_races;
+#[cfg(test)]
+mod tests_unexplained;
 mod unexplained;
 mod verdict;
 mod window;

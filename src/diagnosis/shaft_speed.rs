@@ -1,9 +1,12 @@
 //! The shaft's speed, sharpened by the lines that it leaves in a signal and in its envelope.
 
-use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
+use super::bands::BandSpectrum;
 use super::control::ByChance;
+use super::fault::{Fault, FaultOrders};
 use super::line_spectrum::LineSpectrum;
+use super::verdict::FaultVerdict;
+use super::{Conclusion, DiagnosisError, LEAST_SHORT_HARMONICS};
 
 /// Largest relative error of a speed that is looked for: a motor's nominal speed under load.
 const LARGEST_ERROR: f64 = 0.03;
@@ -25,6 +28,11 @@ const SEEN_BELOW: f64 = 0.02;
 const CLEARLY: f64 = 2.0;
 /// Combs that score this part of the best are as good: they bound the uncertainty.
 const AS_GOOD: f64 = 0.9;
+
+/// Probability by chance below which a race's order is certain, indicated or not.
+const CERTAIN_BELOW: f64 = 1e-6;
+/// Orders of both races sum up to the number of balls within this part of it: printed orders are rounded.
+const WHOLE: f64 = 5e-3;
 
 /// The speed that the signal shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,4 +113,33 @@ pub(super) fn sharpened(
         (chance < SEEN_BELOW && sharper && high - low < LARGEST_ERROR)
             .then_some(SpeedFit { factor, error }),
     )
+}
+
+/// Sharpens the speed by the orders at which both races were found, where both are certain. The inner race turns past the cage by what the
+/// cage lacks of a revolution of the shaft, so that `BPFO + BPFI = N` whatever the cage slips.
+pub(super) fn speed_of_races(
+    faults: &[FaultVerdict],
+    orders: &FaultOrders,
+    spectra: &[BandSpectrum],
+) -> Option<SpeedFit> {
+    let balls = orders.order(Fault::OuterRace)? + orders.order(Fault::InnerRace)?;
+    let off = balls / balls.round() - 1.0;
+    if off.abs() > WHOLE {
+        return None;
+    }
+    let found = |fault: Fault| {
+        let verdict = faults.iter().find(|verdict| verdict.fault == fault)?;
+        let certain = verdict.conclusion == Conclusion::Named
+            || verdict.false_alarm.is_some_and(|p| p < CERTAIN_BELOW);
+        let seen = verdict.harmonics_seen >= LEAST_SHORT_HARMONICS;
+        verdict.order.filter(|_| certain && seen)
+    };
+    let sum = found(Fault::OuterRace)? + found(Fault::InnerRace)?;
+    let lines = &spectra.first()?.lines;
+    let of_a_race = lines.resolution / f64::from(lines.harmonics);
+    let error = std::f64::consts::SQRT_2 * of_a_race / balls.round();
+    (error < UNSEEN_ERROR).then_some(SpeedFit {
+        factor: sum / balls.round(),
+        error,
+    })
 }

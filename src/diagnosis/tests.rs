@@ -32,7 +32,7 @@ impl Noise {
 }
 
 /// A signal of `seconds`, made of the shaft's angle in turns and noise.
-fn signal(
+pub(super) fn signal(
     seconds: f64,
     turns: impl Fn(f64) -> f64,
     mut value: impl FnMut(f64, f64) -> f64,
@@ -153,26 +153,6 @@ fn a_ball_is_named_and_the_cage_that_carries_it_is_not() {
 }
 
 /// A bearing that is not the one that was named, or a wrong speed, is no clean bill of health.
-#[test]
-fn impacts_that_belong_to_no_part_are_said() {
-    let values = struck(4.4, steady, 2.2, |_| 1.0);
-    let found = judged(&with_noise(&values, 0.15, 21), steady, &bearing(), 0.01);
-    assert_eq!(named(&found), [], "{:#?}", found.faults);
-    let [impacts] = &found.unexplained[..] else {
-        panic!("{:#?}", found.unexplained);
-    };
-    // the search has a place every tenth of the resolution, and a tooth counts up to half a bin away
-    assert!((impacts.order - 2.2).abs() < 0.15 / 64.0, "{impacts:?}");
-    assert!(impacts.harmonics_seen >= 4);
-    assert!(
-        found
-            .sentence()
-            .ends_with("Hz with 4 harmonics belong to no part of this bearing"),
-        "{}",
-        found.sentence()
-    );
-}
-
 /// A nominal speed 1.2 % above the true one: the shaft's own lines say so.
 #[test]
 fn the_shafts_lines_sharpen_the_speed() {

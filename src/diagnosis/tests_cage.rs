@@ -9,7 +9,7 @@ use crate::series::TimeSeries;
 const RATE: f64 = 32e3;
 
 /// Noise that is louder in each of the cage's revolutions for as long as one ball is under the load.
-fn one_ball_differs(seconds: f64, cage: f64, depth: f64, seed: u64) -> TimeSeries {
+pub(super) fn one_ball_differs(seconds: f64, cage: f64, depth: f64, seed: u64) -> TimeSeries {
     let mut noise = Noise(seed);
     let samples = (seconds * RATE) as usize;
     let values = (0..samples).map(|k| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::tests::{judged, steady, struck, verdict, with_noise};
+use super::tests::{judged, named, steady, struck, verdict, with_noise};
 use super::*;
 use crate::closed_form::race::{BallRow, DefectOrders};
 use crate::series::TimeSeries;
@@ -41,4 +41,36 @@ fn sidebands_count_for_the_inner_race_alone() {
             "{fault:?}: {strength} dB, harmonics {mean} dB"
         );
     }
+}
+
+#[test]
+fn both_races_sharpen_the_speed() {
+    let signal = both_races(1.0, 1.6, 43);
+    let orders = bearing();
+    // the shaft is slower by 0.7 % than it is said to be, and has no lines
+    let found = judged(&signal, |t| 1.007 * steady(t), &orders, 0.01);
+    assert_eq!(
+        found.speed_source,
+        SpeedSource::Races,
+        "{:#?}",
+        found.faults
+    );
+    assert!(
+        (found.speed_hz / 25.0 - 1.0).abs() < 2.0 * found.speed_error,
+        "{}",
+        found.speed_hz
+    );
+    // the resolution of 50 revolutions over eight harmonics, of two races, over seven balls
+    assert!((found.speed_error / (2.0_f64.sqrt() / 50.0 / 8.0 / 7.0) - 1.0).abs() < 0.02);
+    // orders that belong to no whole number of balls say nothing
+    let odd = [
+        Some(1.006 * orders.outer),
+        Some(1.006 * orders.inner),
+        None,
+        None,
+    ];
+    let odd = FaultOrders::new(odd, 0.01).unwrap();
+    let found = Diagnosis::of(&signal, None, signal.span(), steady, &odd).unwrap();
+    assert_eq!(named(&found), [Fault::OuterRace, Fault::InnerRace]);
+    assert_eq!(found.speed_source, SpeedSource::Given);
 }

@@ -10,14 +10,28 @@ use super::verdict::{Evidence, UnexplainedImpacts};
 /// Lowest and highest order of impacts of something else.
 pub(super) const UNEXPLAINED_ORDERS: [f64; 2] = [0.3, 16.0];
 /// Impacts of something else are said below this probability by chance.
-const UNEXPLAINED_BELOW: f64 = 1e-4;
+const UNEXPLAINED_BELOW: f64 = 1e-2;
 /// Ratios and sums in which orders are related, so that a comb of the one is one of the other's lines.
 const RELATED: u32 = 4;
-const RELATED_SIDES: i32 = 3;
+const RELATED_SIDES: i32 = 5;
 /// A comb at a part of another's order is the same impacts' where it scores at least this part of the other's score.
 const SAME_COMB: f64 = 0.7;
+/// And where the teeth between reach this part of the level of those that both have: a race's line has sidebands halfway at times.
+const OWN_TEETH: f64 = 0.5;
 /// Parts of an order in which its fundamental is sought.
 const LOWEST_PART: u32 = 5;
+
+/// Whether a comb has teeth of its own between every so many, which a coarser comb has too.
+fn has_teeth_between(masked: &[Masked<'_>], fit: &Fit, part: u32) -> bool {
+    let lines = &masked[fit.spectrum].spectrum.lines;
+    let mean = |shared: bool| {
+        let teeth = (1..=lines.harmonics).filter(|k| (k % part == 0) == shared);
+        let bins = teeth.filter_map(|k| lines.bin(f64::from(k) * fit.order));
+        let levels: Vec<f64> = bins.map(|bin| lines.level(bin) - lines.typical).collect();
+        levels.iter().sum::<f64>() / levels.len().max(1) as f64
+    };
+    mean(false) >= OWN_TEETH * mean(true)
+}
 
 impl Search<'_> {
     /// The best comb that is none of a part, of the shaft, or of what an explained part and the shaft or the cage make together.
@@ -39,6 +53,7 @@ impl Search<'_> {
         while order < to {
             if let Some(fit) = fit_at(order)
                 && best.is_none_or(|best| fit.score > best.score)
+                && (2..=3).all(|part| has_teeth_between(masked, &fit, part))
             {
                 best = Some(fit);
             }
@@ -48,10 +63,12 @@ impl Search<'_> {
         let lowest = best.and_then(|best| {
             let parts = (2..=LOWEST_PART).rev();
             let mut fits = parts
-                .map(|part| best.order / f64::from(part))
-                .filter(|order| *order >= least)
-                .filter_map(fit_at);
-            fits.find(|fit| fit.score >= SAME_COMB * best.score)
+                .filter(|part| best.order / f64::from(*part) >= least)
+                .filter_map(|part| Some((part, fit_at(best.order / f64::from(part))?)));
+            let same = fits.find(|(part, fit)| {
+                fit.score >= SAME_COMB * best.score && has_teeth_between(masked, fit, *part)
+            });
+            same.map(|(_, fit)| fit)
         });
         lowest.or(best).map(|fit| Candidate {
             fault: None,
@@ -64,7 +81,7 @@ impl Search<'_> {
     /// Whether an order is one of the shaft's, or one of a part: its first harmonics, and of a ball its spin. Of a part that explains lines also what
     /// it makes with others. A part that explains nothing has no sidebands, and the harmonics of another order that coincide with its own are no
     /// evidence for it.
-    fn is_related(&self, order: f64, resolution: f64, explained: &[Fault]) -> bool {
+    pub(super) fn is_related(&self, order: f64, resolution: f64, explained: &[Fault]) -> bool {
         let cage = self.orders.order(Fault::Cage);
         let near = |line: f64, reach: f64| (order - line).abs() < reach + 3.0 * resolution;
         // half and third revolutions: belts, rubs
@@ -94,8 +111,9 @@ impl Search<'_> {
                     (-RELATED_SIDES..=RELATED_SIDES).any(|side| {
                         let (line, side) = (f64::from(harmonic) * part, f64::from(side));
                         let reach = f64::from(harmonic) * reach;
-                        near(line + side, reach)
-                            || cage.is_some_and(|cage| near(line + side * cage, reach))
+                        // a spectrum folds what lies below zero
+                        near((line + side).abs(), reach)
+                            || cage.is_some_and(|cage| near((line + side * cage).abs(), reach))
                     })
                 })
         })

@@ -1,11 +1,11 @@
 //! What is said of a window of a signal.
 
 use super::angle_grid::AngleGrid;
-use super::bands::band_spectra;
+use super::bands::{Spectra, band_spectra};
 use super::comb::SHOWN_HARMONICS;
-use super::explain::Search;
+use super::explain::{Found, Search};
 use super::findings::envelope_name;
-use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened};
+use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened, speed_of_races};
 use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict};
 use crate::series::{TimeSeries, TimeWindow};
@@ -23,6 +23,8 @@ pub enum SpeedSource {
     Given,
     /// As given, sharpened by the shaft's lines in the signal.
     Sharpened,
+    /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
+    Races,
 }
 
 /// What is said of a window.
@@ -79,35 +81,46 @@ impl Diagnosis {
         } else {
             speed_fit(signal, &white, within_hz, &grid)?
         };
-        let (factor, speed_error, speed_source) = match fit {
-            Some(fit) => (fit.factor, fit.error, SpeedSource::Sharpened),
-            None if orders.is_exact() => (1.0, 0.0, SpeedSource::Exact),
-            None => (1.0, UNSEEN_ERROR, SpeedSource::Given),
+        let given = |error| SpeedFit { factor: 1.0, error };
+        let (mut fit, mut speed_source) = match fit {
+            Some(fit) => (fit, SpeedSource::Sharpened),
+            None if orders.is_exact() => (given(0.0), SpeedSource::Exact),
+            None => (given(UNSEEN_ERROR), SpeedSource::Given),
         };
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
-        let sharp = |time: f64| factor * turns(time);
-        let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
-        let spectra = band_spectra(
-            &white,
-            impulsive.as_ref(),
-            &grid,
-            within_hz,
-            strikes_hz,
-            highest,
-        )?;
         let given_speed_hz =
             (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-        let speed_hz = factor * given_speed_hz;
-        let search = Search {
-            spectra: &spectra.lines,
-            fine: &spectra.fine,
-            orders,
-            turns: grid.turns(),
-            speed_hz,
-            speed_error,
+        let search = |fit: SpeedFit| -> Result<(Spectra, Found), DiagnosisError> {
+            let sharp = |time: f64| fit.factor * turns(time);
+            let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
+            let spectra = band_spectra(
+                &white,
+                impulsive.as_ref(),
+                &grid,
+                within_hz,
+                strikes_hz,
+                highest,
+            )?;
+            let search = Search {
+                spectra: &spectra.lines,
+                fine: &spectra.fine,
+                orders,
+                turns: grid.turns(),
+                speed_hz: fit.factor * given_speed_hz,
+                speed_error: fit.error,
+            };
+            let found = search.run();
+            Ok((spectra, found))
         };
-        let found = search.run();
+        let (mut spectra, mut found) = search(fit)?;
+        if speed_source == SpeedSource::Given
+            && let Some(races) = speed_of_races(&found.faults, orders, &spectra.lines)
+        {
+            (fit, speed_source) = (races, SpeedSource::Races);
+            (spectra, found) = search(fit)?;
+        }
+        let sharp = |time: f64| fit.factor * turns(time);
         let best = spectra
             .lines
             .get(found.spectrum)
@@ -120,9 +133,9 @@ impl Diagnosis {
             to: window.to.min(shown.end_s()),
         };
         Ok(Self {
-            speed_hz,
+            speed_hz: fit.factor * given_speed_hz,
             given_speed_hz,
-            speed_error,
+            speed_error: fit.error,
             speed_source,
             envelope: envelope_name(best),
             envelopes: spectra.lines.len(),
