@@ -69,21 +69,17 @@ impl Diagnosis {
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
         let white = WhiteSpectrum::of(signal)?;
         let strikes_hz = orders.highest() * grid.fastest_hz;
+        let asked_hz = within_hz;
         let within_hz = edges(
             within_hz,
             0.5 * signal.rate_hz(),
             LOWEST_CARRIER * strikes_hz,
         );
-        let fit = if orders.is_exact() {
-            None
-        } else {
-            speed_fit(signal, &white, within_hz, &grid)?
-        };
-        let (factor, speed_error, speed_source) = match fit {
-            Some(fit) => (fit.factor, fit.error, SpeedSource::Sharpened),
-            None if orders.is_exact() => (1.0, 0.0, SpeedSource::Exact),
-            None => (1.0, UNSEEN_ERROR, SpeedSource::Given),
-        };
+        let SharpenedSpeed {
+            factor,
+            error: speed_error,
+            source: speed_source,
+        } = sharpened_speed(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
         let sharp = |time: f64| factor * turns(time);
@@ -176,6 +172,53 @@ fn edges(asked: Option<[f64; 2]>, end_hz: f64, lowest_hz: f64) -> [f64; 2] {
         Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
         None => [lowest_hz.min(0.5 * end_hz), end_hz],
     }
+}
+
+/// The shaft's speed over the given one, and how well it is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SharpenedSpeed {
+    pub(super) factor: f64,
+    pub(super) error: f64,
+    pub(super) source: SpeedSource,
+}
+
+/// Sharpens the speed by the shaft's lines, where orders are not exact.
+pub(super) fn sharpened_speed(
+    signal: &TimeSeries,
+    white: &WhiteSpectrum,
+    within_hz: Option<[f64; 2]>,
+    window: TimeWindow,
+    turns: impl Fn(f64) -> f64,
+    orders: &FaultOrders,
+) -> Result<SharpenedSpeed, DiagnosisError> {
+    if orders.is_exact() {
+        return Ok(SharpenedSpeed {
+            factor: 1.0,
+            error: 0.0,
+            source: SpeedSource::Exact,
+        });
+    }
+    let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
+    let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
+    let strikes_hz = orders.highest() * grid.fastest_hz;
+    let within_hz = edges(
+        within_hz,
+        0.5 * signal.rate_hz(),
+        LOWEST_CARRIER * strikes_hz,
+    );
+    let fit = speed_fit(signal, white, within_hz, &grid)?;
+    Ok(match fit {
+        Some(fit) => SharpenedSpeed {
+            factor: fit.factor,
+            error: fit.error,
+            source: SpeedSource::Sharpened,
+        },
+        None => SharpenedSpeed {
+            factor: 1.0,
+            error: UNSEEN_ERROR,
+            source: SpeedSource::Given,
+        },
+    })
 }
 
 /// The shaft's lines in the signal and in its envelope.
