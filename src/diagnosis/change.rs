@@ -73,9 +73,7 @@ impl ChangeConclusion {
             return Self::Fell;
         }
         match (low, high) {
-            (Some(low), Some(high))
-                if low > -AS_BEFORE_WITHIN_DB && high < AS_BEFORE_WITHIN_DB =>
-            {
+            (Some(low), Some(high)) if low > -AS_BEFORE_WITHIN_DB && high < AS_BEFORE_WITHIN_DB => {
                 Self::AsBefore
             }
             _ => Self::NotCertain,
@@ -262,14 +260,19 @@ pub fn line_changes(
     earlier: &ComparedSignal<'_>,
     diagnosis: &Diagnosis,
 ) -> Result<Vec<LineChange>, DiagnosisError> {
-    let parts = diagnosis.faults.iter().map(|v| Compared::part(v, now, earlier));
+    let parts = diagnosis
+        .faults
+        .iter()
+        .map(|v| Compared::part(v, now, earlier));
     let others = diagnosis.unexplained.iter();
     let others = others.map(|impacts| Compared::impacts(impacts, now, earlier));
     let compared: Vec<Compared> = parts.chain(others).collect();
     let orders = compared.iter().map(|compared| compared.order[0]);
     let highest = (f64::from(COMPARED_HARMONICS) + 1.0) * orders.fold(1.0, f64::max);
     let grids = [now.grid(highest)?, earlier.grid(highest)?];
-    let least = grids.iter().fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
+    let least = grids
+        .iter()
+        .fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
     let revolutions = stretch_revolutions(least);
     let [grid_now, grid_earlier] = grids;
     let sides = [
@@ -310,7 +313,11 @@ struct Compared {
 }
 
 impl Compared {
-    fn part(verdict: &FaultVerdict, now: &ComparedSignal<'_>, earlier: &ComparedSignal<'_>) -> Self {
+    fn part(
+        verdict: &FaultVerdict,
+        now: &ComparedSignal<'_>,
+        earlier: &ComparedSignal<'_>,
+    ) -> Self {
         let cage = now.orders.order(Fault::Cage);
         let (by_cage, band_hz, harmonics) = match &verdict.cage_lines {
             Some(lines) => (true, Some(lines.band_hz), &lines.harmonics),
@@ -337,7 +344,9 @@ impl Compared {
             order,
             reach: [reach(now, order[0]), reach(earlier, order[1])],
             cage: cage.filter(|_| fault != Fault::Cage),
-            seen: verdict.false_alarm.is_some_and(|chance| chance < UNSEEN_ABOVE),
+            seen: verdict
+                .false_alarm
+                .is_some_and(|chance| chance < UNSEEN_ABOVE),
             why_not: verdict.why.clone(),
         }
     }
@@ -470,15 +479,13 @@ impl Compared {
         [now, earlier]: [&Found; 2],
         [now_power, earlier_power]: [&Scattered; 2],
     ) -> LineChange {
-        let is_seen = |found: &Found, power: &Scattered| {
-            found.chance < UNSEEN_ABOVE && power.above() > 0.0
-        };
+        let is_seen =
+            |found: &Found, power: &Scattered| found.chance < UNSEEN_ABOVE && power.above() > 0.0;
         let seen_now = self.seen && is_seen(now, now_power);
         let seen_earlier = is_seen(earlier, earlier_power);
         // the envelope is squared
-        let level = |seen: bool, power: &Scattered| {
-            seen.then(|| (2.0 * power.above()).sqrt().sqrt())
-        };
+        let level =
+            |seen: bool, power: &Scattered| seen.then(|| (2.0 * power.above()).sqrt().sqrt());
         let mut harmonics: Vec<u32> = common.iter().map(|tooth| tooth.harmonic).collect();
         harmonics.dedup();
         let mut change = LineChange {
@@ -496,13 +503,9 @@ impl Compared {
             return change;
         }
         let [low, high] = interval_db(now_power, earlier_power).map(|end| end.map(|db| 0.5 * db));
-        change.interval_db = [
-            low.filter(|_| seen_now),
-            high.filter(|_| seen_earlier),
-        ];
+        change.interval_db = [low.filter(|_| seen_now), high.filter(|_| seen_earlier)];
         if seen_now && seen_earlier {
-            change.change_db =
-                Some(5.0 * (now_power.above() / earlier_power.above()).log10());
+            change.change_db = Some(5.0 * (now_power.above() / earlier_power.above()).log10());
         }
         change.conclusion = ChangeConclusion::of(change.interval_db);
         change.why = self.why(&change, seen_now, seen_earlier);
@@ -517,7 +520,9 @@ impl Compared {
             why.push_str(" They are not above the noise in the earlier signal, so that this is a lower bound.");
         }
         if !seen_now {
-            why.push_str(" They are not above the noise in this signal, so that this is an upper bound.");
+            why.push_str(
+                " They are not above the noise in this signal, so that this is an upper bound.",
+            );
         }
         if change.conclusion == ChangeConclusion::NotCertain {
             why.push_str(" Longer windows would decide.");

@@ -11,7 +11,7 @@ const HALF_WIDTH: f64 = 2.0;
 const SLIP: f64 = 1e-3;
 /// Distance of a known line from a tooth's edge, in 1 / T, from which it adds nothing to it.
 const APART: f64 = 1.5;
-/// Relative uncertainty of an explained line's order.
+/// Largest amplitude of a tooth over the floor that counts in the search.
 const LARGEST_LEVEL: f64 = 10.0;
 /// Places of the search in the resolution of the highest tooth.
 const PLACES: f64 = 2.0;
@@ -22,8 +22,9 @@ const LINE_VARIANCE: f64 = 0.15;
 const LINE_FREEDOM: f64 = 2.0;
 /// Degrees of freedom of what the two amount to, beside those of the stretches: the expected variance does not scatter.
 const EXPECTED_FREEDOM: f64 = 4.0;
-/// Hann windows that share a half: the variance of their mean is larger by this.
-const SHARED: f64 = 1.056;
+/// The variance of the mean of stretches that share their halves is larger by this than that of so many separate ones: 1.056 of noise under Hann
+/// windows; lines whose slip and strength drift are more alike.
+const SHARED: f64 = 1.4;
 
 /// A tooth of a comb: so many times its order, and an order beside that.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +164,8 @@ impl StretchSpectrum {
             variance: shared * of_one / (count * power * power),
             freedom: count - 1.0 + EXPECTED_FREEDOM,
             floor,
-            floor_variance: self.floor_variance() * floor_square / (floor * floor).max(f64::MIN_POSITIVE),
+            floor_variance: self.floor_variance() * floor_square
+                / (floor * floor).max(f64::MIN_POSITIVE),
         })
     }
 }

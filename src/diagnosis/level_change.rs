@@ -90,7 +90,11 @@ fn scattered(squares: &[f64]) -> Scattered {
     let count = blocks.len() as f64;
     let power = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
     let freedom = (count - 1.0).max(1.0);
-    let square = blocks.iter().map(|block| (block - power).powi(2)).sum::<f64>() / freedom;
+    let square = blocks
+        .iter()
+        .map(|block| (block - power).powi(2))
+        .sum::<f64>()
+        / freedom;
     Scattered {
         power,
         variance: square / (count * power * power).max(f64::MIN_POSITIVE),
@@ -147,7 +151,11 @@ mod tests {
         for change in &changes[1..] {
             let centre = change.centre_hz.unwrap();
             let tone = (centre - 3981.0).abs() < 1.0;
-            let expected = if tone { ChangeConclusion::Grew } else { ChangeConclusion::AsBefore };
+            let expected = if tone {
+                ChangeConclusion::Grew
+            } else {
+                ChangeConclusion::AsBefore
+            };
             assert_eq!(change.conclusion, expected, "{change:?}");
         }
         // 4 values in each of 20 blocks of 2 s: octaves from 57 Hz on; 4 kHz is the last below 10 kHz / 1.41
@@ -173,6 +181,10 @@ mod tests {
     fn silence_is_not_compared() {
         let silent = TimeSeries::new(0.0, 1e-3, "g", vec![0.0; 5000]).unwrap();
         let changes = level_changes((&silent, silent.span()), (&silent, silent.span())).unwrap();
-        assert!(changes.iter().all(|c| c.conclusion == ChangeConclusion::NotCompared));
+        assert!(
+            changes
+                .iter()
+                .all(|c| c.conclusion == ChangeConclusion::NotCompared)
+        );
     }
 }

@@ -43,6 +43,8 @@ mod stretch_spectrum;
 mod tests;
 #[cfg(test)]
 mod tests_cage;
+#[cfg(test)]
+mod tests_change;
 mod unexplained;
 mod verdict;
 mod window;
