@@ -735,7 +735,13 @@ fn rings(header: &str, strength: f64, rate: u32, seed: u64) -> String {
     let (mut text, mut state) = (format!("{header}\n"), seed);
     for k in 0..4 * rate {
         let t = f64::from(k) / f64::from(rate);
-        let since = t - (t * 89.625).floor() / 89.625;
+        // balls slip: each strikes up to a fiftieth of a period late
+        let place = t * 89.625;
+        let late = |n: f64| 0.02 * (n * 0.618).fract();
+        let since = match place.fract() - late(place.floor()) {
+            since if since >= 0.0 => since / 89.625,
+            since => (since + 1.0) / 89.625,
+        };
         state = state
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1);

@@ -168,27 +168,30 @@ fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
         let Some(line) = line else { continue };
         let indicated = verdict.conclusion == Conclusion::Named;
         let words = line.words();
-        let text = match (line.conclusion, indicated) {
-            (ChangeConclusion::Grew, _) => format!("It grew since the earlier signal: {words}."),
-            (ChangeConclusion::AsBefore, true) if verdict.fault == Fault::OuterRace => format!(
-                "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
-            ),
-            (ChangeConclusion::AsBefore, true) => {
+        let unclear = verdict.conclusion == Conclusion::NotEnough;
+        let text = match line.conclusion {
+            ChangeConclusion::Grew => format!("It grew since the earlier signal: {words}."),
+            ChangeConclusion::AsBefore if indicated && verdict.fault == Fault::OuterRace => {
+                format!(
+                    "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
+                )
+            }
+            ChangeConclusion::AsBefore if indicated || unclear => {
                 format!("It was as strong in the earlier signal: {words}.")
             }
-            (ChangeConclusion::Fell, true) => {
+            ChangeConclusion::Fell if indicated || unclear => {
                 format!("It was stronger in the earlier signal: {words}.")
             }
-            (ChangeConclusion::NotCertain, true) => {
+            ChangeConclusion::NotCertain if indicated || unclear => {
                 format!("Whether it grew since the earlier signal is not certain: {words}.")
             }
-            (ChangeConclusion::NotCompared, true) => {
+            ChangeConclusion::NotCompared if indicated => {
                 format!(
                     "It cannot be compared with the earlier signal. {}",
                     line.why
                 )
             }
-            (_, false) => continue,
+            _ => continue,
         };
         verdict.why = format!("{} {text}", verdict.why);
     }
