@@ -9,9 +9,11 @@ use super::stretch_spectrum::StretchSpectrum;
 const HALF_WIDTH: f64 = 2.0;
 /// What slip adds to it, of the tooth's order: slip that varies by 0.1 % within the window.
 const SLIP: f64 = 1e-3;
+/// Part of that width in which a line is sought: within all of it, its place would not be known.
+const SOUGHT_WIDTH: f64 = 0.5;
 /// Distance of a known line from a tooth's edge, in 1 / T, from which it adds nothing to it.
 const APART: f64 = 1.5;
-/// Largest amplitude of a tooth over the floor that counts in the search.
+/// Amplitude of a tooth over the floor, a, counts as a / (1 + a / 10) in the search: no single line makes a comb, and no two places tie.
 const LARGEST_LEVEL: f64 = 10.0;
 /// Places of the search in the resolution of the highest tooth.
 const PLACES: f64 = 2.0;
@@ -72,7 +74,7 @@ impl StretchSpectrum {
             .any(|line| (line.order - order).abs() < reach + line.error * line.order)
     }
 
-    /// The comb within its reach whose teeth stand highest above their floor, each tenfold at most.
+    /// The comb within its reach whose teeth stand highest above their floor, a strong one counting tenfold at most.
     pub(super) fn best_comb(&self, sought: &Sought<'_>, known: &[KnownLine]) -> Option<Comb> {
         let last = sought.teeth.iter().map(|tooth| tooth.harmonic).max()?;
         let reach = sought.reach.max(0.5 * self.resolution);
@@ -84,14 +86,15 @@ impl StretchSpectrum {
             let mut sum = 0.0;
             for (place, tooth) in sought.teeth.iter().enumerate() {
                 let line = tooth.order(order);
-                let Some(bins) = self.bins(line, self.half(line)) else {
+                let Some(bins) = self.bins(line, SOUGHT_WIDTH * self.half(line)) else {
                     continue;
                 };
                 if self.covered(line, known) {
                     continue;
                 }
                 let floor = self.floor(bins).max(f64::MIN_POSITIVE);
-                sum += (self.power(bins) / floor).sqrt().min(LARGEST_LEVEL) - 1.0;
+                let amplitude = (self.power(bins) / floor).sqrt();
+                sum += amplitude / (1.0 + amplitude / LARGEST_LEVEL) - 1.0;
                 free.push(place);
             }
             if free.is_empty() {

@@ -46,6 +46,12 @@ fn growth_is_measured_and_other_parts_did_not_grow() {
                 .all(|c| c.conclusion != ChangeConclusion::Grew),
             "{found:#?}"
         );
+        // where it strikes, to what 40 revolutions separate at the fifth harmonic
+        let order = 0.996 * bearing().outer;
+        assert!(
+            (change.order_now.unwrap() - order).abs() < 1.0 / 40.0 / 5.0,
+            "{change:#?}"
+        );
         let (now, earlier) = (change.now.unwrap(), change.earlier.unwrap());
         assert!((20.0 * (now / earlier).log10() - change.change_db.unwrap()).abs() < 1e-9);
     }
