@@ -150,7 +150,7 @@ impl StretchSpectrum {
             expected += LINE_VARIANCE * line * line
                 + (2.0 * line * noise + noise * noise) / self.independent(bins);
         }
-        if !(power > 0.0) {
+        if power <= 0.0 {
             return None;
         }
         let count = self.stretches() as f64;
