@@ -5,222 +5,23 @@
 //! impacts as they were, where those of the envelope itself would sink in it. A line's amplitude in it is a power, so that the
 //! root of that is the level, and ten decibels of change are ten decibels of the impacts' amplitude.
 
-use serde::Serialize;
-
 use super::angle_grid::AngleGrid;
 use super::comb_power::{Comb, Sought, Tooth};
+use super::compared_signal::ComparedSignal;
 use super::known::shaft_lines;
+use super::line_change::{ChangeConclusion, LineChange};
 use super::ratio_interval::{Scattered, interval_db};
 use super::stretch_spectrum::{StretchSpectrum, stretch_revolutions};
 use super::verdict::{FaultVerdict, Harmonic, UNSEEN_ABOVE, UnexplainedImpacts};
-use super::window::sharpened_speed;
-use super::{Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders};
-use crate::series::{TimeSeries, TimeWindow};
-use crate::signal::{RawSpectrum, WhiteSpectrum};
+use super::{Diagnosis, DiagnosisError, Fault};
+use crate::signal::RawSpectrum;
 
-/// A change counts as growth or decay where the 95 % interval lies beyond so many dB: another mounting of the sensor, another load or
-/// temperature change a level by as much.
-pub const LEAST_CHANGE_DB: f64 = 3.0;
-/// Nothing changed where the 95 % interval lies within so many dB, a factor of two.
-pub const AS_BEFORE_WITHIN_DB: f64 = 6.0;
 /// Harmonics that are compared.
 const COMPARED_HARMONICS: u32 = 5;
 /// Fewest lines of a comb: one alone may be anything.
 const LEAST_TEETH: usize = 2;
 /// Fewest revolutions of a window.
 const FEWEST_REVOLUTIONS: f64 = 8.0;
-
-/// What is said of a change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum ChangeConclusion {
-    /// The interval lies above 3 dB.
-    #[serde(rename = "grew")]
-    Grew,
-    /// The interval lies within 6 dB to each side.
-    #[serde(rename = "as before")]
-    AsBefore,
-    /// The interval lies below -3 dB.
-    #[serde(rename = "fell")]
-    Fell,
-    /// The interval holds no change and more than 6 dB.
-    #[serde(rename = "not certain")]
-    NotCertain,
-    /// The lines are above the noise in neither signal, or cannot be seen in one of them.
-    #[serde(rename = "cannot be compared")]
-    NotCompared,
-}
-
-impl ChangeConclusion {
-    /// In words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Grew => "grew",
-            Self::AsBefore => "as before",
-            Self::Fell => "fell",
-            Self::NotCertain => "not certain",
-            Self::NotCompared => "cannot be compared",
-        }
-    }
-
-    /// Of a 95 % interval in dB; an end that is `None` is open.
-    #[must_use]
-    pub fn of([low, high]: [Option<f64>; 2]) -> Self {
-        if low.is_some_and(|low| low > LEAST_CHANGE_DB) {
-            return Self::Grew;
-        }
-        if high.is_some_and(|high| high < -LEAST_CHANGE_DB) {
-            return Self::Fell;
-        }
-        match (low, high) {
-            (Some(low), Some(high)) if low > -AS_BEFORE_WITHIN_DB && high < AS_BEFORE_WITHIN_DB => {
-                Self::AsBefore
-            }
-            _ => Self::NotCertain,
-        }
-    }
-}
-
-/// How the impacts of a part, or of something else, changed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LineChange {
-    /// The part; `None` for impacts that belong to none.
-    pub fault: Option<Fault>,
-    /// What is compared: "outer race", "ball by the cage's lines", "impacts at 88.20 Hz".
-    pub name: String,
-    /// What is said of it.
-    pub conclusion: ChangeConclusion,
-    /// Ten times the decimal logarithm of the ratio of the combs' powers, half of it since the envelope is squared, dB. `None` where a comb
-    /// is not above its noise.
-    pub change_db: Option<f64>,
-    /// 95 % interval of the change, dB; an end is `None` where there is none.
-    pub interval_db: [Option<f64>; 2],
-    /// Level of the comb in the earlier signal, in its unit: the root of the amplitude of the squared envelope's lines. `None` where it is not
-    /// above its noise.
-    pub earlier: Option<f64>,
-    /// The same in this signal.
-    pub now: Option<f64>,
-    /// Order where the comb fits best in the earlier signal.
-    pub order_earlier: Option<f64>,
-    /// The same in this signal.
-    pub order_now: Option<f64>,
-    /// Band whose envelope is compared, Hz.
-    pub band_hz: Option<[f64; 2]>,
-    /// How much the band as a whole changed, dB: a part whose lines grew no more than this may be heard through what did.
-    pub band_change_db: Option<f64>,
-    /// Harmonics that are compared.
-    pub harmonics: Vec<u32>,
-    /// Why this, and why not more.
-    pub why: String,
-}
-
-impl LineChange {
-    /// "+12.3 dB (11.0 to 13.6)", "at least +14.1 dB", "at most -8.0 dB"; empty where nothing is known.
-    #[must_use]
-    pub fn words(&self) -> String {
-        change_words(self.change_db, self.interval_db)
-    }
-}
-
-/// A change with its interval, in words.
-#[must_use]
-pub fn change_words(change_db: Option<f64>, interval_db: [Option<f64>; 2]) -> String {
-    match (change_db, interval_db) {
-        (Some(change), [Some(low), Some(high)]) => {
-            format!("{change:+.1} dB ({low:.1} to {high:.1})")
-        }
-        (_, [Some(low), _]) => format!("at least {low:+.1} dB"),
-        (_, [_, Some(high)]) => format!("at most {high:+.1} dB"),
-        (_, [None, None]) => String::new(),
-    }
-}
-
-/// A signal that is compared with another.
-pub struct ComparedSignal<'a> {
-    signal: &'a TimeSeries,
-    window: TimeWindow,
-    turns: Box<dyn Fn(f64) -> f64 + 'a>,
-    orders: FaultOrders,
-    speed_error: f64,
-    /// Mean shaft speed in the window, Hz.
-    pub speed_hz: f64,
-}
-
-impl<'a> ComparedSignal<'a> {
-    /// A signal that was judged, with what it was judged by.
-    pub fn judged(
-        signal: &'a TimeSeries,
-        window: TimeWindow,
-        turns: impl Fn(f64) -> f64 + 'a,
-        orders: FaultOrders,
-        diagnosis: &Diagnosis,
-    ) -> Self {
-        let factor = diagnosis.speed_hz / diagnosis.given_speed_hz;
-        Self {
-            signal,
-            window,
-            turns: Box::new(move |time| factor * turns(time)),
-            orders,
-            speed_error: diagnosis.speed_error,
-            speed_hz: diagnosis.speed_hz,
-        }
-    }
-
-    /// A signal that is not judged. Its speed is sharpened by its own lines in the envelope of `within_hz` (Hz; `None`: all), as that of one
-    /// that is.
-    ///
-    /// # Errors
-    /// As [`Diagnosis::of`].
-    pub fn earlier(
-        signal: &'a TimeSeries,
-        within_hz: Option<[f64; 2]>,
-        window: TimeWindow,
-        turns: impl Fn(f64) -> f64 + 'a,
-        orders: FaultOrders,
-    ) -> Result<Self, DiagnosisError> {
-        let samples = signal.values().len();
-        window.check_inside(signal.start_s(), signal.step_s(), samples)?;
-        let white = WhiteSpectrum::of(signal)?;
-        let speed = sharpened_speed(signal, &white, within_hz, window, &turns, &orders)?;
-        let given_hz = (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-        Ok(Self {
-            signal,
-            window,
-            turns: Box::new(move |time| speed.factor * turns(time)),
-            orders,
-            speed_error: speed.error,
-            speed_hz: speed.factor * given_hz,
-        })
-    }
-
-    fn grid(&self, highest: f64) -> Result<AngleGrid, DiagnosisError> {
-        AngleGrid::new(self.window, self.signal.step_s(), &self.turns, highest)
-    }
-
-    /// Spectrum of the envelope of a band (Hz) over the shaft's angle, up to an order, in the signal's unit: for a picture.
-    ///
-    /// # Errors
-    /// As [`EnvelopeOrderSpectrum::new`].
-    pub fn order_spectrum(
-        &self,
-        band_hz: [f64; 2],
-        highest: f64,
-    ) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
-        let envelope = RawSpectrum::of(self.signal)?.envelope(band_hz);
-        let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
-        let shown = TimeSeries::new(
-            envelope.start_s,
-            envelope.step_s,
-            self.signal.unit(),
-            magnitude,
-        )?;
-        let window = TimeWindow {
-            from: self.window.from,
-            to: self.window.to.min(shown.end_s()),
-        };
-        EnvelopeOrderSpectrum::new(&shown, window, &self.turns, highest)
-    }
-}
 
 /// One of the two signals with what is computed once.
 struct Side<'a> {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::DiagnosisError;
-use super::change::ChangeConclusion;
+use super::line_change::ChangeConclusion;
 use super::ratio_interval::{Scattered, interval_db};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::RawSpectrum;
@@ -137,7 +137,7 @@ mod tests {
         let mut noise = Noise(seed);
         let values = (0..40_000).map(|k| {
             let t = f64::from(k) / 20e3;
-            level * noise.normal() + tone * (std::f64::consts::TAU * 4000.0 * t).sin()
+            level * noise.normal() + tone * (std::f64::consts::TAU * 3000.0 * t).sin()
         });
         TimeSeries::new(0.0, 1.0 / 20e3, "g", values.collect()).unwrap()
     }
@@ -150,6 +150,7 @@ mod tests {
         assert!((changes[0].change_db.unwrap() - 10.0 * 3.0_f64.log10()).abs() < 0.1);
         for change in &changes[1..] {
             let centre = change.centre_hz.unwrap();
+            // 2.8 to 5.6 kHz
             let tone = (centre - 3981.0).abs() < 1.0;
             let expected = if tone {
                 ChangeConclusion::Grew

@@ -27,6 +27,7 @@ mod cage_lines;
 mod change;
 mod comb;
 mod comb_power;
+mod compared_signal;
 mod control;
 mod error;
 mod explain;
@@ -34,6 +35,7 @@ mod fault;
 mod findings;
 mod known;
 mod level_change;
+mod line_change;
 mod line_spectrum;
 mod order_spectrum;
 mod ratio_interval;
@@ -52,14 +54,15 @@ mod window;
 /// Harmonics of a part's line that are shown, the line itself included.
 pub const JUDGED_HARMONICS: u32 = comb::SHOWN_HARMONICS;
 
-pub use change::{
-    AS_BEFORE_WITHIN_DB, ChangeConclusion, ComparedSignal, LEAST_CHANGE_DB, LineChange,
-    change_words, line_changes,
-};
+pub use change::line_changes;
+pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use known::line_name;
 pub use level_change::{LevelChange, level_changes};
+pub use line_change::{
+    AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange, change_words,
+};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,
