@@ -760,3 +760,154 @@ fn both_races_of_a_measured_bearing_are_named() {
         );
     }
 }
+
+/// Rings of 3 kHz of a strength, struck 3.585 times a turn of 25 Hz, in noise; 4 s.
+fn rings(header: &str, strength: f64, rate: u32, seed: u64) -> String {
+    let (mut text, mut state) = (format!("{header}\n"), seed);
+    for k in 0..4 * rate {
+        let t = f64::from(k) / f64::from(rate);
+        // balls slip: each strikes up to a fiftieth of a period late
+        let place = t * 89.625;
+        let late = |n: f64| 0.02 * (n * 0.618).fract();
+        let since = match place.fract() - late(place.floor()) {
+            since if since >= 0.0 => since / 89.625,
+            since => (since + 1.0) / 89.625,
+        };
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let noise = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        let ring = strength * (-600.0 * since).exp() * (TAU * 3e3 * since).sin();
+        writeln!(text, "{t},{:.6}", ring + 0.3 * noise).unwrap();
+    }
+    text
+}
+
+#[test]
+fn what_grew_since_a_baseline_is_said() {
+    let folder = scratch("analyze-baseline");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    write("now.csv", &rings("time,P1 (g)", 1.0, 16_000, 1));
+    write("weaker.csv", &rings("time,P1 (g)", 0.25, 16_000, 2));
+    write("same.csv", &rings("time,P9 (g)", 1.0, 16_000, 3));
+    write("slow.csv", &rings("time,P1 (g)", 1.0, 4000, 4));
+    write("metric.csv", &rings("time,P1 (m/s^2)", 1.0, 16_000, 5));
+    let two = rings("time,P1 (g)", 1.0, 16_000, 6).replace("\n", ",1\n");
+    write("two.csv", &two.replacen("P1 (g),1", "P2 (g),P3 (g)", 1));
+    let analyze = |files: &[&str], more: &[&str]| {
+        let shared = ["--bearing", "6205", "--speed", "25", "--force"];
+        plummer(&folder, &[&["analyze"], files, &shared[..], more].concat())
+    };
+    let against = |baseline: &str, more: &[&str]| {
+        let words = [&["--json", "--baseline", baseline][..], more].concat();
+        json(&analyze(&["now.csv"], &words))["windows"][0].clone()
+    };
+    let outer = |window: &Value| window["changes"]["lines"][0].clone();
+    // four times the strength: 12 dB
+    let window = against("weaker.csv", &[]);
+    assert_eq!(named(&window), ["outer race"]);
+    let line = outer(&window);
+    assert_eq!(line["fault"], "outer race");
+    assert_eq!(line["conclusion"], "grew", "{line:#}");
+    let [low, high] = numbers(&line["interval_db"])[..] else {
+        panic!("{line:#}")
+    };
+    assert!(low < 12.04 && 12.04 < high && high - low < 4.0, "{line:#}");
+    let why = window["verdict"]["faults"][0]["why"].as_str().unwrap();
+    assert!(
+        why.contains("It grew since the earlier signal: +1"),
+        "{why}"
+    );
+    let rms = &window["changes"]["levels"][0];
+    assert_eq!(rms["conclusion"], "grew", "{rms:#}");
+    let report = fs::read_to_string(folder.join("out/now/report.html")).unwrap();
+    for text in [
+        "--speed 25 --baseline weaker.csv",
+        "What grew since weaker.csv",
+        "outer race since weaker.csv",
+        "RMS, earlier and now",
+    ] {
+        assert!(report.contains(text), "{text}");
+    }
+    let table = fs::read_to_string(folder.join("out/now/analysis.csv")).unwrap();
+    assert!(table.contains("outer race: since the baseline"), "{table}");
+    assert!(table.contains(",grew,"), "{table}");
+    // the only channel of the baseline, whatever its name; and no change
+    let window = against("same.csv", &[]);
+    let line = outer(&window);
+    assert_eq!(line["conclusion"], "as before", "{line:#}");
+    assert_eq!(window["changes"]["channel"], "P9");
+    let why = window["verdict"]["faults"][0]["why"].as_str().unwrap();
+    assert!(
+        why.contains("It was as strong in the earlier signal"),
+        "{why}"
+    );
+    // the band that rings lies beyond half the rate of the baseline
+    let line = outer(&against("slow.csv", &[]));
+    assert_eq!(line["conclusion"], "cannot be compared", "{line:#}");
+    let why = line["why"].as_str().unwrap();
+    assert!(
+        why.contains("ends at 2000 Hz, half its sampling rate"),
+        "{why}"
+    );
+    // a speed and a window of its own
+    let window = against(
+        "same.csv",
+        &["--baseline-speed", "28", "--baseline-window", "1:3"],
+    );
+    let changes = &window["changes"];
+    assert_eq!(
+        (&changes["from"], &changes["to"]),
+        (&1.0.into(), &3.0.into())
+    );
+    let warning = changes["warnings"][0].as_str().unwrap();
+    assert!(
+        warning.starts_with("The shaft turned at 28.00 Hz"),
+        "{warning}"
+    );
+    // without a baseline nothing is said of one
+    let alone = json(&analyze(&["now.csv"], &["--json"]));
+    assert!(alone["windows"][0].get("changes").is_none());
+    let table = fs::read_to_string(folder.join("out/now/analysis.csv")).unwrap();
+    assert!(!table.contains("baseline"), "{table}");
+    // many against one, and a file against itself
+    let many = analyze(
+        &["now.csv", "weaker.csv"],
+        &["--baseline", "weaker.csv", "--out", "many"],
+    );
+    let said = String::from_utf8_lossy(&many.stdout).into_owned();
+    assert!(
+        said.contains("now.csv P1: grew since weaker.csv: outer race +1"),
+        "{said}{}",
+        errors(&many)
+    );
+    assert!(!said.contains("weaker.csv P1: grew"), "{said}");
+    let report = fs::read_to_string(folder.join("many/report.html")).unwrap();
+    assert!(report.contains("weaker.csv: The baseline is the input itself"));
+
+    for (baseline, more, expected) in [
+        (
+            "two.csv",
+            &[][..],
+            "error: --baseline two.csv: expected a channel \"P1\", or one channel alone; found 2 others\nhelp: --channel NAME of one that both have; the baseline has \"P2\", \"P3\"\n",
+        ),
+        (
+            "metric.csv",
+            &[],
+            "error: --baseline metric.csv, channel \"P1\": expected g as in now.csv, found m/s^2\nhelp: scale one of the two files to the unit of the other\n",
+        ),
+        (
+            "same.csv",
+            &["--baseline-window", "1:9"],
+            "error: --baseline same.csv, channel \"P9\": ",
+        ),
+        ("none.csv", &[], "error: cannot read none.csv"),
+    ] {
+        let words = [&["--baseline", baseline][..], more].concat();
+        let output = analyze(&["now.csv"], &words);
+        assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+        assert!(errors(&output).starts_with(expected), "{}", errors(&output));
+    }
+    let output = analyze(&["now.csv"], &["--baseline-window", "1:2"]);
+    assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+}

@@ -9,7 +9,7 @@ use crate::reduction::{Bound, Check, SizeErrors};
 use crate::stages::{
     ChosenPart, CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModelChoice, ModesResult,
     Reading, Recording, ReducedInterface, RunEnd, RunResult, SensorScalogram, StageError,
-    StructureStage, WindowAnalysis,
+    StructureStage, WindowAnalysis, WindowChange,
 };
 use crate::system::{BallsInertia, Column};
 use serde_json::{Map, Value, json};
@@ -153,7 +153,7 @@ pub(super) fn window_json(window: &WindowAnalysis) -> Value {
             "amplitude": found.map(|found| found.1),
         })
     });
-    json!({
+    let mut json = json!({
         "sensor": window.sensor,
         "unit": window.unit,
         "whitened": window.whitened,
@@ -171,6 +171,27 @@ pub(super) fn window_json(window: &WindowAnalysis) -> Value {
         "lines_smeared_above_order": window.smeared_above,
         "envelope_peaks": window.peaks,
         "verdict": verdict,
+    });
+    if let Some(change) = &window.change {
+        json["changes"] = change_json(change);
+    }
+    json
+}
+
+/// What a result says of a window beside an earlier signal.
+fn change_json(change: &WindowChange) -> Value {
+    json!({
+        "baseline": change.baseline,
+        "channel": change.channel,
+        "from": change.window.from,
+        "to": change.window.to,
+        "speed_hz": change.speed_hz,
+        "rms": change.rms,
+        "peak": change.peak,
+        "kurtosis": change.kurtosis,
+        "lines": change.lines,
+        "levels": change.levels,
+        "warnings": change.warnings,
     })
 }
 

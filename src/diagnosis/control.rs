@@ -55,18 +55,23 @@ pub(super) fn control_scores(
     relative_reach: f64,
     beside: Option<f64>,
 ) -> Vec<f64> {
-    let gap = NEAREST.max(2.0 * relative_reach);
-    let span = 2.0 * SPREAD.ln();
-    (0..CONTROLS)
+    factors(relative_reach)
+        .collect::<Vec<_>>()
         .into_par_iter()
-        .filter_map(|control| {
-            let part = (f64::from(control) + 0.5) / f64::from(CONTROLS);
-            let factor = (span * (part - 0.5)).exp();
-            if (factor - 1.0).abs() < gap {
-                return None;
-            }
+        .filter_map(|factor| {
             let at = order * factor;
             best_fit(spectra, at, relative_reach * at, beside).map(|fit| fit.score)
         })
         .collect()
+}
+
+/// Control orders over the part's own.
+pub(super) fn factors(relative_reach: f64) -> impl Iterator<Item = f64> {
+    let gap = NEAREST.max(2.0 * relative_reach);
+    let span = 2.0 * SPREAD.ln();
+    (0..CONTROLS).filter_map(move |control| {
+        let part = (f64::from(control) + 0.5) / f64::from(CONTROLS);
+        let factor = (span * (part - 0.5)).exp();
+        ((factor - 1.0).abs() >= gap).then_some(factor)
+    })
 }

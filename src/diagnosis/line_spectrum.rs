@@ -195,7 +195,7 @@ fn stretches_of(turns: f64, revolutions: f64) -> usize {
 
 /// Quantile of the mean of so many exponential variables, at so many standard deviations of the normal distribution: the transform of
 /// Wilson and Hilferty (1931), within 2 % for one variable.
-fn gamma_quantile(averages: f64, deviations: f64) -> f64 {
+pub(super) fn gamma_quantile(averages: f64, deviations: f64) -> f64 {
     (1.0 - 1.0 / (9.0 * averages) + deviations / (3.0 * averages.sqrt()))
         .max(0.0)
         .powi(3)

@@ -8,6 +8,8 @@
 //! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`). `unexplained`: combs of no part.
 //!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
+//! 8. [`line_changes`]: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
+//!    [`level_changes`]: the same of the vibration as a whole and in octaves.
 //!
 //! A healthy bearing has the ball-pass line of the outer race too: balls that pass under the load make its compliance vary. That is a smooth
 //! modulation; impacts have many harmonics ([`FaultVerdict::impulsiveness`]). Sound bearings of real machines have weak lines with all
@@ -22,20 +24,29 @@
 mod angle_grid;
 mod bands;
 mod cage_lines;
+mod change;
 mod comb;
+mod comb_power;
+mod compared_signal;
 mod control;
 mod error;
 mod explain;
 mod fault;
 mod findings;
 mod known;
+mod level_change;
+mod line_change;
 mod line_spectrum;
 mod order_spectrum;
+mod ratio_interval;
 mod shaft_speed;
+mod stretch_spectrum;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_cage;
+#[cfg(test)]
+mod tests_change;
 #[cfg(test)]
 mod tests_races;
 #[cfg(test)]
@@ -47,9 +58,15 @@ mod window;
 /// Harmonics of a part's line that are shown, the line itself included.
 pub const JUDGED_HARMONICS: u32 = comb::SHOWN_HARMONICS;
 
+pub use change::line_changes;
+pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use known::line_name;
+pub use level_change::{LevelChange, level_changes};
+pub use line_change::{
+    AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange, change_words,
+};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,

@@ -71,28 +71,19 @@ impl Diagnosis {
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
         let white = WhiteSpectrum::of(signal)?;
         let strikes_hz = orders.highest() * grid.fastest_hz;
+        let asked_hz = within_hz;
         let within_hz = edges(
             within_hz,
             0.5 * signal.rate_hz(),
             LOWEST_CARRIER * strikes_hz,
         );
-        let fit = if orders.is_exact() {
-            None
-        } else {
-            speed_fit(signal, &white, within_hz, &grid)?
-        };
-        let given = |error| SpeedFit { factor: 1.0, error };
-        let (mut fit, mut speed_source) = match fit {
-            Some(fit) => (fit, SpeedSource::Sharpened),
-            None if orders.is_exact() => (given(0.0), SpeedSource::Exact),
-            None => (given(UNSEEN_ERROR), SpeedSource::Given),
-        };
+        let mut speed = sharpened_speed(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
         let given_speed_hz =
             (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-        let search = |fit: SpeedFit| -> Result<(Spectra, Found), DiagnosisError> {
-            let sharp = |time: f64| fit.factor * turns(time);
+        let search = |speed: SharpenedSpeed| -> Result<(Spectra, Found), DiagnosisError> {
+            let sharp = |time: f64| speed.factor * turns(time);
             let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
             let spectra = band_spectra(
                 &white,
@@ -107,20 +98,20 @@ impl Diagnosis {
                 fine: &spectra.fine,
                 orders,
                 turns: grid.turns(),
-                speed_hz: fit.factor * given_speed_hz,
-                speed_error: fit.error,
+                speed_hz: speed.factor * given_speed_hz,
+                speed_error: speed.error,
             };
             let found = search.run();
             Ok((spectra, found))
         };
-        let (mut spectra, mut found) = search(fit)?;
-        if speed_source == SpeedSource::Given
+        let (mut spectra, mut found) = search(speed)?;
+        if speed.source == SpeedSource::Given
             && let Some(races) = speed_of_races(&found.faults, orders, &spectra.lines)
         {
-            (fit, speed_source) = (races, SpeedSource::Races);
-            (spectra, found) = search(fit)?;
+            speed = SharpenedSpeed::by(races, SpeedSource::Races);
+            (spectra, found) = search(speed)?;
         }
-        let sharp = |time: f64| fit.factor * turns(time);
+        let sharp = |time: f64| speed.factor * turns(time);
         let best = spectra
             .lines
             .get(found.spectrum)
@@ -133,10 +124,10 @@ impl Diagnosis {
             to: window.to.min(shown.end_s()),
         };
         Ok(Self {
-            speed_hz: fit.factor * given_speed_hz,
+            speed_hz: speed.factor * given_speed_hz,
             given_speed_hz,
-            speed_error: fit.error,
-            speed_source,
+            speed_error: speed.error,
+            speed_source: speed.source,
             envelope: envelope_name(best),
             envelopes: spectra.lines.len(),
             spectrum: EnvelopeOrderSpectrum::new(&shown, shown_window, sharp, highest)?,
@@ -189,6 +180,59 @@ fn edges(asked: Option<[f64; 2]>, end_hz: f64, lowest_hz: f64) -> [f64; 2] {
         Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
         None => [lowest_hz.min(0.5 * end_hz), end_hz],
     }
+}
+
+/// The shaft's speed over the given one, and how well it is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SharpenedSpeed {
+    pub(super) factor: f64,
+    pub(super) error: f64,
+    pub(super) source: SpeedSource,
+}
+
+impl SharpenedSpeed {
+    fn by(fit: SpeedFit, source: SpeedSource) -> Self {
+        Self {
+            factor: fit.factor,
+            error: fit.error,
+            source,
+        }
+    }
+}
+
+/// Sharpens the speed by the shaft's lines, where orders are not exact.
+pub(super) fn sharpened_speed(
+    signal: &TimeSeries,
+    white: &WhiteSpectrum,
+    within_hz: Option<[f64; 2]>,
+    window: TimeWindow,
+    turns: impl Fn(f64) -> f64,
+    orders: &FaultOrders,
+) -> Result<SharpenedSpeed, DiagnosisError> {
+    if orders.is_exact() {
+        return Ok(SharpenedSpeed {
+            factor: 1.0,
+            error: 0.0,
+            source: SpeedSource::Exact,
+        });
+    }
+    let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
+    let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
+    let strikes_hz = orders.highest() * grid.fastest_hz;
+    let within_hz = edges(
+        within_hz,
+        0.5 * signal.rate_hz(),
+        LOWEST_CARRIER * strikes_hz,
+    );
+    let fit = speed_fit(signal, white, within_hz, &grid)?;
+    Ok(match fit {
+        Some(fit) => SharpenedSpeed::by(fit, SpeedSource::Sharpened),
+        None => SharpenedSpeed {
+            factor: 1.0,
+            error: UNSEEN_ERROR,
+            source: SpeedSource::Given,
+        },
+    })
 }
 
 /// The shaft's lines in the signal and in its envelope.

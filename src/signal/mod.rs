@@ -28,6 +28,7 @@ mod moving;
 #[cfg(test)]
 pub(crate) mod noise;
 mod peaks;
+mod raw_spectrum;
 #[cfg(test)]
 mod reference;
 mod ridge;
@@ -60,6 +61,7 @@ pub use lines::{
 };
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
+pub use raw_spectrum::RawSpectrum;
 pub use scalogram::{Scalogram, WaveletTransform};
 pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};

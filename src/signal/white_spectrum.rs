@@ -95,21 +95,33 @@ impl WhiteSpectrum {
     /// Squared envelope of the band between two frequencies (Hz), at a rate of about four times the band's width: twice what its
     /// spectrum needs.
     #[must_use]
-    pub fn envelope(&self, [from_hz, to_hz]: [f64; 2]) -> BandEnvelope {
-        let bin_of = |hz: f64| (hz * self.step_s * self.points as f64).round() as usize;
-        let first = bin_of(from_hz).max(1).min(self.bins.len() - 1);
-        let end = bin_of(to_hz).clamp(first + 1, self.bins.len());
-        let points = fast_length(2 * (end - first));
-        let mut band = vec![Complex::new(0.0, 0.0); points];
-        band[..end - first].copy_from_slice(&self.bins[first..end]);
-        FftPlanner::new()
-            .plan_fft_inverse(points)
-            .process(&mut band);
-        BandEnvelope {
-            start_s: self.start_s,
-            step_s: self.step_s * self.points as f64 / points as f64,
-            squared: band.iter().map(Complex::norm_sqr).collect(),
-        }
+    pub fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
+        band_envelope(&self.bins, self.points, self.start_s, self.step_s, band_hz)
+    }
+}
+
+/// Squared envelope of a band of a spectrum's bins (that of `points` samples every `step_s` from `start_s` on), not divided by their
+/// number.
+pub(super) fn band_envelope(
+    bins: &[Complex<f64>],
+    points: usize,
+    start_s: f64,
+    step_s: f64,
+    [from_hz, to_hz]: [f64; 2],
+) -> BandEnvelope {
+    let bin_of = |hz: f64| (hz * step_s * points as f64).round() as usize;
+    let first = bin_of(from_hz).max(1).min(bins.len() - 1);
+    let end = bin_of(to_hz).clamp(first + 1, bins.len());
+    let length = fast_length(2 * (end - first));
+    let mut band = vec![Complex::new(0.0, 0.0); length];
+    band[..end - first].copy_from_slice(&bins[first..end]);
+    FftPlanner::new()
+        .plan_fft_inverse(length)
+        .process(&mut band);
+    BandEnvelope {
+        start_s,
+        step_s: step_s * points as f64 / length as f64,
+        squared: band.iter().map(Complex::norm_sqr).collect(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
 
-use super::{AskedBand, Kinematics, StageError, UsedBand};
+use super::{AskedBand, Kinematics, StageError, UsedBand, WindowChange};
 use crate::case::Case;
 use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
 use crate::report::{Curve, Thinner};
@@ -91,6 +91,8 @@ pub struct WindowAnalysis {
     pub outer: Vec<(f64, Option<(f64, f64)>)>,
     /// Verdict on each part of the bearing, or why there is none.
     pub diagnosis: Result<Diagnosis, String>,
+    /// What changed since an earlier signal, where one was named.
+    pub change: Option<WindowChange>,
 }
 
 /// Analyses one sensor's signal in every window. `read` gives the stretch of it that holds a window (s), with
@@ -189,6 +191,7 @@ pub fn analyse(
                 smeared_above: smeared.then_some(sharp),
                 peaks,
                 diagnosis: diagnosis.map_err(|error| error.to_string()),
+                change: None,
             })
         })
         .collect()

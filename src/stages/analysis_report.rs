@@ -1,6 +1,7 @@
 //! What a report says of an analysed window, and the report of `plummer analyze`.
 
 use super::WindowAnalysis;
+use super::analysis_change_report::{change_headlines, change_section};
 use super::band_search_report::{band_facts, kurtogram_plot};
 use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict};
 use crate::report::{
@@ -24,6 +25,7 @@ pub fn analysis_report(
     let mut report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
     report = verdict_headlines(report, windows);
+    report = change_headlines(report, windows);
     for window in windows {
         if let Err(reason) = &window.diagnosis {
             report = report.warning(format!("{}: no verdict: {reason}", window.sensor));
@@ -85,9 +87,11 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         round(window.to)
     ));
     if let Ok(diagnosis) = &window.diagnosis {
-        section = section
-            .table(verdict_table(diagnosis))
-            .plot(order_plot(window, diagnosis));
+        section = section.table(verdict_table(diagnosis));
+        section = change_section(section, window);
+        section = section.plot(order_plot(window, diagnosis));
+    } else {
+        section = change_section(section, window);
     }
     let facts = [
         Fact::new(

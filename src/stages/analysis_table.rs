@@ -1,7 +1,7 @@
 //! Many analysed windows in one table: a row a window, or a row that says why there is none.
 
-use super::WindowAnalysis;
-use crate::diagnosis::{Conclusion, Fault};
+use super::{WindowAnalysis, WindowChange};
+use crate::diagnosis::{ChangeConclusion, Conclusion, Fault};
 use crate::report::{Cell, Column, Table};
 
 /// A row of the table.
@@ -34,6 +34,41 @@ pub struct WindowFigures {
     pub parts: Result<Vec<PartFigures>, String>,
     /// Impacts that belong to no part, in words.
     pub unexplained: Vec<String>,
+    /// What changed since an earlier signal, where one was named.
+    pub change: Option<ChangeFigures>,
+}
+
+/// Changes since an earlier signal in a few figures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChangeFigures {
+    /// The earlier signal's file or folder.
+    pub baseline: String,
+    /// Change of the RMS, dB, with its 95 % interval; `None` where there is none.
+    pub rms_db: [Option<f64>; 3],
+    /// Of each part that was judged: what is said of its change, and the change in dB with its 95 % interval.
+    pub parts: Vec<(Fault, ChangeConclusion, [Option<f64>; 3])>,
+    /// What grew, in words: parts, and impacts of no part.
+    pub grew: Vec<String>,
+}
+
+impl ChangeFigures {
+    fn of(change: &WindowChange) -> Self {
+        let figures = |change_db, [low, high]: [Option<f64>; 2]| [change_db, low, high];
+        let parts = change.lines.iter().filter_map(|line| {
+            let figures = figures(line.change_db, line.interval_db);
+            Some((line.fault?, line.conclusion, figures))
+        });
+        let grew = change.with(ChangeConclusion::Grew);
+        let rms = change.levels.first();
+        Self {
+            baseline: change.baseline.clone(),
+            rms_db: rms.map_or([None; 3], |rms| figures(rms.change_db, rms.interval_db)),
+            parts: parts.collect(),
+            grew: grew
+                .map(|line| format!("{} {}", line.name, line.words()))
+                .collect(),
+        }
+    }
 }
 
 /// What is said of a part in a few figures.
@@ -82,6 +117,7 @@ impl AnalysisRow {
                 kurtosis: window.kurtosis,
                 parts,
                 unexplained: unexplained.collect(),
+                change: window.change.as_ref().map(ChangeFigures::of),
             }),
         }
     }
@@ -146,7 +182,7 @@ impl WindowFigures {
     }
 }
 
-/// The table of the rows, in their order; numbers whole in files.
+/// The table of the rows, in their order; numbers whole in files. Where any has a change, columns of changes follow the others.
 #[must_use]
 pub fn analysis_table(rows: &[AnalysisRow]) -> Table {
     let mut columns = vec![
@@ -168,8 +204,48 @@ pub fn analysis_table(rows: &[AnalysisRow]) -> Table {
     }
     columns.push(Column::text("Impacts that belong to no part"));
     columns.push(Column::text("Remark"));
+    let change = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|found| found.change.is_some());
+    let compared = rows.iter().any(change);
+    if compared {
+        columns.push(Column::text("Baseline"));
+        for what in std::iter::once("RMS").chain(Fault::ALL.map(Fault::name)) {
+            if what != "RMS" {
+                columns.push(Column::text(format!("{what}: since the baseline")));
+            }
+            columns.push(Column::number(format!("{what}: change"), "dB"));
+            columns.push(Column::number(format!("{what}: change at least"), "dB"));
+            columns.push(Column::number(format!("{what}: change at most"), "dB"));
+        }
+    }
     let table = Table::new("Verdicts", columns);
-    rows.iter().fold(table, |table, row| table.row(cells(row)))
+    rows.iter().fold(table, |table, row| {
+        let mut cells = cells(row);
+        if compared {
+            cells.extend(change_cells(row));
+        }
+        table.row(cells)
+    })
+}
+
+fn change_cells(row: &AnalysisRow) -> Vec<Cell> {
+    let change = row
+        .found
+        .as_ref()
+        .ok()
+        .and_then(|found| found.change.as_ref());
+    let number =
+        |value: Option<f64>| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, 4));
+    let mut cells = vec![Cell::text(
+        change.map_or_else(String::new, |change| change.baseline.clone()),
+    )];
+    cells.extend(change.map_or([None; 3], |change| change.rms_db).map(number));
+    for fault in Fault::ALL {
+        let mut parts = change.into_iter().flat_map(|change| &change.parts);
+        let part = parts.find(|part| part.0 == fault);
+        cells.push(Cell::text(part.map_or("", |part| part.1.words())));
+        cells.extend(part.map_or([None; 3], |part| part.2).map(number));
+    }
+    cells
 }
 
 fn cells(row: &AnalysisRow) -> Vec<Cell> {

@@ -147,7 +147,7 @@ impl UsedBand {
 
     /// The band that a verdict is sought in, Hz: what was asked for and found; `None`: all.
     #[must_use]
-    pub(super) fn judged_hz(&self, asked: Option<AskedBand>) -> Option<[f64; 2]> {
+    pub fn judged_hz(&self, asked: Option<AskedBand>) -> Option<[f64; 2]> {
         match asked? {
             AskedBand::HighPass(corner) => Some([corner, f64::INFINITY]),
             AskedBand::Between(edges) => Some(edges),

@@ -5,6 +5,8 @@
 //! [`Watch`].
 
 mod analysis;
+mod analysis_change;
+mod analysis_change_report;
 mod analysis_report;
 mod analysis_survey;
 mod analysis_table;
@@ -78,9 +80,10 @@ mod tie_price;
 mod unfinished;
 
 pub use analysis::{AnalysisSettings, WindowAnalysis, analyse};
+pub use analysis_change::{EarlierSignal, WindowChange, compare_window};
 pub use analysis_report::analysis_report;
 pub use analysis_survey::{SHOWN_WINDOWS, survey_report, survey_section};
-pub use analysis_table::{AnalysisRow, PartFigures, WindowFigures, analysis_table};
+pub use analysis_table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures, analysis_table};
 pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
 pub use bearing_table::bearing_table;

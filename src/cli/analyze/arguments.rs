@@ -62,14 +62,25 @@ pub struct AnalyzeArguments {
     /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
     #[arg(long, value_name = "PART")]
     pub geometry_error: Option<f64>,
+    /// Earlier signal of the same machine, by the same sensor at the same place and gain: what grew since. Its channel is that of the same
+    /// name, else its only one
+    #[arg(long, value_name = "DIR|FILE")]
+    pub baseline: Option<PathBuf>,
+    /// Shaft speed in the baseline, as --speed (default: what its file or its run says; else --speed)
+    #[arg(long, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse, requires = "baseline")]
+    pub baseline_speed: Option<GivenSpeed>,
+    /// Stretch of the baseline in s (default: that of the input's window if one is given and the baseline holds it; else all of it)
+    #[arg(long, value_name = "FROM:TO", value_parser = window, requires = "baseline")]
+    pub baseline_window: Option<TimeWindow>,
 }
 
 impl AnalyzeArguments {
     /// What is read as it was typed, and more likely meant in another way.
     pub(super) fn doubts(&self) -> Vec<String> {
-        let speed = self.speed.as_ref().and_then(GivenSpeed::doubt);
+        let speeds = [self.speed.as_ref(), self.baseline_speed.as_ref()];
+        let speed = speeds.into_iter().flatten().filter_map(GivenSpeed::doubt);
         let orders = self.orders.as_ref().and_then(GivenOrders::doubt);
-        speed.into_iter().chain(orders).collect()
+        speed.chain(orders).collect()
     }
 }
 

@@ -35,6 +35,40 @@ pub enum AnalyzeError {
         /// As typed.
         found: String,
     },
+    /// A baseline without the channel that is analysed.
+    #[error("--baseline {}: expected a channel \"{channel}\", or one channel alone; found {} others", baseline.display(), known.len())]
+    BaselineChannel {
+        /// The baseline.
+        baseline: PathBuf,
+        /// Channel that is analysed.
+        channel: String,
+        /// Channels of the baseline.
+        known: Vec<String>,
+    },
+    /// A baseline in another unit.
+    #[error("--baseline {}, channel \"{channel}\": expected {expected} as in {}, found {found}", baseline.display(), input.display())]
+    BaselineUnit {
+        /// The baseline.
+        baseline: PathBuf,
+        /// Its channel.
+        channel: String,
+        /// The file that is analysed.
+        input: PathBuf,
+        /// Unit of that.
+        expected: String,
+        /// Unit of the baseline.
+        found: String,
+    },
+    /// A baseline that cannot be compared with.
+    #[error("--baseline {}, channel \"{channel}\": {why}", baseline.display())]
+    Baseline {
+        /// The baseline.
+        baseline: PathBuf,
+        /// Its channel.
+        channel: String,
+        /// What is wrong with it.
+        why: String,
+    },
     /// Things that nothing says.
     #[error("{}: nothing says {}", input.display(), listed(missing))]
     Missing {
@@ -58,6 +92,24 @@ impl AnalyzeError {
             Self::Damaged { .. } => {
                 Some("name the file of signals itself, with --bearing and --speed".to_owned())
             }
+            Self::BaselineChannel { known, .. } => {
+                let known: Vec<String> = known
+                    .iter()
+                    .take(LISTED)
+                    .map(|name| format!("\"{name}\""))
+                    .collect();
+                Some(format!(
+                    "--channel NAME of one that both have; the baseline has {}",
+                    known.join(", ")
+                ))
+            }
+            Self::BaselineUnit { .. } => {
+                Some("scale one of the two files to the unit of the other".to_owned())
+            }
+            Self::Baseline { .. } => Some(
+                "see --baseline-window and --baseline-speed for the part of it that counts"
+                    .to_owned(),
+            ),
             Self::NoRun { .. } | Self::CaseWithoutBearing { .. } => None,
         }
     }

@@ -23,6 +23,8 @@ pub(super) struct Machine {
     typed: Option<GivenSpeed>,
     of_case: Option<SpeedProfile>,
     catalogue: Option<String>,
+    /// Whether what a file states of its speed goes before what was typed.
+    pub(super) own_first: bool,
 }
 
 impl Machine {
@@ -70,6 +72,7 @@ impl Machine {
             typed: asked.speed.clone(),
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
             catalogue: catalogue.map(described),
+            own_first: false,
         })
     }
 
@@ -108,7 +111,8 @@ impl Machine {
         &self,
         signal: Option<&MeasuredSignal>,
     ) -> Option<(SpeedProfile, String)> {
-        if let Some(typed) = &self.typed {
+        let own_first = self.own_first && signal.and_then(own_speed).is_some();
+        if let Some(typed) = self.typed.as_ref().filter(|_| !own_first) {
             let words = format!("The shaft turns as --speed says: {}.", typed.text.trim());
             return Some((typed.profile.clone(), words));
         }

@@ -1,6 +1,7 @@
 //! `plummer analyze`: from signals to verdicts.
 
 mod arguments;
+mod baseline;
 mod bearing;
 mod each;
 mod error;
@@ -103,6 +104,15 @@ fn command(asked: &AnalyzeArguments) -> String {
     }
     for window in &asked.window {
         push("window", format!("{}:{}", window.from, window.to));
+    }
+    if let Some(path) = &asked.baseline {
+        words.push(format!("--baseline {}", file(path)));
+    }
+    if let Some(speed) = &asked.baseline_speed {
+        words.push(format!("--baseline-speed {}", shell_word(&speed.text)));
+    }
+    if let Some(window) = asked.baseline_window {
+        words.push(format!("--baseline-window {}:{}", window.from, window.to));
     }
     if asked.whiten {
         words.push("--whiten".to_owned());

@@ -4,15 +4,16 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::baseline::Baseline;
 use super::read::Unnamed;
 use super::source::Source;
 use super::{AnalyzeArguments, RESULT, command, write_table};
 use crate::cli::report_files::ReportFiles;
 use crate::cli::results::{stages_s, windows_json};
 use crate::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::diagnosis::Conclusion;
+use crate::diagnosis::{ChangeConclusion, Conclusion, change_words};
 use crate::report::significant;
-use crate::stages::{AnalysisRow, WindowAnalysis, analysis_report};
+use crate::stages::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
 
 /// Analyses an input into a folder.
 ///
@@ -28,11 +29,16 @@ pub(super) fn single(
     let progress = Progress::new(options.visibility());
     progress.stage("read");
     let source = Source::open(asked, input, Unnamed::Only, options)?;
+    let baseline = Baseline::open(asked, options)?;
     folder.claim(RESULT, options.force)?;
     progress.stage("analyse");
     let mut windows = Vec::new();
     for signal in &source.signals {
-        windows.extend(source.analyse(input, signal)?);
+        let mut analysed = source.analyse(input, signal)?;
+        if let Some(baseline) = &baseline {
+            baseline.compare(input, &source, signal, &mut analysed)?;
+        }
+        windows.extend(analysed);
     }
     progress.stage("write");
     let name = input.display().to_string();
@@ -106,6 +112,32 @@ pub(super) fn no_part_judged(reason: &str) -> Verdict {
     }
 }
 
+/// What grew, and the RMS.
+fn change_lines(change: &WindowChange) -> Vec<String> {
+    let mut lines: Vec<String> = change
+        .warnings
+        .iter()
+        .map(|text| format!("  warning: {text}"))
+        .collect();
+    let mut grew = change.with(ChangeConclusion::Grew).peekable();
+    if grew.peek().is_none() {
+        lines.push(format!("  nothing grew since {}", change.baseline));
+    }
+    lines.extend(grew.map(|line| {
+        format!(
+            "  {} grew since {}: {}",
+            line.name,
+            change.baseline,
+            line.words()
+        )
+    }));
+    if let Some(rms) = change.levels.first() {
+        let words = change_words(rms.change_db, rms.interval_db);
+        lines.push(format!("  RMS {}: {words}", rms.conclusion.words()));
+    }
+    lines
+}
+
 fn summary(windows: &[WindowAnalysis]) -> String {
     let mut lines = Vec::new();
     for window in windows {
@@ -131,6 +163,7 @@ fn summary(windows: &[WindowAnalysis]) -> String {
                 }
             }
         }
+        lines.extend(window.change.iter().flat_map(change_lines));
     }
     lines.join("\n")
 }

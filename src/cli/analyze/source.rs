@@ -106,6 +106,11 @@ impl Source {
         })
     }
 
+    /// Lets a speed that the file states go before one that was typed.
+    pub(super) fn prefer_own_speed(&mut self) {
+        self.machine.own_first = true;
+    }
+
     /// Analyses one of the signals in every window.
     ///
     /// # Errors
@@ -152,7 +157,11 @@ impl Source {
         }))
     }
 
-    fn kinematics(
+    /// How the machine of a signal of this file moves.
+    ///
+    /// # Errors
+    /// [`AnalyzeError::Missing`]: a signal without a speed, where another states one.
+    pub(super) fn kinematics(
         &self,
         input: &Path,
         signal: &MeasuredSignal,

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::{Value, json};
 
+use super::baseline::Baseline;
 use super::each::each;
 use super::failures::{Failure, failure};
 use super::read::Unnamed;
@@ -16,7 +17,7 @@ use crate::cli::report_files::ReportFiles;
 use crate::cli::results::{stages_s, window_json};
 use crate::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::report::Section;
-use crate::stages::{AnalysisRow, SHOWN_WINDOWS, survey_report, survey_section};
+use crate::stages::{AnalysisRow, SHOWN_WINDOWS, WindowAnalysis, survey_report, survey_section};
 
 /// What is kept of an input: what the table, the result and the report have of it.
 #[derive(Debug, Default)]
@@ -27,6 +28,7 @@ struct Analysed {
     rows: Vec<AnalysisRow>,
     windows: Vec<Value>,
     sections: Vec<Section>,
+    warnings: Vec<String>,
     failures: Vec<Failure>,
 }
 
@@ -41,13 +43,14 @@ pub(super) fn survey(
     folder: &OutputFolder,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
+    let baseline = Baseline::open(asked, options)?;
     folder.claim(RESULT, options.force)?;
     let progress = Progress::new(options.visibility());
     progress.stage("analyse");
     let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     progress.count(0, inputs.len());
     let analysed = each(inputs, |input| {
-        let analysed = Analysed::of(input, asked, options, &shown);
+        let analysed = Analysed::of(input, asked, options, baseline.as_ref(), &shown);
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.count(done, inputs.len());
         analysed
@@ -62,6 +65,7 @@ pub(super) fn survey(
         all.rows.extend(one.rows);
         all.windows.extend(one.windows);
         all.sections.extend(one.sections);
+        all.warnings.extend(one.warnings);
         all.failures.extend(one.failures);
         for text in one.assumptions {
             if !all.assumptions.contains(&text) {
@@ -81,6 +85,7 @@ pub(super) fn survey(
         &command(asked),
     );
     report.warnings.extend(asked.doubts());
+    report.warnings.extend(all.warnings);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let table = write_table(folder, &all.rows)?;
     let failures = all.failures.iter().map(|failure| {
@@ -114,7 +119,13 @@ pub(super) fn survey(
 
 impl Analysed {
     /// Reads and analyses an input. `shown` counts the windows of all inputs: a report shows few.
-    fn of(input: &Path, asked: &AnalyzeArguments, options: &Options, shown: &AtomicUsize) -> Self {
+    fn of(
+        input: &Path,
+        asked: &AnalyzeArguments,
+        options: &Options,
+        baseline: Option<&Baseline>,
+        shown: &AtomicUsize,
+    ) -> Self {
         let mut analysed = Self::default();
         let name = input.display().to_string();
         let source = match Source::open(asked, input, Unnamed::Every, options) {
@@ -126,7 +137,13 @@ impl Analysed {
         };
         let mut orders = None;
         for signal in &source.signals {
-            let windows = match source.analyse(input, signal) {
+            let compared = |mut windows: Vec<WindowAnalysis>| {
+                if let Some(baseline) = baseline {
+                    baseline.compare(input, &source, signal, &mut windows)?;
+                }
+                Ok::<_, CliError>(windows)
+            };
+            let windows = match source.analyse(input, signal).and_then(compared) {
                 Ok(windows) => windows,
                 Err(error) => {
                     analysed.fail(&name, &signal.name, &error);
@@ -135,6 +152,9 @@ impl Analysed {
             };
             for window in &windows {
                 analysed.rows.push(AnalysisRow::of(&name, window));
+                for text in window.change.iter().flat_map(|change| &change.warnings) {
+                    analysed.warnings.push(format!("{name}: {text}"));
+                }
                 let mut json = window_json(window);
                 json["input"] = json!(name);
                 analysed.windows.push(json);

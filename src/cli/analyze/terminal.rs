@@ -50,7 +50,22 @@ pub(super) fn table(rows: &[AnalysisRow]) -> String {
         }
         line.trim_end().to_owned()
     };
-    cells.iter().map(line).collect::<Vec<_>>().join("\n")
+    let mut lines: Vec<String> = cells.iter().map(line).collect();
+    lines.extend(rows.iter().filter_map(grown));
+    lines.join("\n")
+}
+
+/// What grew since the baseline, in a line.
+fn grown(row: &AnalysisRow) -> Option<String> {
+    let change = row.found.as_ref().ok()?.change.as_ref()?;
+    (!change.grew.is_empty()).then(|| {
+        let grew = change.grew.join(", ");
+        let text = format!(
+            "{} {}: grew since {}: {grew}",
+            row.input, row.channel, change.baseline
+        );
+        one_line(&text)
+    })
 }
 
 fn cells(row: &AnalysisRow) -> [String; 8] {
@@ -147,6 +162,7 @@ mod tests {
                 unit: "g".to_owned(),
                 kurtosis: Some(3.0),
                 parts,
+                change: None,
                 unexplained: vec!["88.20 Hz (order 2.945) with 4 harmonics".to_owned()],
             }),
         };

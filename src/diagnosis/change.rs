@@ -1,0 +1,354 @@
+//! What grew since an earlier signal of the same machine: the impacts of each part, in the band that shows them best now.
+//!
+//! Compared is the squared envelope of the band, of the signal as it is: whitening divides by the signal's own level and would hide what
+//! grew. The square, since it is linear in the power of what is added: a floor of noise that rises or falls leaves the lines of
+//! impacts as they were, where those of the envelope itself would sink in it. A line's amplitude in it is a power, so that the
+//! root of that is the level, and ten decibels of change are ten decibels of the impacts' amplitude.
+
+use super::angle_grid::AngleGrid;
+use super::comb_power::{Comb, Sought, Tooth};
+use super::compared_signal::ComparedSignal;
+use super::known::shaft_lines;
+use super::line_change::{ChangeConclusion, LineChange};
+use super::ratio_interval::{Scattered, interval_db};
+use super::stretch_spectrum::{StretchSpectrum, stretch_revolutions};
+use super::verdict::{FaultVerdict, Harmonic, UNSEEN_ABOVE, UnexplainedImpacts};
+use super::{Diagnosis, DiagnosisError, Fault};
+use crate::signal::RawSpectrum;
+
+/// Harmonics that are compared.
+const COMPARED_HARMONICS: u32 = 5;
+/// Fewest lines of a comb: one alone may be anything.
+const LEAST_TEETH: usize = 2;
+/// Fewest revolutions of a window.
+const FEWEST_REVOLUTIONS: f64 = 8.0;
+
+/// One of the two signals with what is computed once.
+struct Side<'a> {
+    compared: &'a ComparedSignal<'a>,
+    raw: RawSpectrum,
+    grid: AngleGrid,
+    revolutions: f64,
+}
+
+impl Side<'_> {
+    /// Spectra of the squared envelope of a band (Hz), and the band's mean square.
+    fn spectrum(
+        &self,
+        band_hz: [f64; 2],
+        highest: f64,
+    ) -> Result<(StretchSpectrum, f64), DiagnosisError> {
+        let envelope = self.raw.envelope(band_hz);
+        let means = self
+            .grid
+            .means(envelope.start_s, envelope.step_s, &envelope.squared);
+        // an envelope has nothing beyond the width of its band
+        let own = (band_hz[1] - band_hz[0]) / self.grid.fastest_hz;
+        let highest = highest.min(own);
+        let power = 0.5 * means.iter().sum::<f64>() / means.len() as f64;
+        let per_turn = self.grid.per_turn();
+        let spectrum = StretchSpectrum::new(&means, per_turn, highest, self.revolutions)?;
+        Ok((spectrum, power))
+    }
+}
+
+/// How the impacts of each part of a diagnosis, and of those that belong to none, changed since an earlier signal.
+///
+/// # Errors
+/// [`DiagnosisError`]: a shaft that rests or turns back in one of them.
+pub fn line_changes(
+    now: &ComparedSignal<'_>,
+    earlier: &ComparedSignal<'_>,
+    diagnosis: &Diagnosis,
+) -> Result<Vec<LineChange>, DiagnosisError> {
+    let parts = diagnosis
+        .faults
+        .iter()
+        .map(|v| Compared::part(v, now, earlier));
+    let others = diagnosis.unexplained.iter();
+    let others = others.map(|impacts| Compared::impacts(impacts, now, earlier));
+    let compared: Vec<Compared> = parts.chain(others).collect();
+    let orders = compared.iter().map(|compared| compared.order[0]);
+    let highest = (f64::from(COMPARED_HARMONICS) + 1.0) * orders.fold(1.0, f64::max);
+    let grids = [now.grid(highest)?, earlier.grid(highest)?];
+    let least = grids
+        .iter()
+        .fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
+    let revolutions = stretch_revolutions(least);
+    let [grid_now, grid_earlier] = grids;
+    let sides = [
+        Side {
+            compared: now,
+            raw: RawSpectrum::of(now.signal)?,
+            grid: grid_now,
+            revolutions,
+        },
+        Side {
+            compared: earlier,
+            raw: RawSpectrum::of(earlier.signal)?,
+            grid: grid_earlier,
+            revolutions,
+        },
+    ];
+    compared
+        .into_iter()
+        .map(|compared| compared.change(&sides, least, highest))
+        .collect()
+}
+
+/// What is compared.
+struct Compared {
+    fault: Option<Fault>,
+    name: String,
+    band_hz: Option<[f64; 2]>,
+    teeth: Vec<Tooth>,
+    /// Expected in each signal, this one first.
+    order: [f64; 2],
+    /// How far the order may be off.
+    reach: [f64; 2],
+    cage: Option<f64>,
+    /// Whether the verdict says that chance would not do it.
+    seen: bool,
+    /// Why it cannot be compared, if the verdict says so.
+    why_not: String,
+}
+
+impl Compared {
+    fn part(
+        verdict: &FaultVerdict,
+        now: &ComparedSignal<'_>,
+        earlier: &ComparedSignal<'_>,
+    ) -> Self {
+        let cage = now.orders.order(Fault::Cage);
+        let (by_cage, band_hz, harmonics) = match &verdict.cage_lines {
+            Some(lines) => (true, Some(lines.band_hz), &lines.harmonics),
+            None => (false, verdict.band_hz, &verdict.harmonics),
+        };
+        let fault = if by_cage { Fault::Cage } else { verdict.fault };
+        let spacing = cage.unwrap_or(0.0);
+        let expected = |signal: &ComparedSignal<'_>| {
+            signal.orders.order(fault).unwrap_or(verdict.expected_order)
+        };
+        let order = [expected(now), expected(earlier)];
+        let reach = |signal: &ComparedSignal<'_>, order: f64| {
+            (signal.orders.error(fault) + signal.speed_error) * order
+        };
+        let name = verdict.fault.name();
+        Self {
+            fault: Some(verdict.fault),
+            name: match by_cage {
+                true => format!("{name} by the cage's lines"),
+                false => name.to_owned(),
+            },
+            band_hz,
+            teeth: free_teeth(harmonics, spacing),
+            order,
+            reach: [reach(now, order[0]), reach(earlier, order[1])],
+            cage: cage.filter(|_| fault != Fault::Cage),
+            seen: verdict
+                .false_alarm
+                .is_some_and(|chance| chance < UNSEEN_ABOVE),
+            why_not: verdict.why.clone(),
+        }
+    }
+
+    fn impacts(
+        impacts: &UnexplainedImpacts,
+        now: &ComparedSignal<'_>,
+        earlier: &ComparedSignal<'_>,
+    ) -> Self {
+        let reach = |signal: &ComparedSignal<'_>| {
+            (signal.orders.error(Fault::OuterRace) + signal.speed_error) * impacts.order
+        };
+        let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth {
+            harmonic,
+            beside: 0.0,
+        });
+        Self {
+            fault: None,
+            name: format!("impacts at {:.2} Hz", impacts.frequency_hz),
+            band_hz: Some(impacts.band_hz),
+            teeth: teeth.collect(),
+            order: [impacts.order; 2],
+            reach: [reach(now), reach(earlier)],
+            cage: now.orders.order(Fault::Cage),
+            seen: true,
+            why_not: String::new(),
+        }
+    }
+
+    /// What is known before anything is compared.
+    fn not_compared(&self, why: String) -> LineChange {
+        LineChange {
+            fault: self.fault,
+            name: self.name.clone(),
+            conclusion: ChangeConclusion::NotCompared,
+            change_db: None,
+            interval_db: [None, None],
+            earlier: None,
+            now: None,
+            order_earlier: None,
+            order_now: None,
+            band_hz: self.band_hz,
+            band_change_db: None,
+            harmonics: Vec::new(),
+            why,
+        }
+    }
+
+    fn change(
+        &self,
+        sides: &[Side<'_>; 2],
+        least_turns: f64,
+        highest: f64,
+    ) -> Result<LineChange, DiagnosisError> {
+        let Some(band_hz) = self.band_hz else {
+            return Ok(self.not_compared(self.why_not.clone()));
+        };
+        if self.teeth.len() < LEAST_TEETH {
+            return Ok(self.not_compared(
+                "Other lines cover its first harmonics in this signal. A longer window separates more.".to_owned(),
+            ));
+        }
+        let end_hz = 0.5 * sides[1].compared.signal.rate_hz();
+        if band_hz[1] > end_hz * (1.0 + 1e-6) {
+            return Ok(self.not_compared(format!(
+                "The band that shows it is {:.0} to {:.0} Hz. The earlier signal ends at {end_hz:.0} Hz, half its sampling rate. A --band below that compares them.",
+                band_hz[0], band_hz[1]
+            )));
+        }
+        if least_turns < FEWEST_REVOLUTIONS {
+            return Ok(self.not_compared(format!(
+                "The shorter of the two windows has {least_turns:.1} revolutions. At least {FEWEST_REVOLUTIONS} are needed."
+            )));
+        }
+        let [now, earlier] = [0, 1].map(|place| self.found(&sides[place], place, band_hz, highest));
+        let (Some(now), Some(earlier)) = (now?, earlier?) else {
+            return Ok(self.not_compared(
+                "Multiples of the shaft's order cover its lines in one of the two signals. A longer window separates more.".to_owned(),
+            ));
+        };
+        let common: Vec<Tooth> = (self.teeth.iter().enumerate())
+            .filter(|(place, _)| now.comb.free.contains(place) && earlier.comb.free.contains(place))
+            .map(|(_, tooth)| *tooth)
+            .collect();
+        if common.len() < LEAST_TEETH {
+            return Ok(self.not_compared(
+                "Fewer than two of its harmonics are free of the shaft's multiples in both signals. A longer window separates more.".to_owned(),
+            ));
+        }
+        let power = |found: &Found| found.spectrum.comb_power(&common, found.comb.order);
+        let (Some(now_power), Some(earlier_power)) = (power(&now), power(&earlier)) else {
+            return Ok(self.not_compared(
+                "One of the two signals is silent in the band that shows it.".to_owned(),
+            ));
+        };
+        Ok(self.concluded(&common, [&now, &earlier], [&now_power, &earlier_power]))
+    }
+
+    fn found(
+        &self,
+        side: &Side<'_>,
+        place: usize,
+        band_hz: [f64; 2],
+        highest: f64,
+    ) -> Result<Option<Found>, DiagnosisError> {
+        let (spectrum, power) = side.spectrum(band_hz, highest)?;
+        let sought = Sought {
+            teeth: &self.teeth,
+            order: self.order[place],
+            reach: self.reach[place],
+            cage: self.cage,
+            speed_error: side.compared.speed_error,
+        };
+        let shaft = shaft_lines(spectrum.end(), sought.speed_error);
+        let Some(comb) = spectrum.best_comb(&sought, &shaft) else {
+            return Ok(None);
+        };
+        let chance = spectrum.chance(&sought, &comb);
+        Ok(Some(Found {
+            power,
+            spectrum,
+            comb,
+            chance,
+        }))
+    }
+
+    fn concluded(
+        &self,
+        common: &[Tooth],
+        [now, earlier]: [&Found; 2],
+        [now_power, earlier_power]: [&Scattered; 2],
+    ) -> LineChange {
+        let is_seen =
+            |found: &Found, power: &Scattered| found.chance < UNSEEN_ABOVE && power.above() > 0.0;
+        let seen_now = self.seen && is_seen(now, now_power);
+        let seen_earlier = is_seen(earlier, earlier_power);
+        // the envelope is squared
+        let level =
+            |seen: bool, power: &Scattered| seen.then(|| (2.0 * power.above()).sqrt().sqrt());
+        let mut harmonics: Vec<u32> = common.iter().map(|tooth| tooth.harmonic).collect();
+        harmonics.dedup();
+        let mut change = LineChange {
+            order_now: Some(now.comb.order),
+            order_earlier: Some(earlier.comb.order),
+            now: level(seen_now, now_power),
+            earlier: level(seen_earlier, earlier_power),
+            harmonics,
+            band_change_db: (now.power > 0.0 && earlier.power > 0.0)
+                .then(|| 10.0 * (now.power / earlier.power).log10()),
+            ..self.not_compared(String::new())
+        };
+        if !seen_now && !seen_earlier {
+            change.why = "Its lines are above the noise in neither signal.".to_owned();
+            return change;
+        }
+        let [low, high] = interval_db(now_power, earlier_power).map(|end| end.map(|db| 0.5 * db));
+        change.interval_db = [low.filter(|_| seen_now), high.filter(|_| seen_earlier)];
+        if seen_now && seen_earlier {
+            change.change_db = Some(5.0 * (now_power.above() / earlier_power.above()).log10());
+        }
+        change.conclusion = ChangeConclusion::of(change.interval_db);
+        change.why = self.why(&change, seen_now, seen_earlier);
+        change
+    }
+
+    fn why(&self, change: &LineChange, seen_now: bool, seen_earlier: bool) -> String {
+        let harmonics = change.harmonics.iter().map(ToString::to_string);
+        let harmonics = harmonics.collect::<Vec<_>>().join(", ");
+        let mut why = format!("Harmonics {harmonics} of the squared envelope are compared.");
+        if !seen_earlier {
+            why.push_str(" They are not above the noise in the earlier signal, so that this is a lower bound.");
+        }
+        if !seen_now {
+            why.push_str(
+                " They are not above the noise in this signal, so that this is an upper bound.",
+            );
+        }
+        if change.conclusion == ChangeConclusion::NotCertain {
+            why.push_str(" Longer windows would decide.");
+        }
+        why
+    }
+}
+
+/// A comb in one of the signals.
+struct Found {
+    /// Mean square of the band.
+    power: f64,
+    spectrum: StretchSpectrum,
+    comb: Comb,
+    chance: f64,
+}
+
+/// The first harmonics, with the lines beside them where they count, that coincide with nothing else in this signal.
+fn free_teeth(harmonics: &[Harmonic], spacing: f64) -> Vec<Tooth> {
+    harmonics
+        .iter()
+        .filter(|line| line.harmonic <= COMPARED_HARMONICS && line.coincides_with.is_none())
+        .map(|line| Tooth {
+            harmonic: line.harmonic,
+            beside: f64::from(line.side) * spacing,
+        })
+        .collect()
+}
