@@ -137,7 +137,7 @@ impl Search<'_> {
             && strength_db >= LEAST_CAGE_LINES_DB
             && evidence.seen >= LEAST_HARMONICS
             && evidence.first;
-        clear.then(|| CageLines {
+        clear.then_some(CageLines {
             false_alarm: chance,
             order: best.fit.order,
             frequency_hz: best.fit.order * self.speed_hz,
