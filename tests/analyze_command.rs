@@ -80,6 +80,28 @@ fn a_healthy_bearing_under_load_has_the_outer_races_line_and_no_fault() {
     assert!(outer.impulsiveness.unwrap() < 1.0, "{outer:#?}");
 }
 
+/// Under thirty times its weight its balls strike as they cross the play and enter the load. That is told from a dent by no signal.
+#[test]
+fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
+    let mut set = short(0.6);
+    set.push("shaft.loads=[{force=[0,-42.7]}]".to_owned());
+    for name in ["healthy", "outer-dent"] {
+        let loaded = window(name, &set);
+        assert_eq!(faults(&loaded), [""; 0], "{name}");
+        let outer = &loaded.diagnosis.unwrap().faults[0];
+        assert!(
+            outer
+                .why
+                .contains("This cannot be told from damage: the load is up to 30 times"),
+            "{name}: {}",
+            outer.why
+        );
+    }
+    // without play no ball strikes
+    set.push("bearing.radial_play=-1e-7".to_owned());
+    assert_eq!(faults(&window("outer-dent", &set)), ["outer race"]);
+}
+
 #[test]
 fn a_dent_in_the_inner_race_is_named() {
     assert_eq!(faults(&window("inner-dent", &short(0.3))), ["inner race"]);

@@ -7,7 +7,7 @@ use super::explain::{Found, Search};
 use super::findings::envelope_name;
 use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened, speed_of_races};
 use super::verdict::UnexplainedImpacts;
-use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders, FaultVerdict};
+use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::WhiteSpectrum;
 
@@ -140,6 +140,17 @@ impl Diagnosis {
     pub fn named(&self) -> impl Iterator<Item = &FaultVerdict> {
         let named = |verdict: &&FaultVerdict| verdict.conclusion == Conclusion::Named;
         self.faults.iter().filter(named)
+    }
+
+    /// Takes the indication of a fault back, for a reason that the signal does not know.
+    pub fn doubt(&mut self, fault: Fault, reason: &str) {
+        let indicated = |verdict: &&mut FaultVerdict| {
+            verdict.fault == fault && verdict.conclusion == Conclusion::Named
+        };
+        if let Some(verdict) = self.faults.iter_mut().find(indicated) {
+            verdict.conclusion = Conclusion::NotEnough;
+            verdict.why = format!("{} {reason}", verdict.why);
+        }
     }
 
     /// The verdict in a line.

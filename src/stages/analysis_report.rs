@@ -3,7 +3,7 @@
 use super::WindowAnalysis;
 use super::analysis_change_report::{change_headlines, change_section};
 use super::band_search_report::{band_facts, kurtogram_plot};
-use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict};
+use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW};
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
     Verdict, significant,
@@ -50,7 +50,10 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
                     "impacts at {} Hz belong to no part: check bearing and speed",
                     significant(impacts.frequency_hz, 4)
                 ),
-                (true, true, None) => "no fault indicated".to_owned(),
+                (true, true, None) => match uncertain(diagnosis).as_slice() {
+                    [] => "no fault indicated".to_owned(),
+                    parts => format!("not enough evidence: {}", parts.join(", ")),
+                },
                 (true, false, None) => "too short for a verdict".to_owned(),
             };
             let what = format!(
@@ -63,6 +66,16 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
         }
     }
     report
+}
+
+/// Parts whose lines chance does not make, and that are not indicated.
+fn uncertain(diagnosis: &Diagnosis) -> Vec<&'static str> {
+    let faults = diagnosis.faults.iter();
+    let uncertain = faults.filter(|verdict| {
+        verdict.conclusion == Conclusion::NotEnough
+            && verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW)
+    });
+    uncertain.map(|verdict| verdict.fault.name()).collect()
 }
 
 /// With a capital first letter.
