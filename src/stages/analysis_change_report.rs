@@ -1,14 +1,11 @@
 //! What a report says of a window beside an earlier signal.
 
+use super::analysis_report::{last_order, order_curve};
 use super::{WindowAnalysis, WindowChange};
 use crate::diagnosis::{ChangeConclusion, EnvelopeOrderSpectrum, change_words};
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Marker, Plot, Report, Section, Table, Verdict,
-    significant,
+    Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant,
 };
-
-/// Highest order that is drawn.
-const DRAWN_ORDERS: f64 = 16.0;
 
 /// What grew in each window, on top of a report, and what makes a comparison doubtful.
 pub(super) fn change_headlines(mut report: Report, windows: &[WindowAnalysis]) -> Report {
@@ -138,13 +135,6 @@ fn change_plot(
     [from_hz, to_hz]: [f64; 2],
     [now, earlier]: &[EnvelopeOrderSpectrum; 2],
 ) -> Plot {
-    let curve = |name: &str, spectrum: &EnvelopeOrderSpectrum| {
-        let step = spectrum.order.get(1).copied().unwrap_or(1.0);
-        let count = (DRAWN_ORDERS / step) as usize;
-        let drawn = spectrum.amplitude.iter().take(count).copied().collect();
-        let even = Abscissa::Even { start: 0.0, step };
-        Curve::new(name, even, drawn).style(CurveStyle::Line)
-    };
     let mut plot = Plot::new(
         format!(
             "Envelope of {} to {} Hz over the shaft's angle, earlier and now, {}",
@@ -152,11 +142,11 @@ fn change_plot(
             significant(to_hz, 4),
             window.sensor
         ),
-        Axis::new("Order", "").range(0.0, DRAWN_ORDERS),
+        Axis::new("Order", "").range(0.0, last_order(now)),
         Axis::new("Amplitude", &now.unit),
     )
-    .curve(curve("now", now))
-    .curve(curve("earlier", earlier))
+    .curve(order_curve("now", now))
+    .curve(order_curve("earlier", earlier))
     .caption("The band of the signals as they are, not whitened. Amplitudes of noise fall with the length of a window; those of lines do not.")
     .marker(Marker::new(1.0, "shaft").family(0));
     let faults = window.diagnosis.iter().flat_map(|found| &found.faults);

@@ -3,13 +3,15 @@
 use super::WindowAnalysis;
 use super::analysis_change_report::{change_headlines, change_section};
 use super::band_search_report::{band_facts, kurtogram_plot};
-use crate::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW};
+use crate::diagnosis::{
+    Conclusion, Diagnosis, EnvelopeOrderSpectrum, Fault, FaultVerdict, NAMED_BELOW,
+};
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
     Verdict, significant,
 };
 
-/// Highest order that is drawn at first: three harmonics of usual races.
+/// Highest order that is drawn: three harmonics of usual races.
 const DRAWN_ORDERS: f64 = 16.0;
 /// Points of an order spectrum that are drawn.
 const DRAWN_POINTS: usize = 20_000;
@@ -160,13 +162,33 @@ fn time_plot(window: &WindowAnalysis) -> Plot {
     plot.curve(signal).curve(envelope)
 }
 
+/// Where the drawing of an order spectrum ends.
+pub(super) fn last_order(spectrum: &EnvelopeOrderSpectrum) -> f64 {
+    spectrum
+        .order
+        .last()
+        .map_or(DRAWN_ORDERS, |last| last.min(DRAWN_ORDERS))
+}
+
+/// An order spectrum as it is drawn: of a long window, so many neighbours' largest each, so that no line is lost.
+pub(super) fn order_curve(name: &str, spectrum: &EnvelopeOrderSpectrum) -> Curve {
+    let step = spectrum.order.get(1).copied().unwrap_or(1.0);
+    let count = ((last_order(spectrum) / step) as usize + 1).min(spectrum.amplitude.len());
+    let group = count.div_ceil(DRAWN_POINTS).max(1);
+    let largest = |group: &[f64]| group.iter().fold(0.0_f64, |most, &value| most.max(value));
+    let drawn = spectrum.amplitude[..count]
+        .chunks(group)
+        .map(largest)
+        .collect();
+    let even = crate::report::Abscissa::Even {
+        start: 0.5 * (group - 1) as f64 * step,
+        step: group as f64 * step,
+    };
+    Curve::new(name, even, drawn).style(CurveStyle::Line)
+}
+
 fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     let spectrum = &diagnosis.spectrum;
-    let step = spectrum.order.get(1).copied().unwrap_or(1.0);
-    let count = ((DRAWN_ORDERS / step) as usize).min(DRAWN_POINTS);
-    let drawn: Vec<f64> = spectrum.amplitude.iter().take(count).copied().collect();
-    let last = step * drawn.len() as f64;
-    let even = crate::report::Abscissa::Even { start: 0.0, step };
     let mut plot = Plot::new(
         format!(
             "{} over the shaft's angle, {}, {}-{} s",
@@ -175,10 +197,10 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
             round(window.from),
             round(window.to)
         ),
-        Axis::new("Order", "").range(0.0, last),
+        Axis::new("Order", "").range(0.0, last_order(spectrum)),
         Axis::new("Amplitude", &spectrum.unit),
     )
-    .curve(Curve::new("envelope", even, drawn).style(CurveStyle::Line))
+    .curve(order_curve("envelope", spectrum))
     .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.");
     plot = plot.marker(Marker::new(1.0, "shaft").family(0));
     for family in families(diagnosis, 1.0) {
@@ -188,8 +210,10 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
         let order = place(verdict);
         let name = verdict.fault.name();
         plot = plot.marker(Marker::new(order, name).family(family));
-        for harmonic in verdict.harmonics.iter().filter(|h| h.side == 0).skip(1) {
-            if harmonic.order < last {
+        // where a part was not found its harmonics would only cover others
+        let found = verdict.harmonics.iter().filter(|h| h.side == 0);
+        for harmonic in found.skip(1).filter(|_| verdict.order.is_some()) {
+            if harmonic.order < last_order(spectrum) {
                 let label = format!("{}x {name}", harmonic.harmonic);
                 plot = plot.marker(Marker::new(harmonic.order, label).family(family));
             }
