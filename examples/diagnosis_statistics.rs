@@ -269,6 +269,7 @@ fn named(
         shown_band: Some(AskedBand::HighPass(5e3)),
         whiten: false,
         windows: vec![WINDOW],
+        entering_balls: None,
     };
     let read = |window: TimeWindow, margin_s: f64| {
         let span = signal.span();

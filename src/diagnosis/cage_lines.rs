@@ -42,7 +42,7 @@ impl Search<'_> {
                 Fault::Ball => {
                     verdict.conclusion = Conclusion::Named;
                     verdict.why = format!(
-                        "{} harmonics of the cage's line stand out by {:.0} dB on the average; probability by chance {}. One ball differs from the others: it is damaged, or of another size. Its own lines need not show, since its axis of spin wanders.",
+                        "{} harmonics of the cage's line stand out by {:.0} dB on the average; probability by chance {}. One ball differs from the others, by damage or size, unless something else of the machine turns or strikes at this order: a belt, another shaft, a rub. Its own lines need not show, since its axis of spin wanders.",
                         lines.harmonics_seen,
                         lines.strength_db,
                         probability(lines.false_alarm)

@@ -17,6 +17,16 @@ pub enum DiagnosisError {
     /// Nothing to judge.
     #[error("expected an envelope at least, found none")]
     NoEnvelope,
+    /// A sensor that is dead, or not connected.
+    #[error(
+        "from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel"
+    )]
+    Constant {
+        /// Start of the window, s.
+        from_s: f64,
+        /// End of the window, s.
+        to_s: f64,
+    },
     /// A shaft that rests or turns back: angle is no measure of progress then.
     #[error(
         "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"

@@ -33,7 +33,10 @@ pub struct LevelChange {
     pub conclusion: ChangeConclusion,
 }
 
-/// Changes of the RMS of the whole signal (first) and of each octave that both sampling rates reach, from the earlier window to that of this
+/// Sampling rates that differ by no more than this part are the same.
+const SAME_RATE: f64 = 1e-3;
+
+/// Changes of the RMS of the whole signal (first; without its mean; where sampling rates differ of what both reach) and of each octave that both sampling rates reach, from the earlier window to that of this
 /// signal (both in s, inside the series).
 ///
 /// Each window is cut into 20 blocks. The relative variance of their mean squares, over their number, is that of the mean; the interval is that of
@@ -55,11 +58,27 @@ pub fn level_changes(
         let squares: Vec<f64> = part.values().iter().map(|v| (v - mean).powi(2)).collect();
         scattered(&squares)
     };
-    let rms = [parts[0].rms(), parts[1].rms()];
-    let mut changes = vec![change(None, rms, &whole(&parts[0]), &whole(&parts[1]))];
     let spectra = [RawSpectrum::of(&parts[0])?, RawSpectrum::of(&parts[1])?];
     let least_s = parts[0].duration_s().min(parts[1].duration_s());
     let end_hz = 0.5 * parts[0].rate_hz().min(parts[1].rate_hz());
+    let within = |spectrum: &RawSpectrum, band_hz: [f64; 2]| {
+        let envelope = spectrum.envelope(band_hz);
+        // the mean square is half of the squared envelope
+        let squares: Vec<f64> = envelope.squared.iter().map(|v| 0.5 * v).collect();
+        scattered(&squares)
+    };
+    let same_rate = (parts[0].rate_hz() / parts[1].rate_hz() - 1.0).abs() < SAME_RATE;
+    let all = if same_rate {
+        [whole(&parts[0]), whole(&parts[1])]
+    } else {
+        let common_hz = [1.0 / least_s, end_hz];
+        [
+            within(&spectra[0], common_hz),
+            within(&spectra[1], common_hz),
+        ]
+    };
+    let rms = [all[0].power.sqrt(), all[1].power.sqrt()];
+    let mut changes = vec![change(None, rms, &all[0], &all[1])];
     let half = OCTAVE.sqrt();
     // an octave is as wide as its centre over the root of two
     let lowest_hz = LEAST_VALUES * BLOCKS as f64 / (least_s * (half - 1.0 / half));
@@ -67,12 +86,7 @@ pub fn level_changes(
     let (first, last) = (number(lowest_hz).ceil(), number(end_hz / half).floor());
     for place in first as i32..=last as i32 {
         let centre_hz = CENTRE_HZ * OCTAVE.powi(place);
-        let of = |spectrum: &RawSpectrum| {
-            let envelope = spectrum.envelope([centre_hz / half, centre_hz * half]);
-            // the mean square is half of the squared envelope
-            let squares: Vec<f64> = envelope.squared.iter().map(|v| 0.5 * v).collect();
-            scattered(&squares)
-        };
+        let of = |spectrum: &RawSpectrum| within(spectrum, [centre_hz / half, centre_hz * half]);
         let [now, earlier] = [of(&spectra[0]), of(&spectra[1])];
         let rms = [now.power.sqrt(), earlier.power.sqrt()];
         changes.push(change(Some(centre_hz), rms, &now, &earlier));

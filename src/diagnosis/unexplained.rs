@@ -83,12 +83,15 @@ impl Search<'_> {
     /// evidence for it.
     pub(super) fn is_related(&self, order: f64, resolution: f64, explained: &[Fault]) -> bool {
         let cage = self.orders.order(Fault::Cage);
-        let near = |line: f64, reach: f64| (order - line).abs() < reach + 3.0 * resolution;
-        // half and third revolutions: belts, rubs
-        if (1..=3).any(|n| {
-            let multiple = (order * f64::from(n)).round() / f64::from(n);
-            near(multiple, self.speed_error * order)
-        }) {
+        let near = |line: f64, reach: f64| (order - line).abs() < reach + resolution;
+        // strong lines of the shaft have feet; half and third revolutions: belts, rubs
+        let of_shaft = self.speed_error * order;
+        let part = |n: f64| (order * n).round() / n;
+        if near(part(1.0), of_shaft + 2.0 * resolution)
+            || near(part(2.0), of_shaft)
+            || near(part(3.0), of_shaft)
+            || cage.is_some_and(|cage| near(1.0 - cage, self.orders.error(Fault::Cage)))
+        {
             return true;
         }
         Fault::ALL.into_iter().any(|fault| {

@@ -334,9 +334,10 @@ pub(super) fn conclude(
         return not_enough("A longer window would decide.");
     }
     if seen < evidence.least.seen || !evidence.first {
-        return not_enough(
-            "Impacts show in several harmonics, the first or the second among them.",
-        );
+        return not_enough(&format!(
+            "That is too few: {} have to, the first or the second among them.",
+            evidence.least.seen
+        ));
     }
     if verdict
         .impulsiveness

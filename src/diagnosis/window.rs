@@ -67,6 +67,12 @@ impl Diagnosis {
     ) -> Result<Self, DiagnosisError> {
         let samples = signal.values().len();
         window.check_inside(signal.start_s(), signal.step_s(), samples)?;
+        if signal.window(window.from, window.to)?.kurtosis().is_none() {
+            return Err(DiagnosisError::Constant {
+                from_s: window.from,
+                to_s: window.to,
+            });
+        }
         let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
         let white = WhiteSpectrum::of(signal)?;

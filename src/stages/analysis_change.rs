@@ -117,6 +117,12 @@ pub fn compare_window(
             change.spectra = Some((band_hz, [now?, then?]));
         }
     }
+    if part.kurtosis().is_none() {
+        change.warnings.push(format!(
+            "The earlier signal, {}, is constant: nothing can be compared with it.",
+            change.channel
+        ));
+    }
     let ratio = change.speed_hz / window.speed_hz;
     if (ratio - 1.0).abs() > SAME_SPEED {
         change.warnings.push(format!(

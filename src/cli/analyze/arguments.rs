@@ -69,6 +69,12 @@ pub struct AnalyzeArguments {
     /// Shaft speed in the baseline, as --speed (default: what its file or its run says; else --speed)
     #[arg(long, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse, requires = "baseline")]
     pub baseline_speed: Option<GivenSpeed>,
+    /// Channel of the baseline (default: the one of the same name, else the only one)
+    #[arg(long, value_name = "NAME", requires = "baseline")]
+    pub baseline_channel: Option<String>,
+    /// Sampling rate of the baseline in Hz (default: what its file says, else --rate)
+    #[arg(long, value_name = "HZ", value_parser = positive, requires = "baseline")]
+    pub baseline_rate: Option<f64>,
     /// Stretch of the baseline in s (default: that of the input's window if one is given and the baseline holds it; else all of it)
     #[arg(long, value_name = "FROM:TO", value_parser = window, requires = "baseline")]
     pub baseline_window: Option<TimeWindow>,

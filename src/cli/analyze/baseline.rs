@@ -33,12 +33,22 @@ impl Baseline {
         // a run knows its speed itself
         let of_inputs = asked.speed.clone().filter(|_| !path.is_dir());
         let own = AnalyzeArguments {
-            channel: Vec::new(),
+            channel: asked.baseline_channel.iter().cloned().collect(),
             window: Vec::new(),
+            rate: asked.baseline_rate,
             speed: asked.baseline_speed.clone().or(of_inputs),
             ..asked.clone()
         };
-        let mut source = Source::open(&own, &path, Unnamed::Every, options)?;
+        let open = |own| Source::open(own, &path, Unnamed::Every, options);
+        let mut source = match (open(&own), asked.rate) {
+            (Ok(source), _) => source,
+            // a file that does not state its rate
+            (Err(_), Some(_)) if asked.baseline_rate.is_none() => open(&AnalyzeArguments {
+                rate: asked.rate,
+                ..own.clone()
+            })?,
+            (Err(error), _) => return Err(error),
+        };
         if asked.baseline_speed.is_none() {
             source.prefer_own_speed();
         }
@@ -89,9 +99,13 @@ impl Baseline {
                 channel: earlier.signal.name.clone(),
                 why: error.to_string(),
             })?;
-            if let Some(change) = window.change.as_mut().filter(|_| self.is(input)) {
+            let Some(change) = window.change.as_mut() else {
+                continue;
+            };
+            let apart = change.window.to <= window.from || window.to <= change.window.from;
+            if self.is(input) && !apart {
                 change.warnings.push(format!(
-                    "The baseline is the input itself, {name}: nothing can have grown since."
+                    "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
                 ));
             }
         }

@@ -69,6 +69,18 @@ pub enum AnalyzeError {
         /// What is wrong with it.
         why: String,
     },
+    /// A shaft that turns more than once in two samples.
+    #[error("{}, channel \"{channel}\": expected a shaft speed below half of the sampling rate, {rate_hz:e} Hz, found {speed_hz:e} Hz", input.display())]
+    TooFast {
+        /// The file or folder.
+        input: PathBuf,
+        /// Its channel.
+        channel: String,
+        /// Sampling rate, Hz.
+        rate_hz: f64,
+        /// Mean shaft speed, Hz.
+        speed_hz: f64,
+    },
     /// Things that nothing says.
     #[error("{}: nothing says {}", input.display(), listed(missing))]
     Missing {
@@ -99,9 +111,12 @@ impl AnalyzeError {
                     .map(|name| format!("\"{name}\""))
                     .collect();
                 Some(format!(
-                    "--channel NAME of one that both have; the baseline has {}",
+                    "--baseline-channel NAME; the baseline has {}",
                     known.join(", ")
                 ))
+            }
+            Self::TooFast { .. } => {
+                Some("check --speed and --rate, or what the file says".to_owned())
             }
             Self::BaselineUnit { .. } => {
                 Some("scale one of the two files to the unit of the other".to_owned())

@@ -111,6 +111,12 @@ fn command(asked: &AnalyzeArguments) -> String {
     if let Some(speed) = &asked.baseline_speed {
         words.push(format!("--baseline-speed {}", shell_word(&speed.text)));
     }
+    if let Some(channel) = &asked.baseline_channel {
+        words.push(format!("--baseline-channel {}", shell_word(channel)));
+    }
+    if let Some(rate) = asked.baseline_rate {
+        words.push(format!("--baseline-rate {rate}"));
+    }
     if let Some(window) = asked.baseline_window {
         words.push(format!("--baseline-window {}:{}", window.from, window.to));
     }

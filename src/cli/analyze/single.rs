@@ -121,7 +121,13 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
         .collect();
     let mut grew = change.with(ChangeConclusion::Grew).peekable();
     if grew.peek().is_none() {
-        lines.push(format!("  nothing grew since {}", change.baseline));
+        let compared = change.lines.iter().any(|line| line.change_db.is_some());
+        let what = if compared {
+            "nothing grew since"
+        } else {
+            "the lines of no part can be compared with"
+        };
+        lines.push(format!("  {what} {}", change.baseline));
     }
     lines.extend(grew.map(|line| {
         format!(

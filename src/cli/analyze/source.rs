@@ -171,6 +171,18 @@ impl Source {
             input: input.to_owned(),
             missing: vec![Missing::Speed],
         })?;
+        let (series, speed_hz) = (
+            &signal.series,
+            kinematics.mean_speed_hz(signal.series.span()),
+        );
+        if speed_hz.is_nan() || speed_hz >= 0.5 * series.rate_hz() {
+            return Err(AnalyzeError::TooFast {
+                input: input.to_owned(),
+                channel: signal.name.clone(),
+                rate_hz: series.rate_hz(),
+                speed_hz,
+            });
+        }
         Ok(kinematics)
     }
 }
