@@ -911,7 +911,7 @@ fn what_grew_since_a_baseline_is_said() {
         (
             "two.csv",
             &[][..],
-            "error: --baseline two.csv: expected a channel \"P1\", or one channel alone; found 2 others\nhelp: --channel NAME of one that both have; the baseline has \"P2\", \"P3\"\n",
+            "error: --baseline two.csv: expected a channel \"P1\", or one channel alone; found 2 others\nhelp: --baseline-channel NAME; the baseline has \"P2\", \"P3\"\n",
         ),
         (
             "metric.csv",
@@ -932,4 +932,60 @@ fn what_grew_since_a_baseline_is_said() {
     }
     let output = analyze(&["now.csv"], &["--baseline-window", "1:2"]);
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+    // another name, and a sensor that is dead
+    let named = analyze(
+        &["now.csv"],
+        &[
+            "--baseline",
+            "two.csv",
+            "--baseline-channel",
+            "P2",
+            "--json",
+        ],
+    );
+    assert_eq!(json(&named)["windows"][0]["changes"]["channel"], "P2");
+    let rows = (0..4000).map(|k| format!("{},0\n", f64::from(k) / 1e3));
+    let dead = format!("time,P1 (g)\n{}", rows.collect::<String>());
+    fs::write(folder.join("dead.csv"), dead).unwrap();
+    let said = analyze(&["now.csv"], &["--baseline", "dead.csv"]);
+    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert!(
+        said.contains("warning: The earlier signal, P1, is constant: nothing can be compared"),
+        "{said}"
+    );
+    assert!(
+        said.contains("the lines of no part can be compared with dead.csv"),
+        "{said}"
+    );
+    assert!(!said.contains("nothing grew"), "{said}");
+    let dead = analyze(&["dead.csv"], &[]);
+    assert_eq!(dead.status.code(), Some(1));
+    assert!(
+        errors(&dead).contains("expected a signal that changes, found a constant"),
+        "{}",
+        errors(&dead)
+    );
+}
+
+#[test]
+fn a_shaft_faster_than_the_samples_is_refused() {
+    let folder = scratch("analyze-fast");
+    fs::write(folder.join("now.csv"), rings("time,P1", 1.0, 4000, 1)).unwrap();
+    for speed in ["1e9", "0:30,20:1e300"] {
+        let words = [
+            "analyze",
+            "now.csv",
+            "--orders",
+            "outer=3.585",
+            "--speed",
+            speed,
+        ];
+        let output = plummer(&folder, &words);
+        assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+        assert!(
+            errors(&output).contains("expected a shaft speed below half of the sampling rate"),
+            "{}",
+            errors(&output)
+        );
+    }
 }
