@@ -192,6 +192,24 @@ mod tests {
         assert!((180..=199).contains(&hits), "{hits}");
     }
 
+    /// White noise of one density has half of its power below half of the frequency.
+    #[test]
+    fn of_two_sampling_rates_what_both_reach_is_compared() {
+        let now = noise(3, 1.0, 0.0);
+        let mut half = Noise(4);
+        let values = (0..20_000)
+            .map(|_| 0.5_f64.sqrt() * half.normal())
+            .collect();
+        let earlier = TimeSeries::new(0.0, 1.0 / 10e3, "g", values).unwrap();
+        let changes = level_changes((&now, now.span()), (&earlier, earlier.span())).unwrap();
+        // the scatter of 20 000 squares is 0.06 dB
+        assert!(
+            changes[0].change_db.unwrap().abs() < 0.25,
+            "{:?}",
+            changes[0]
+        );
+    }
+
     #[test]
     fn silence_is_not_compared() {
         let silent = TimeSeries::new(0.0, 1e-3, "g", vec![0.0; 5000]).unwrap();
