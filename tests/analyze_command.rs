@@ -932,6 +932,21 @@ fn what_grew_since_a_baseline_is_said() {
     }
     let output = analyze(&["now.csv"], &["--baseline-window", "1:2"]);
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+    // a rate that is typed is not the baseline's where that has times, and lost samples stay an error
+    let typed = ["--rate", "16000", "--baseline"];
+    let slow = analyze(
+        &["now.csv"],
+        &[&typed[..], &["slow.csv", "--json"]].concat(),
+    );
+    let changes = &json(&slow)["windows"][0]["changes"];
+    assert!(changes["to"].as_f64().unwrap() > 3.9, "{changes:#}");
+    let whole = rings("time,P1 (g)", 1.0, 16_000, 7);
+    let gap = whole.lines().enumerate();
+    let gap = gap.filter(|(line, _)| !(9000..9100).contains(line));
+    let gap: Vec<&str> = gap.map(|(_, text)| text).collect();
+    write("gap.csv", &gap.join("\n"));
+    let lost = analyze(&["now.csv"], &[&typed[..], &["gap.csv"]].concat());
+    assert_eq!(lost.status.code(), Some(2), "{}", errors(&lost));
     // another name, and a sensor that is dead
     let named = analyze(
         &["now.csv"],

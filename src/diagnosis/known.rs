@@ -79,7 +79,7 @@ pub(super) struct Impacts<'a> {
     pub(super) order: f64,
     /// Order of the cage.
     pub(super) cage: Option<f64>,
-    /// Whether they are those of a race: a race passes the cage's load only as the balls differ.
+    /// Whether they are those of a race, whose sidebands at the cage's distance are weaker than their carriers.
     pub(super) of_race: bool,
 }
 

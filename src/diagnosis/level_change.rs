@@ -36,8 +36,8 @@ pub struct LevelChange {
 /// Sampling rates that differ by no more than this part are the same.
 const SAME_RATE: f64 = 1e-3;
 
-/// Changes of the RMS of the whole signal (first; without its mean; where sampling rates differ of what both reach) and of each octave that both sampling rates reach, from the earlier window to that of this
-/// signal (both in s, inside the series).
+/// Changes of the RMS from the earlier window to that of this signal (both in s, inside the series). The first is of the whole signal without its
+/// mean. Where sampling rates differ it is of what both reach. The others are of each octave that both reach.
 ///
 /// Each window is cut into 20 blocks. The relative variance of their mean squares, over their number, is that of the mean; the interval is that of
 /// the ratio of two gamma variables of such variances. Blocks that are alike by luck are allowed for, a level that drifts within the window

@@ -3,13 +3,19 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::read::Unnamed;
+use super::read::{Unnamed, read};
 use super::source::Source;
-use super::{AnalyzeArguments, AnalyzeError};
+use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::cli::{CliError, Options};
-use crate::exchange::MeasuredSignal;
+use crate::exchange::{MeasuredSignal, SignalRequest};
 use crate::series::TimeWindow;
-use crate::stages::{EarlierSignal, WindowAnalysis, compare_window};
+use crate::stages::{EarlierSignal, StageError, WindowAnalysis, compare_window};
+
+/// Whether a file of signals has instants or a sampling rate.
+fn states_its_rate(path: &Path) -> Result<bool, CliError> {
+    let found = read(path, SignalRequest::default(), Unnamed::Every).map_err(StageError::from)?;
+    Ok(!found.missing.contains(&Missing::Rate))
+}
 
 /// The signals of `--baseline`, read once for all inputs.
 pub(super) struct Baseline {
@@ -30,25 +36,20 @@ impl Baseline {
         let Some(path) = asked.baseline.clone() else {
             return Ok(None);
         };
+        let mut rate = asked.baseline_rate;
+        if rate.is_none() && asked.rate.is_some() && !path.is_dir() && !states_its_rate(&path)? {
+            rate = asked.rate;
+        }
         // a run knows its speed itself
         let of_inputs = asked.speed.clone().filter(|_| !path.is_dir());
         let own = AnalyzeArguments {
             channel: asked.baseline_channel.iter().cloned().collect(),
             window: Vec::new(),
-            rate: asked.baseline_rate,
+            rate,
             speed: asked.baseline_speed.clone().or(of_inputs),
             ..asked.clone()
         };
-        let open = |own| Source::open(own, &path, Unnamed::Every, options);
-        let mut source = match (open(&own), asked.rate) {
-            (Ok(source), _) => source,
-            // a file that does not state its rate
-            (Err(_), Some(_)) if asked.baseline_rate.is_none() => open(&AnalyzeArguments {
-                rate: asked.rate,
-                ..own.clone()
-            })?,
-            (Err(error), _) => return Err(error),
-        };
+        let mut source = Source::open(&own, &path, Unnamed::Every, options)?;
         if asked.baseline_speed.is_none() {
             source.prefer_own_speed();
         }
