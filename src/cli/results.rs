@@ -141,6 +141,7 @@ pub(super) fn window_json(window: &WindowAnalysis) -> Value {
             "speed_hz": diagnosis.speed_hz,
             "given_speed_hz": diagnosis.given_speed_hz,
             "speed_relative_error": diagnosis.speed_error,
+            "speed_source": diagnosis.speed_source,
             "faults": diagnosis.faults,
             "unexplained": diagnosis.unexplained,
         }),

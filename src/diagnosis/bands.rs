@@ -5,8 +5,11 @@ use rayon::prelude::*;
 use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
 use super::line_spectrum::{LineSpectrum, REVOLUTIONS, stretches};
+use crate::series::TimeSeries;
 use crate::signal::WhiteSpectrum;
 
+/// The lowest frequency of a band over the highest at which a part strikes: an envelope needs a carrier that is faster than it.
+const LOWEST_CARRIER: f64 = 2.0;
 /// Times that the whole band is halved; for a window of one stretch of revolutions less often, since every band is one more
 /// chance to be misled by its few bins.
 const LEVELS: u32 = 3;
@@ -40,6 +43,19 @@ pub(super) struct BandSpectrum {
     pub(super) band_hz: [f64; 2],
     pub(super) kind: EnvelopeKind,
     pub(super) lines: LineSpectrum,
+}
+
+/// The band that is searched (Hz): as asked for, else from the lowest carrier of events at `strikes_hz` on.
+pub(super) fn searched_band(
+    asked_hz: Option<[f64; 2]>,
+    signal: &TimeSeries,
+    strikes_hz: f64,
+) -> [f64; 2] {
+    let end_hz = 0.5 * signal.rate_hz();
+    match asked_hz {
+        Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
+        None => [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz],
+    }
 }
 
 /// The whole band, its halves, quarters and eighths, and those halfway between them, no narrower than `narrowest` (Hz).

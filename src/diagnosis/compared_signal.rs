@@ -1,7 +1,7 @@
 //! A signal that is compared with another: its window, the angle of its shaft, its orders.
 
 use super::angle_grid::AngleGrid;
-use super::window::sharpened_speed;
+use super::shaft_speed::ShaftSpeed;
 use super::{Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{RawSpectrum, WhiteSpectrum};
@@ -52,7 +52,7 @@ impl<'a> ComparedSignal<'a> {
         let samples = signal.values().len();
         window.check_inside(signal.start_s(), signal.step_s(), samples)?;
         let white = WhiteSpectrum::of(signal)?;
-        let speed = sharpened_speed(signal, &white, within_hz, window, &turns, &orders)?;
+        let speed = ShaftSpeed::of(signal, &white, within_hz, window, &turns, &orders)?;
         let given_hz = (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
         Ok(Self {
             signal,

@@ -44,15 +44,6 @@ impl Search<'_> {
             .max_by(|&a, &b| ends(&self.spectra[a]).total_cmp(&ends(&self.spectra[b])))
             .unwrap_or(0);
         let ends = ends(&self.spectra[widest]);
-        let why = if ends < LEAST_FREE as f64 * expected {
-            format!(
-                "The envelope's spectrum ends at order {ends:.1}, below the third harmonic of this part. A higher sampling rate is needed."
-            )
-        } else {
-            format!(
-                "Fewer than {LEAST_FREE} of the first harmonics are free of other lines. A longer window separates more."
-            )
-        };
         let candidate = Candidate {
             fault: Some(fault),
             fit: Fit {
@@ -64,9 +55,17 @@ impl Search<'_> {
             beside: None,
             relative_reach: 0.0,
         };
+        let harmonics = self.part_harmonics(&candidate, fault, known);
+        let why = if ends < LEAST_FREE as f64 * expected {
+            format!(
+                "The envelope's spectrum ends at order {ends:.1}, below the third harmonic of this part. A higher sampling rate is needed."
+            )
+        } else {
+            covered(&harmonics)
+        };
         FaultVerdict {
             why,
-            harmonics: self.part_harmonics(&candidate, fault, known),
+            harmonics,
             ..self.empty(fault, expected)
         }
     }
@@ -178,6 +177,19 @@ impl Search<'_> {
         }
         found
     }
+}
+
+/// Which lines hide those of a part; the table of harmonics has them all.
+fn covered(harmonics: &[Harmonic]) -> String {
+    let mut hidden = harmonics.iter().filter_map(|harmonic| {
+        let other = harmonic.coincides_with.as_ref()?;
+        Some(format!("{} coincides with {other}", harmonic.name))
+    });
+    let first = hidden.next().unwrap_or_default();
+    let others = hidden.count();
+    format!(
+        "Fewer than {LEAST_FREE} of the first harmonics are free of other lines: {first}, and {others} others do so. Only a window that is long enough to separate them would tell."
+    )
 }
 
 /// Strength of a comb whose harmonics count with the sidebands that are seen. The load sees a flaw of the inner race once a revolution, or

@@ -50,6 +50,8 @@ mod tests_change;
 #[cfg(test)]
 mod tests_races;
 #[cfg(test)]
+mod tests_speed;
+#[cfg(test)]
 mod tests_unexplained;
 mod unexplained;
 mod verdict;
@@ -68,10 +70,11 @@ pub use line_change::{
     AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange, change_words,
 };
 pub use order_spectrum::EnvelopeOrderSpectrum;
+pub use shaft_speed::SpeedSource;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,
     LEAST_CAGE_STRENGTH_DB, LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS,
     LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB, LEAST_STRENGTH_DB, NAMED_BELOW, SideLine,
     UNSEEN_ABOVE, UnexplainedImpacts, probability,
 };
-pub use window::{Diagnosis, SpeedSource};
+pub use window::Diagnosis;

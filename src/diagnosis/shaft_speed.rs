@@ -1,17 +1,22 @@
 //! The shaft's speed, sharpened by the lines that it leaves in a signal and in its envelope.
 
+use serde::Serialize;
+
 use super::angle_grid::AngleGrid;
-use super::bands::BandSpectrum;
+use super::bands::{BandSpectrum, searched_band};
+use super::comb::SHOWN_HARMONICS;
 use super::control::ByChance;
 use super::fault::{Fault, FaultOrders};
 use super::line_spectrum::LineSpectrum;
 use super::verdict::FaultVerdict;
 use super::{Conclusion, DiagnosisError, LEAST_SHORT_HARMONICS};
+use crate::series::{TimeSeries, TimeWindow};
+use crate::signal::WhiteSpectrum;
 
 /// Largest relative error of a speed that is looked for: a motor's nominal speed under load.
 const LARGEST_ERROR: f64 = 0.03;
 /// Relative uncertainty of a speed that the signal does not show.
-pub(super) const UNSEEN_ERROR: f64 = 3e-3;
+const UNSEEN_ERROR: f64 = 3e-3;
 /// Revolutions of a stretch whose spectra are averaged.
 const REVOLUTIONS: f64 = 256.0;
 /// Fewest revolutions: the lines of fewer are no sharper than the speed is known.
@@ -34,21 +39,86 @@ const CERTAIN_BELOW: f64 = 1e-6;
 /// Orders of both races sum up to the number of balls within this part of it: printed orders are rounded.
 const WHOLE: f64 = 5e-3;
 
-/// The speed that the signal shows.
+/// How well the shaft's speed is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum SpeedSource {
+    /// Exactly: a simulation's.
+    #[serde(rename = "exact")]
+    Exact,
+    /// As given, and the signal's own lines do not show it better.
+    #[serde(rename = "given")]
+    Given,
+    /// As given, sharpened by the shaft's lines in the signal.
+    #[serde(rename = "shaft lines")]
+    Sharpened,
+    /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
+    #[serde(rename = "lines of both races")]
+    Races,
+}
+
+impl SpeedSource {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Given => "as given: the signal's lines do not confirm it",
+            Self::Sharpened => "by the shaft's lines",
+            Self::Races => "by the lines of both races",
+        }
+    }
+}
+
+/// The shaft's speed over the given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SpeedFit {
+pub(super) struct ShaftSpeed {
     /// Over the speed that was given.
     pub(super) factor: f64,
     /// Relative uncertainty.
     pub(super) error: f64,
+    pub(super) source: SpeedSource,
+}
+
+impl ShaftSpeed {
+    /// The speed as given, sharpened by the shaft's lines in the signal and in its envelope where they show and orders are not exact.
+    pub(super) fn of(
+        signal: &TimeSeries,
+        white: &WhiteSpectrum,
+        asked_hz: Option<[f64; 2]>,
+        window: TimeWindow,
+        turns: impl Fn(f64) -> f64,
+        orders: &FaultOrders,
+    ) -> Result<Self, DiagnosisError> {
+        let as_given = |error, source| Self {
+            factor: 1.0,
+            error,
+            source,
+        };
+        if orders.is_exact() {
+            return Ok(as_given(0.0, SpeedSource::Exact));
+        }
+        let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
+        let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
+        let strikes_hz = orders.highest() * grid.fastest_hz;
+        let envelope = white.envelope(searched_band(asked_hz, signal, strikes_hz));
+        let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
+        let shown = sharpened(
+            &grid,
+            &[
+                (signal.start_s(), signal.step_s(), signal.values()),
+                (envelope.start_s, envelope.step_s, &magnitude),
+            ],
+        )?;
+        Ok(shown.unwrap_or_else(|| as_given(UNSEEN_ERROR, SpeedSource::Given)))
+    }
 }
 
 /// Sharpens the speed by the comb of the shaft's multiples in the spectra of `series` (start and step in s, values). `None` where the
 /// window is short or the lines do not show.
-pub(super) fn sharpened(
+fn sharpened(
     grid: &AngleGrid,
     series: &[(f64, f64, &[f64])],
-) -> Result<Option<SpeedFit>, DiagnosisError> {
+) -> Result<Option<ShaftSpeed>, DiagnosisError> {
     if grid.turns() < FEWEST_REVOLUTIONS {
         return Ok(None);
     }
@@ -110,8 +180,11 @@ pub(super) fn sharpened(
     // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
     let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
     Ok(
-        (chance < SEEN_BELOW && sharper && high - low < LARGEST_ERROR)
-            .then_some(SpeedFit { factor, error }),
+        (chance < SEEN_BELOW && sharper && high - low < LARGEST_ERROR).then_some(ShaftSpeed {
+            factor,
+            error,
+            source: SpeedSource::Sharpened,
+        }),
     )
 }
 
@@ -121,7 +194,7 @@ pub(super) fn speed_of_races(
     faults: &[FaultVerdict],
     orders: &FaultOrders,
     spectra: &[BandSpectrum],
-) -> Option<SpeedFit> {
+) -> Option<ShaftSpeed> {
     let balls = orders.order(Fault::OuterRace)? + orders.order(Fault::InnerRace)?;
     let off = balls / balls.round() - 1.0;
     if off.abs() > WHOLE {
@@ -138,8 +211,9 @@ pub(super) fn speed_of_races(
     let lines = &spectra.first()?.lines;
     let of_a_race = lines.resolution / f64::from(lines.harmonics);
     let error = std::f64::consts::SQRT_2 * of_a_race / balls.round();
-    (error < UNSEEN_ERROR).then_some(SpeedFit {
+    (error < UNSEEN_ERROR).then_some(ShaftSpeed {
         factor: sum / balls.round(),
         error,
+        source: SpeedSource::Races,
     })
 }

@@ -6,7 +6,7 @@ use super::*;
 use crate::closed_form::race::{BallRow, DefectOrders};
 use crate::series::TimeSeries;
 
-const RATE: f64 = 32e3;
+pub(super) const RATE: f64 = 32e3;
 const RESONANCE: f64 = 8e3;
 
 /// 9 balls of 7.94 mm on 39.04 mm: orders 3.585 (outer), 5.415 (inner), 4.713 (ball), 0.398 (cage).
@@ -150,33 +150,6 @@ fn a_ball_is_named_and_the_cage_that_carries_it_is_not() {
     assert!(ball.side_lines.iter().filter(|line| line.seen).count() >= 4);
     let cage = verdict(&found, Fault::Cage);
     assert_ne!(cage.conclusion, Conclusion::Named);
-}
-
-/// A bearing that is not the one that was named, or a wrong speed, is no clean bill of health.
-/// A nominal speed 1.2 % above the true one: the shaft's own lines say so.
-#[test]
-fn the_shafts_lines_sharpen_the_speed() {
-    let orders = bearing();
-    let mut values = struck(4.4, steady, orders.outer, |_| 1.0);
-    // unbalance, misalignment and what goes with them
-    for (k, value) in values.iter_mut().enumerate() {
-        let turn = TAU * steady(k as f64 / RATE);
-        *value += (1..=8).map(|k| (f64::from(k) * turn).cos()).sum::<f64>();
-    }
-    let series = with_noise(&values, 0.3, 22);
-    let found = judged(&series, |t| 1.012 * steady(t), &orders, 0.01);
-    assert_eq!(found.speed_source, SpeedSource::Sharpened);
-    assert!(
-        (found.speed_hz / 25.0 - 1.0).abs() < found.speed_error,
-        "{found:#?}"
-    );
-    // the resolution of 110 revolutions over eight lines, and as much again for lines that are a bin wide
-    assert!(found.speed_error < 5e-3, "{}", found.speed_error);
-    assert!((found.given_speed_hz - 25.3).abs() < 1e-9);
-    // without them nothing is sharpened, and the search is wider
-    let series = with_noise(&vec![0.0; series.values().len()], 1.0, 23);
-    let found = judged(&series, steady, &orders, 0.01);
-    assert_eq!(found.speed_source, SpeedSource::Given);
 }
 
 /// Lines that are certain and weak: five harmonics of a hundredth of the noise each, for ten seconds.

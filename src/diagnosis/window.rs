@@ -1,31 +1,15 @@
 //! What is said of a window of a signal.
 
 use super::angle_grid::AngleGrid;
-use super::bands::{Spectra, band_spectra};
+use super::bands::{Spectra, band_spectra, searched_band};
 use super::comb::SHOWN_HARMONICS;
 use super::explain::{Found, Search};
 use super::findings::envelope_name;
-use super::shaft_speed::{SpeedFit, UNSEEN_ERROR, sharpened, speed_of_races};
+use super::shaft_speed::{ShaftSpeed, SpeedSource, speed_of_races};
 use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::WhiteSpectrum;
-
-/// The lowest frequency of a band over the highest at which a part strikes: an envelope needs a carrier that is faster than it.
-const LOWEST_CARRIER: f64 = 2.0;
-
-/// How well the shaft's speed is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SpeedSource {
-    /// Exactly: a simulation's.
-    Exact,
-    /// As given, and the signal's own lines do not show it better.
-    Given,
-    /// As given, sharpened by the shaft's lines in the signal.
-    Sharpened,
-    /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
-    Races,
-}
 
 /// What is said of a window.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +20,7 @@ pub struct Diagnosis {
     pub given_speed_hz: f64,
     /// Relative uncertainty of the speed.
     pub speed_error: f64,
-    /// Where it is from.
+    /// What shows it.
     pub speed_source: SpeedSource,
     /// The envelope that shows most.
     pub envelope: String,
@@ -51,7 +35,7 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// Judges a window (s) of a signal by the envelopes of its bands `within_hz` (Hz; `None`: all); `turns` is the shaft's angle at
+    /// Judges a window (s) of a signal by the envelopes of its bands within `asked_hz` (Hz; `None`: all); `turns` is the shaft's angle at
     /// a time, in turns. The signal may be longer than the window.
     ///
     /// An error of the orders of 0 means that the speed is exact as well.
@@ -60,7 +44,7 @@ impl Diagnosis {
     /// [`DiagnosisError`]: a shaft that rests or turns back, a window outside the signal or without samples.
     pub fn of(
         signal: &TimeSeries,
-        within_hz: Option<[f64; 2]>,
+        asked_hz: Option<[f64; 2]>,
         window: TimeWindow,
         turns: impl Fn(f64) -> f64,
         orders: &FaultOrders,
@@ -77,18 +61,13 @@ impl Diagnosis {
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
         let white = WhiteSpectrum::of(signal)?;
         let strikes_hz = orders.highest() * grid.fastest_hz;
-        let asked_hz = within_hz;
-        let within_hz = edges(
-            within_hz,
-            0.5 * signal.rate_hz(),
-            LOWEST_CARRIER * strikes_hz,
-        );
-        let mut speed = sharpened_speed(signal, &white, asked_hz, window, &turns, orders)?;
+        let within_hz = searched_band(asked_hz, signal, strikes_hz);
+        let mut speed = ShaftSpeed::of(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
         let given_speed_hz =
             (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-        let search = |speed: SharpenedSpeed| -> Result<(Spectra, Found), DiagnosisError> {
+        let search = |speed: ShaftSpeed| -> Result<(Spectra, Found), DiagnosisError> {
             let sharp = |time: f64| speed.factor * turns(time);
             let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
             let spectra = band_spectra(
@@ -114,7 +93,7 @@ impl Diagnosis {
         if speed.source == SpeedSource::Given
             && let Some(races) = speed_of_races(&found.faults, orders, &spectra.lines)
         {
-            speed = SharpenedSpeed::by(races, SpeedSource::Races);
+            speed = races;
             (spectra, found) = search(speed)?;
         }
         let sharp = |time: f64| speed.factor * turns(time);
@@ -159,6 +138,25 @@ impl Diagnosis {
         }
     }
 
+    /// Whether any part was judged: the window is long enough, and lines are free.
+    #[must_use]
+    pub fn is_judged(&self) -> bool {
+        let mut faults = self.faults.iter();
+        faults.any(|verdict| verdict.false_alarm.is_some())
+    }
+
+    /// Why it is no proof of health that nothing is indicated: no line shows that the given speed is right, and a wrong one hides faults.
+    #[must_use]
+    pub fn speed_doubt(&self) -> Option<String> {
+        let nothing = self.named().next().is_none() && self.unexplained.is_empty();
+        (nothing && self.is_judged() && self.speed_source == SpeedSource::Given).then(|| {
+            format!(
+                "no line of the signal confirms the speed of {:.2} Hz: a wrong one hides faults",
+                self.speed_hz
+            )
+        })
+    }
+
     /// The verdict in a line.
     #[must_use]
     pub fn sentence(&self) -> String {
@@ -187,85 +185,7 @@ impl Diagnosis {
                 impacts.frequency_hz, impacts.harmonics_seen
             )
         }));
+        parts.extend(self.speed_doubt());
         parts.join("; ")
     }
-}
-
-/// The band that is searched: as asked for, else from the lowest carrier on.
-fn edges(asked: Option<[f64; 2]>, end_hz: f64, lowest_hz: f64) -> [f64; 2] {
-    match asked {
-        Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
-        None => [lowest_hz.min(0.5 * end_hz), end_hz],
-    }
-}
-
-/// The shaft's speed over the given one, and how well it is known.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SharpenedSpeed {
-    pub(super) factor: f64,
-    pub(super) error: f64,
-    pub(super) source: SpeedSource,
-}
-
-impl SharpenedSpeed {
-    fn by(fit: SpeedFit, source: SpeedSource) -> Self {
-        Self {
-            factor: fit.factor,
-            error: fit.error,
-            source,
-        }
-    }
-}
-
-/// Sharpens the speed by the shaft's lines, where orders are not exact.
-pub(super) fn sharpened_speed(
-    signal: &TimeSeries,
-    white: &WhiteSpectrum,
-    within_hz: Option<[f64; 2]>,
-    window: TimeWindow,
-    turns: impl Fn(f64) -> f64,
-    orders: &FaultOrders,
-) -> Result<SharpenedSpeed, DiagnosisError> {
-    if orders.is_exact() {
-        return Ok(SharpenedSpeed {
-            factor: 1.0,
-            error: 0.0,
-            source: SpeedSource::Exact,
-        });
-    }
-    let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
-    let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
-    let strikes_hz = orders.highest() * grid.fastest_hz;
-    let within_hz = edges(
-        within_hz,
-        0.5 * signal.rate_hz(),
-        LOWEST_CARRIER * strikes_hz,
-    );
-    let fit = speed_fit(signal, white, within_hz, &grid)?;
-    Ok(match fit {
-        Some(fit) => SharpenedSpeed::by(fit, SpeedSource::Sharpened),
-        None => SharpenedSpeed {
-            factor: 1.0,
-            error: UNSEEN_ERROR,
-            source: SpeedSource::Given,
-        },
-    })
-}
-
-/// The shaft's lines in the signal and in its envelope.
-fn speed_fit(
-    signal: &TimeSeries,
-    white: &WhiteSpectrum,
-    within_hz: [f64; 2],
-    grid: &AngleGrid,
-) -> Result<Option<SpeedFit>, DiagnosisError> {
-    let envelope = white.envelope(within_hz);
-    let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
-    sharpened(
-        grid,
-        &[
-            (signal.start_s(), signal.step_s(), signal.values()),
-            (envelope.start_s, envelope.step_s, &magnitude),
-        ],
-    )
 }

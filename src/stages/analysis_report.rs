@@ -4,7 +4,7 @@ use super::WindowAnalysis;
 use super::analysis_change_report::{change_headlines, change_section};
 use super::band_search_report::{band_facts, kurtogram_plot};
 use crate::diagnosis::{
-    Conclusion, Diagnosis, EnvelopeOrderSpectrum, Fault, FaultVerdict, NAMED_BELOW,
+    Conclusion, Diagnosis, EnvelopeOrderSpectrum, Fault, FaultVerdict, NAMED_BELOW, SpeedSource,
 };
 use crate::report::{
     Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
@@ -45,14 +45,20 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
     for window in windows {
         if let Ok(diagnosis) = &window.diagnosis {
             let named: Vec<&str> = diagnosis.named().map(|v| v.fault.name()).collect();
-            let judged = diagnosis.faults.iter().any(|v| v.false_alarm.is_some());
-            let text = match (named.is_empty(), judged, diagnosis.unexplained.first()) {
+            let text = match (
+                named.is_empty(),
+                diagnosis.is_judged(),
+                diagnosis.unexplained.first(),
+            ) {
                 (false, ..) => format!("fault indicated: {}", named.join(", ")),
                 (true, _, Some(impacts)) => format!(
                     "impacts at {} Hz belong to no part: check bearing and speed",
                     significant(impacts.frequency_hz, 4)
                 ),
                 (true, true, None) => match uncertain(diagnosis).as_slice() {
+                    [] if diagnosis.speed_doubt().is_some() => {
+                        "no fault indicated at this speed, which no line confirms".to_owned()
+                    }
                     [] => "no fault indicated".to_owned(),
                     parts => format!("not enough evidence: {}", parts.join(", ")),
                 },
@@ -109,10 +115,7 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         section = change_section(section, window);
     }
     let facts = [
-        Fact::new(
-            "Mean shaft speed",
-            format!("{} Hz", significant(window.speed_hz, 4)),
-        ),
+        speed_fact(window),
         Fact::new("RMS", amount(window.rms)),
         Fact::new("Peak", amount(window.peak)),
         Fact::new(
@@ -150,6 +153,26 @@ pub(super) fn window_section(window: &WindowAnalysis) -> Section {
         Ok(diagnosis) => section.table(harmonic_table(diagnosis)),
         Err(reason) => section.paragraph(format!("No verdict: {reason}.")),
     }
+}
+
+/// The mean speed that the verdict rests on, and what shows it.
+fn speed_fact(window: &WindowAnalysis) -> Fact {
+    let name = "Mean shaft speed";
+    let hz = |speed_hz: f64| format!("{} Hz", significant(speed_hz, 5));
+    let Ok(diagnosis) = &window.diagnosis else {
+        return Fact::new(name, hz(window.speed_hz));
+    };
+    let shown = match diagnosis.speed_source {
+        SpeedSource::Sharpened | SpeedSource::Races => {
+            format!("; given: {}", hz(diagnosis.given_speed_hz))
+        }
+        SpeedSource::Exact | SpeedSource::Given => String::new(),
+    };
+    Fact::new(name, hz(diagnosis.speed_hz)).note(format!(
+        "{}, to {} %{shown}",
+        diagnosis.speed_source.words(),
+        significant(100.0 * diagnosis.speed_error, 1)
+    ))
 }
 
 fn time_plot(window: &WindowAnalysis) -> Plot {

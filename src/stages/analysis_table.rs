@@ -30,6 +30,8 @@ pub struct WindowFigures {
     pub unit: String,
     /// Kurtosis; `None` for a constant signal.
     pub kurtosis: Option<f64>,
+    /// Why it is no proof of health that nothing is indicated, where the signal does not confirm the speed.
+    pub speed_doubt: Option<String>,
     /// What is said of each part whose order is known, or why nothing is.
     pub parts: Result<Vec<PartFigures>, String>,
     /// Impacts that belong to no part, in words.
@@ -111,6 +113,7 @@ impl AnalysisRow {
             found: Ok(WindowFigures {
                 from: window.from,
                 to: window.to,
+                speed_doubt: diagnosis.ok().and_then(|found| found.speed_doubt()),
                 speed_hz: diagnosis.map_or(window.speed_hz, |found| found.speed_hz),
                 rms: window.rms,
                 unit: window.unit.clone(),
@@ -146,12 +149,12 @@ impl AnalysisRow {
         }
     }
 
-    /// Why there is no verdict; empty where there is one.
+    /// Why there is no verdict, or none to rely on; empty where there is one.
     #[must_use]
     pub fn remark(&self) -> &str {
         match &self.found {
             Ok(figures) => match &figures.parts {
-                Ok(_) if figures.is_judged() => "",
+                Ok(_) if figures.is_judged() => figures.speed_doubt.as_deref().unwrap_or(""),
                 Ok(_) => "too short for a verdict on any part",
                 Err(why) => why,
             },

@@ -11,7 +11,7 @@ use super::{AnalyzeArguments, RESULT, command, write_table};
 use crate::cli::report_files::ReportFiles;
 use crate::cli::results::{stages_s, windows_json};
 use crate::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::diagnosis::{ChangeConclusion, Conclusion, change_words};
+use crate::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 use crate::report::significant;
 use crate::stages::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
 
@@ -84,10 +84,7 @@ pub(super) fn single(
 
 fn judged(window: &WindowAnalysis) -> bool {
     let diagnosis = window.diagnosis.as_ref();
-    diagnosis.is_ok_and(|diagnosis| {
-        let mut faults = diagnosis.faults.iter();
-        faults.any(|verdict| verdict.false_alarm.is_some())
-    })
+    diagnosis.is_ok_and(Diagnosis::is_judged)
 }
 
 fn verdict(windows: &[WindowAnalysis]) -> Verdict {
@@ -106,7 +103,7 @@ pub(super) fn no_part_judged(reason: &str) -> Verdict {
     Verdict::Bad {
         what: format!("no part could be judged in any window: {reason}"),
         help: Some(
-            "take a longer --window, and check --speed: at least 16 events of a part are needed"
+            "where the window is too short, take a longer --window; where lines coincide, check --bearing or --orders, and --speed"
                 .to_owned(),
         ),
     }

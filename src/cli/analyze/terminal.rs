@@ -80,7 +80,7 @@ fn cells(row: &AnalysisRow) -> [String; 8] {
         }
     };
     let not_enough = match (&figures.parts, figures.is_judged()) {
-        (Ok(_), true) => unclear(figures),
+        (Ok(_), true) => unclear(figures, row.remark()),
         _ => one_line(row.remark()),
     };
     [
@@ -119,8 +119,8 @@ fn indicated(row: &AnalysisRow, figures: &WindowFigures) -> String {
     }
 }
 
-/// What is between, and impacts that belong to no part.
-fn unclear(figures: &WindowFigures) -> String {
+/// What is between, impacts that belong to no part, and a speed that nothing confirms.
+fn unclear(figures: &WindowFigures, remark: &str) -> String {
     let parts = figures
         .names(Conclusion::NotEnough)
         .into_iter()
@@ -129,7 +129,9 @@ fn unclear(figures: &WindowFigures) -> String {
         .unexplained
         .iter()
         .map(|text| format!("of no part: {text}"));
-    parts.chain(impacts).collect::<Vec<_>>().join(", ")
+    let remark = (!remark.is_empty()).then(|| one_line(remark));
+    let said = parts.chain(impacts).chain(remark);
+    said.collect::<Vec<_>>().join(", ")
 }
 
 /// A name or a message without what would break the line.
@@ -158,6 +160,7 @@ mod tests {
                 from: 0.0,
                 to: 10.0,
                 speed_hz: 29.953,
+                speed_doubt: None,
                 rms: 0.123_45,
                 unit: "g".to_owned(),
                 kurtosis: Some(3.0),

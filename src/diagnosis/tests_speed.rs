@@ -1,0 +1,60 @@
+//! The shaft's speed: sharpened by what a signal shows, doubted where it shows nothing.
+
+use std::f64::consts::TAU;
+
+use super::tests::{RATE, bearing, judged, named, steady, struck, with_noise};
+use super::*;
+
+/// A nominal speed 1.2 % above the true one: the shaft's own lines say so.
+#[test]
+fn the_shafts_lines_sharpen_the_speed() {
+    let orders = bearing();
+    let mut values = struck(4.4, steady, orders.outer, |_| 1.0);
+    // unbalance, misalignment and what goes with them
+    for (k, value) in values.iter_mut().enumerate() {
+        let turn = TAU * steady(k as f64 / RATE);
+        *value += (1..=8).map(|k| (f64::from(k) * turn).cos()).sum::<f64>();
+    }
+    let series = with_noise(&values, 0.3, 22);
+    let found = judged(&series, |t| 1.012 * steady(t), &orders, 0.01);
+    assert_eq!(found.speed_source, SpeedSource::Sharpened);
+    assert!(
+        (found.speed_hz / 25.0 - 1.0).abs() < found.speed_error,
+        "{found:#?}"
+    );
+    // the resolution of 110 revolutions over eight lines, and as much again for lines that are a bin wide
+    assert!(found.speed_error < 5e-3, "{}", found.speed_error);
+    assert!((found.given_speed_hz - 25.3).abs() < 1e-9);
+    // without them nothing is sharpened, and the search is wider
+    let series = with_noise(&vec![0.0; series.values().len()], 1.0, 23);
+    let found = judged(&series, steady, &orders, 0.01);
+    assert_eq!(found.speed_source, SpeedSource::Given);
+}
+
+/// A race's lines at a speed that is 1.8 % wrong are found neither at their order nor surely beside it.
+#[test]
+fn a_speed_that_no_line_confirms_is_said_where_nothing_is_indicated() {
+    let orders = bearing();
+    let doubt = |found: &Diagnosis| {
+        let said = found.sentence().contains("no line of the signal confirms");
+        assert_eq!(said, found.speed_doubt().is_some(), "{}", found.sentence());
+        said
+    };
+    let noise = with_noise(&vec![0.0; (4.4 * RATE) as usize], 1.0, 23);
+    assert!(doubt(&judged(&noise, steady, &orders, 0.01)));
+    // a simulation's speed needs no confirmation
+    assert!(!doubt(&judged(&noise, steady, &orders, 0.0)));
+    // nor does one at which a part is indicated
+    let outer = with_noise(&struck(1.2, steady, orders.outer, |_| 1.0), 0.1, 24);
+    let found = judged(&outer, steady, &orders, 0.01);
+    assert_eq!(
+        (found.speed_source, named(&found)),
+        (SpeedSource::Given, vec![Fault::OuterRace]),
+        "{}",
+        found.sentence()
+    );
+    assert!(!doubt(&found));
+    let wrong = judged(&outer, |t| 1.018 * steady(t), &orders, 0.01);
+    assert!(named(&wrong).is_empty() && wrong.unexplained.is_empty());
+    assert!(doubt(&wrong));
+}
