@@ -1,8 +1,11 @@
-//! Reading files that a user named: regular ones alone. A device or a pipe in their place could fill the memory or never answer.
+//! Files that a user named, read: regular ones alone, since a device or a pipe could fill the memory or never answer. Folders for
+//! results, made: no symbolic links, since these could lead elsewhere.
 
 use std::fs::{self, File};
-use std::io;
-use std::path::Path;
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
 
 /// Opens a regular file.
 ///
@@ -42,9 +45,64 @@ pub fn read_text(path: &Path) -> io::Result<String> {
     io::read_to_string(open(path)?)
 }
 
+/// SHA-256 (FIPS 180-4) of what a reader gives, to which more can be added.
+///
+/// # Errors
+/// What the system says.
+pub fn sha256(reader: impl io::Read) -> io::Result<Sha256> {
+    let mut hasher = Sha256::new();
+    let mut reader = BufReader::with_capacity(1 << 16, reader);
+    loop {
+        let piece = reader.fill_buf()?;
+        if piece.is_empty() {
+            return Ok(hasher);
+        }
+        hasher.update(piece);
+        let read = piece.len();
+        reader.consume(read);
+    }
+}
+
+/// A digest as 64 hexadecimal digits, as `sha256sum` prints it.
+pub fn hex(hasher: Sha256) -> String {
+    hasher
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}
+
+/// Checks that no symbolic link stands at a path; nothing may.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] for a link.
+pub fn no_link(path: &Path) -> io::Result<()> {
+    if path.is_symlink() {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "expected no symbolic link, which could lead out of the folder for results",
+        ));
+    }
+    Ok(())
+}
+
+/// Makes the folder `name`, and those between, below the folder `root`.
+///
+/// # Errors
+/// What the system says; [`io::ErrorKind::InvalidInput`] if one of them is a symbolic link.
+pub fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
+    let mut path = root.to_owned();
+    for part in name {
+        path.push(part);
+        no_link(&path)?;
+    }
+    fs::create_dir_all(&path)?;
+    Ok(path)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{read, read_text};
+    use super::{make_below, read, read_text};
     use std::path::Path;
 
     #[test]
@@ -61,5 +119,20 @@ mod tests {
         assert!(told(&folder.path().join("b")).starts_with("No such file"));
         std::fs::write(&file, b"\xff").unwrap();
         assert!(read_text(&file).is_err());
+    }
+
+    #[test]
+    fn folders_are_made_through_no_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (root, elsewhere) = (folder.path().join("out"), folder.path().join("elsewhere"));
+        std::fs::create_dir_all(&elsewhere).unwrap();
+        let made = make_below(&root, Path::new("a/b")).unwrap();
+        assert!(made.is_dir() && made == root.join("a/b"));
+        std::os::unix::fs::symlink(&elsewhere, root.join("c")).unwrap();
+        for name in ["c", "c/d"] {
+            let error = make_below(&root, Path::new(name)).unwrap_err();
+            assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput);
+        }
+        assert_eq!(elsewhere.read_dir().unwrap().count(), 0);
     }
 }

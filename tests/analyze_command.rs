@@ -331,7 +331,7 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         ),
         (
             plummer(&folder, &["analyze", "."]),
-            "error: . has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals\n",
+            "error: . has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals\nhelp: run `plummer run CASE.toml --out .` first\n",
         ),
     ] {
         assert_eq!(output.status.code(), Some(2), "{expected}");

@@ -267,8 +267,8 @@ fn results_that_do_not_fit_are_refused() {
     let folder = scratch("misfit");
     assert_eq!(
         refused(&folder, "export . --to vtu"),
-        "error: . has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
-         help: run `plummer modes CASE.toml --out .` first, or name the case file\n"
+        "error: . has no modes.json and modes.npz: expected a folder with results of `plummer modes`, or a case file\n\
+         help: run `plummer modes CASE.toml --out .` first\n"
     );
     good(&folder, "modes coupled.toml --quiet");
     let out = folder.join("out/coupled");

@@ -24,6 +24,7 @@ mod check;
 mod condense;
 mod decode;
 mod defect;
+mod digest;
 mod document;
 mod envelope_band;
 mod error;

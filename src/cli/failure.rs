@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::output::printable;
-use super::{AnalyzeError, ExportError, InitError, RecordError};
+use super::{AnalyzeError, ExportError, InitError, RecordError, ResultsError};
 use crate::case::CaseError;
 use crate::chart::ChartError;
 use crate::stages::StageError;
@@ -26,6 +26,15 @@ pub enum CliError {
         /// The result file.
         path: PathBuf,
     },
+    /// Another process writes into the folder.
+    #[error("another plummer writes into {}", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Earlier results that cannot be used.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
     /// The run that is to go on has ended.
     #[error("{} is the result of a finished run: there is nothing to go on with", path.display())]
     Finished {
@@ -160,6 +169,8 @@ impl CliError {
             | Self::Record(_)
             | Self::WrongInput { .. }
             | Self::ResultExists { .. }
+            | Self::Busy { .. }
+            | Self::Results(_)
             | Self::Folder { .. }
             | Self::Finished { .. }
             | Self::ResumeAnew => 2,
@@ -192,6 +203,10 @@ impl CliError {
             Self::Record(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::Sweep(error) => error.help(),
+            Self::Busy { .. } => {
+                Some("wait for its end, or choose another folder with --out".to_owned())
+            }
+            Self::Results(error) => Some(error.help()),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
@@ -226,8 +241,8 @@ mod tests {
 
     use super::super::analyze::Missing;
     use super::{
-        AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, SweepError,
-        VerificationError,
+        AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, ResultsError,
+        SweepError, VerificationError,
     };
     use crate::case::Case;
     use crate::exchange::DofTableError;
@@ -344,10 +359,21 @@ mod tests {
                  help: --to mtx and --to npz write matrices that are not condensed\n",
             ),
             (
-                CliError::from(ExportError::NoResults { folder: path() }),
+                CliError::from(ResultsError::Missing {
+                    folder: path(),
+                    command: "modes",
+                    arrays: "modes.npz",
+                    instead: "a case file",
+                }),
                 2,
-                "error: out/a has no modes.json: expected a case file or a folder with results of `plummer modes`\n\
-                 help: run `plummer modes CASE.toml --out out/a` first, or name the case file\n",
+                "error: out/a has no modes.json and modes.npz: expected a folder with results of `plummer modes`, or a case file\n\
+                 help: run `plummer modes CASE.toml --out out/a` first\n",
+            ),
+            (
+                CliError::Busy { path: path() },
+                2,
+                "error: another plummer writes into out/a\n\
+                 help: wait for its end, or choose another folder with --out\n",
             ),
             (
                 CliError::from(InitError::Exists {

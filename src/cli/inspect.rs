@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::{CliError, Options, Outcome, Verdict, write_atomic};
+use super::{CliError, Options, Outcome, OutputFolder, Verdict};
 use crate::report::significant;
 use crate::stages::{Inspection, StageError};
 use crate::units::LengthUnit;
@@ -39,16 +39,9 @@ pub fn inspect(
     }
     let mut written = Vec::new();
     if let Some(folder) = &options.out {
-        std::fs::create_dir_all(folder).map_err(|source| CliError::Folder {
-            path: folder.clone(),
-            source,
-        })?;
-        let path = folder.join("inspect.json");
-        if path.exists() && !options.force {
-            return Err(CliError::ResultExists { path });
-        }
-        write_atomic(&path, format!("{result:#}\n").as_bytes())?;
-        written.push(path);
+        let folder = OutputFolder::at(folder);
+        folder.claim("inspect", options.force)?;
+        written.push(folder.write("inspect.json", format!("{result:#}\n").as_bytes())?);
     }
     Ok(Outcome {
         summary: summary(path, &found, density),

@@ -1,11 +1,12 @@
-//! Ctrl-C and an end asked for by the system: the first asks a run to keep a checkpoint and stop, the second ends the program.
+//! Signals: Ctrl-C and an end asked for by the system, the first of which asks a run to keep a checkpoint and stop, the second ends the
+//! program; memory and file sizes that run out, which are failures like any other.
 
 use crate::stages::StopRequest;
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A request that the signals set. As long as nobody listens to it, a signal ends the program as if it were not caught.
 ///
@@ -21,4 +22,16 @@ pub(super) fn stop_request() -> io::Result<StopRequest> {
         flag::register(signal, Arc::clone(&stop.deaf))?;
     }
     Ok(stop)
+}
+
+/// Lets limits of the system end in exit code 1: an allocation that fails, which Rust answers by an abort after saying its size, and a
+/// file that may not grow further, which then fails like any other writing.
+///
+/// # Errors
+/// When the system does not let signals be caught.
+pub(super) fn fail_at_limits() -> io::Result<()> {
+    let always = Arc::new(AtomicBool::new(true));
+    flag::register_conditional_shutdown(SIGABRT, 1, Arc::clone(&always))?;
+    flag::register(SIGXFSZ, always)?;
+    Ok(())
 }

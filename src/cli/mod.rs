@@ -7,8 +7,10 @@ mod analyze;
 mod arguments;
 mod chart;
 mod condense;
+mod earlier_results;
 mod export;
 mod failure;
+mod folder_lock;
 mod frf;
 mod init;
 mod inspect;
@@ -35,6 +37,7 @@ use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
+pub use earlier_results::ResultsError;
 pub use export::ExportError;
 pub use failure::CliError;
 pub use init::{InitArguments, InitError};
@@ -57,7 +60,10 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    match execute(&arguments, &mut io::stdout().lock()) {
+    let done = interrupt::fail_at_limits()
+        .map_err(CliError::Signals)
+        .and_then(|()| execute(&arguments, &mut io::stdout().lock()));
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&mut io::stderr().lock());

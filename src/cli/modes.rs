@@ -1,5 +1,6 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
+use super::earlier_results::{ARRAYS, digests};
 use super::mode_checks::{check_lines, failures};
 use super::report_files::ReportFiles;
 use super::results::{modes_json, write_modes};
@@ -20,13 +21,14 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     let report = modes_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "modes", case, report, progress)?;
     let shapes = write_modes(&folder, &result)?;
-    let json = modes_json(
+    let mut json = modes_json(
         case,
         &result,
         progress,
         started.elapsed().as_secs_f64(),
         &files,
     );
+    json[ARRAYS] = digests(std::slice::from_ref(&shapes))?;
     let text = format!("{json:#}\n");
     let json_path = folder.write("modes.json", text.as_bytes())?;
     Ok(Outcome {

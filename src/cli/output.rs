@@ -5,9 +5,9 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{CliError, Options};
+use super::{CliError, Options, folder_lock};
 use crate::case::Case;
-use crate::exchange;
+use crate::{exchange, files};
 
 /// Text for a terminal: names of a case or a mesh may have control characters in them, which could rewrite what is shown. All but
 /// the ends of lines and tabs become the replacement character.
@@ -77,27 +77,43 @@ impl OutputFolder {
         &self.path
     }
 
-    /// Makes the folder and checks that no earlier result of the command would be replaced without `force`.
+    /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
     ///
     /// # Errors
-    /// [`CliError::ResultExists`] or [`CliError::Folder`].
+    /// [`CliError::ResultExists`], [`CliError::Busy`] or [`CliError::Folder`].
     pub fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
         self.claim_files(&[&format!("{command}.json")], force)
     }
 
-    /// Makes the folder and checks that none of these files would be replaced without `force`.
+    /// Makes the folder, takes it for this process and checks that none of these files would be replaced without `force`.
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
     pub fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
-        let mut paths = names.iter().map(|name| self.path.join(name));
-        if let Some(path) = paths.find(|path| !force && path.exists()) {
-            return Err(CliError::ResultExists { path });
-        }
         fs::create_dir_all(&self.path).map_err(|source| CliError::Folder {
             path: self.path.clone(),
             source,
-        })
+        })?;
+        self.lock()?;
+        let mut paths = names.iter().map(|name| self.path.join(name));
+        match paths.find(|path| !force && path.exists()) {
+            Some(path) => Err(CliError::ResultExists { path }),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
+    ///
+    /// # Errors
+    /// [`CliError::Busy`], [`CliError::Folder`].
+    pub fn lock(&self) -> Result<(), CliError> {
+        let path = self.path.clone();
+        match folder_lock::take(&path) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(CliError::Busy { path }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            Err(source) => Err(CliError::Folder { path, source }),
+        }
     }
 
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
@@ -121,13 +137,19 @@ impl OutputFolder {
     /// # Errors
     /// [`CliError::Folder`] or [`CliError::Write`].
     pub fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
-        if let Some(parent) = self.path.join(name).parent() {
-            fs::create_dir_all(parent).map_err(|source| CliError::Folder {
-                path: parent.to_owned(),
-                source,
-            })?;
-        }
+        self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
         self.write(name, bytes)
+    }
+
+    /// Makes a folder below this one; none between may be a symbolic link.
+    ///
+    /// # Errors
+    /// [`CliError::Folder`].
+    pub fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
+        files::make_below(&self.path, name).map_err(|source| CliError::Folder {
+            path: self.path.join(name),
+            source,
+        })
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.

@@ -90,14 +90,14 @@ impl ReportFiles {
             (FIGURES, ".svg", figures.collect()),
         ] {
             let path = folder.path().join(of);
+            if files.is_empty() && !path.exists() {
+                continue;
+            }
+            folder.make_below(Path::new(of))?;
             remove_earlier(&path, command, ending)?;
             if files.is_empty() {
                 continue;
             }
-            fs::create_dir_all(&path).map_err(|source| CliError::Folder {
-                path: path.clone(),
-                source,
-            })?;
             for (name, text) in files {
                 folder.write(&name, text.as_bytes())?;
             }

@@ -1,5 +1,6 @@
 //! Result files: `run.json`, `modes.json`, `signals.npz`.
 
+use super::earlier_results::CASE_DIGEST;
 use super::report_files::ReportFiles;
 use super::{CliError, OutputFolder, Progress};
 use crate::case::Case;
@@ -38,6 +39,7 @@ pub(super) fn common(
     map.insert("command".to_owned(), json!(command));
     map.insert("case".to_owned(), json!(case.source.path));
     map.insert("set".to_owned(), json!(case.source.set));
+    map.insert(CASE_DIGEST.to_owned(), json!(case.source.digest().ok()));
     map.insert("meshes".to_owned(), json!(meshes));
     map.insert("wall_s".to_owned(), json!(wall_s));
     map.insert("stages_s".to_owned(), stages_s(progress));

@@ -1,5 +1,6 @@
 //! `plummer run`: the simulation in time.
 
+use super::earlier_results::{ARRAYS, digests};
 use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
@@ -18,8 +19,9 @@ pub(super) const PARTIAL: &str = ".run.partial";
 /// Checks that there is an unfinished run to go on with.
 ///
 /// # Errors
-/// [`CliError::ResumeAnew`], [`CliError::Finished`], [`CliError::Stage`] if there never was one.
+/// [`CliError::Busy`], [`CliError::ResumeAnew`], [`CliError::Finished`], [`CliError::Stage`] if there never was one.
 pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
+    folder.lock()?;
     let (partial, finished) = (folder.path().join(PARTIAL), folder.path().join("run.json"));
     if force {
         Err(CliError::ResumeAnew)
@@ -69,13 +71,14 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     let command = options.command_line("run", case);
     let report = run_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "run", case, report, progress)?;
-    let json = run_json(
+    let mut json = run_json(
         case,
         &result,
         progress,
         started.elapsed().as_secs_f64(),
         &files,
     );
+    json[ARRAYS] = digests(&arrays)?;
     let text = format!("{json:#}\n");
     let json_path = folder.write("run.json", text.as_bytes())?;
     unfinished.remove().map_err(StageError::from)?;

@@ -25,7 +25,12 @@ impl AtomicFile {
             return Err(io::ErrorKind::InvalidFilename.into());
         }
         let partial = Self::partial_of(path);
-        let file = File::create(&partial)?;
+        // what an ended process left, or a link: neither is written through
+        match fs::remove_file(&partial) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let file = File::create_new(&partial)?;
         Ok(Self {
             path: path.to_owned(),
             partial,

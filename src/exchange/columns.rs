@@ -8,8 +8,10 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
 use thiserror::Error;
 
+use crate::files::{hex, no_link, sha256};
 use crate::system::{Column, RunRecord};
 
 /// Bytes a number.
@@ -26,6 +28,8 @@ pub struct ColumnFiles {
     balls: usize,
     rows: usize,
     files: Vec<(Column, File)>,
+    /// Of each file's rows.
+    hashers: Vec<Sha256>,
 }
 
 /// Why columns cannot be written or read.
@@ -95,7 +99,7 @@ impl ColumnFiles {
         rows: usize,
         options: &mut OpenOptions,
     ) -> Result<Self, ColumnError> {
-        let mut files = Vec::new();
+        let (mut files, mut hashers) = (Vec::new(), Vec::new());
         for column in Column::all(sensors.len()) {
             let path = folder.join(file_name(column));
             let failed = |source| ColumnError::Io {
@@ -103,6 +107,7 @@ impl ColumnFiles {
                 path: path.clone(),
                 source,
             };
+            no_link(&path).map_err(failed)?;
             let mut file = options.read(true).write(true).open(&path).map_err(failed)?;
             let (expected, found) = (
                 (rows * column.width(balls) * BYTES) as u64,
@@ -116,6 +121,7 @@ impl ColumnFiles {
                 });
             }
             file.set_len(expected).map_err(failed)?;
+            hashers.push(sha256(&file).map_err(failed)?);
             file.seek(SeekFrom::End(0)).map_err(failed)?;
             files.push((column, file));
         }
@@ -125,6 +131,7 @@ impl ColumnFiles {
             balls,
             rows,
             files,
+            hashers,
         })
     }
 
@@ -143,6 +150,15 @@ impl ColumnFiles {
         self.rows
     }
 
+    /// SHA-256 of the rows of all columns, 64 hexadecimal digits.
+    pub fn digest(&self) -> String {
+        let mut all = Sha256::new();
+        for hasher in &self.hashers {
+            all.update(hasher.clone().finalize());
+        }
+        hex(all)
+    }
+
     /// Appends rows of the same sensors and balls.
     ///
     /// # Errors
@@ -150,10 +166,11 @@ impl ColumnFiles {
     pub fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
         let places = 0..rows.rows();
         let mut bytes = Vec::new();
-        for (column, file) in &mut self.files {
+        for ((column, file), hasher) in self.files.iter_mut().zip(&mut self.hashers) {
             let values = &rows.column(*column)[column.places(&places, self.balls)];
             bytes.clear();
             bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+            hasher.update(&bytes);
             let written = file.write_all(&bytes);
             written.map_err(failure("write", &self.folder, *column))?;
         }
@@ -303,6 +320,16 @@ mod tests {
         let mut files = ColumnFiles::resume(folder.path(), names(), 2, 6).unwrap();
         files.append(&rows(6..8)).unwrap();
         assert_eq!(read(&files, 0..100), rows(0..8));
+        let digest = files.digest();
+        drop(files);
+        let again = || ColumnFiles::resume(folder.path(), names(), 2, 8).unwrap();
+        assert_eq!(again().digest(), digest);
+        let path = folder.path().join("sensor-1.f64");
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[17] ^= 1;
+        std::fs::write(&path, &bytes).unwrap();
+        assert_ne!(again().digest(), digest);
+        let files = again();
         drop(files);
         let error = ColumnFiles::resume(folder.path(), names(), 2, 9).unwrap_err();
         assert_eq!(

@@ -1,6 +1,6 @@
 //! Which mesh files a case rests on, told apart by their content.
 
-use std::io::{self, BufRead, BufReader};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -27,18 +27,7 @@ impl MeshDigest {
     /// # Errors
     /// What the system says when the file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
-        let mut hasher = Sha256::new();
-        let mut file = BufReader::with_capacity(1 << 16, files::open(path)?);
-        loop {
-            let piece = file.fill_buf()?;
-            if piece.is_empty() {
-                break;
-            }
-            hasher.update(piece);
-            let read = piece.len();
-            file.consume(read);
-        }
-        Ok(Self::of_hash(path, hasher))
+        Ok(Self::of_hash(path, files::sha256(files::open(path)?)?))
     }
 
     /// The digest of a file's content that is at hand.
@@ -50,10 +39,9 @@ impl MeshDigest {
     }
 
     fn of_hash(path: &Path, hasher: Sha256) -> Self {
-        let bytes = hasher.finalize();
         Self {
             path: path.to_owned(),
-            sha256: bytes.iter().map(|byte| format!("{byte:02x}")).collect(),
+            sha256: files::hex(hasher),
         }
     }
 }

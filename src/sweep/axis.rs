@@ -86,8 +86,14 @@ impl Axis {
     /// The key as a name for columns and arrays: `[0]` as `.0`, quotes left out.
     #[must_use]
     pub fn name(&self) -> String {
-        let dotted = self.key.replace('[', ".");
-        dotted.replace([']', '"', '\''], "")
+        plain_name(&self.key)
+    }
+
+    /// Whether this axis sets a key, or something that holds it.
+    pub(super) fn sets(&self, key: &str) -> bool {
+        let key = plain_name(key.trim());
+        let below = key.strip_prefix(&self.name());
+        below.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
     }
 
     /// The values as numbers; `None` unless all of them are finite ones.
@@ -221,6 +227,11 @@ fn text(value: f64, whole: bool) -> String {
     } else {
         format!("{value:?}")
     }
+}
+
+fn plain_name(key: &str) -> String {
+    let dotted = key.replace('[', ".");
+    dotted.replace([']', '"', '\''], "")
 }
 
 #[cfg(test)]

@@ -31,6 +31,14 @@ pub enum SweepError {
         /// The key.
         key: String,
     },
+    /// A key is varied whose value is given as well.
+    #[error("--vary {key}: --set {set} gives the same key one value")]
+    SetAndVaried {
+        /// The key.
+        key: String,
+        /// The `KEY=VALUE` argument.
+        set: String,
+    },
     /// No point is a valid case.
     #[error("no point of the sweep is a valid case; point {number}: {source}")]
     NoCase {
@@ -117,6 +125,7 @@ impl SweepError {
                     .to_owned(),
             ),
             Self::Twice { .. } => Some("put all its values into one --vary".to_owned()),
+            Self::SetAndVaried { .. } => Some("leave one of the two out".to_owned()),
             Self::NoCase { source, .. } => source.help(),
             Self::TooMany { .. } => Some("fewer values, or several sweeps".to_owned()),
             Self::InTheWay { .. } => Some(

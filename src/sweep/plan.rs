@@ -72,19 +72,24 @@ impl Plan {
     /// Plans a sweep of a case that has been read.
     ///
     /// # Errors
-    /// [`SweepError::NothingVaried`], [`SweepError::Twice`], [`SweepError::TooMany`]; [`SweepError::Stage`] for a mesh that
+    /// [`SweepError::NothingVaried`], [`SweepError::Twice`], [`SweepError::SetAndVaried`], [`SweepError::TooMany`]; [`SweepError::Stage`] for a mesh that
     /// cannot be read, [`SweepError::Io`] if the working folder is unknown.
     pub fn new(case: &Case, command: SweptCommand, axes: Vec<Axis>) -> Result<Self, SweepError> {
         if axes.is_empty() {
             return Err(SweepError::NothingVaried);
         }
         for (place, axis) in axes.iter().enumerate() {
-            if axes[..place]
-                .iter()
-                .any(|other| other.name() == axis.name())
-            {
-                return Err(SweepError::Twice {
-                    key: axis.key.clone(),
+            let key = || axis.key.clone();
+            let both = |other: &Axis| other.sets(&axis.key) || axis.sets(&other.key);
+            if axes[..place].iter().any(both) {
+                return Err(SweepError::Twice { key: key() });
+            }
+            let mut set = case.source.set.iter();
+            let set = set.find(|set| set.split_once('=').is_some_and(|(key, _)| axis.sets(key)));
+            if let Some(set) = set {
+                return Err(SweepError::SetAndVaried {
+                    key: key(),
+                    set: set.clone(),
                 });
             }
         }
@@ -238,6 +243,13 @@ mod tests {
         assert!(matches!(plan(&[]), Err(SweepError::NothingVaried)));
         let twice = plan(&["bearing.defects[0].depth=1", "bearing.defects.0.depth=2"]);
         assert!(matches!(twice, Err(SweepError::Twice { .. })));
+        // the case is set to three modes
+        for axis in ["modes.count=3,4", "modes=1,2"] {
+            let set = plan(&[axis]);
+            assert!(matches!(set, Err(SweepError::SetAndVaried { .. })), "{axis}");
+        }
+        let within = plan(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
+        assert!(matches!(within, Err(SweepError::Twice { .. })));
         let many = plan(&["ring.nodes=1:1000:1000", "bearing.balls=1:101:101"]);
         assert!(matches!(many, Err(SweepError::TooMany { .. })));
     }

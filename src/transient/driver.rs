@@ -48,6 +48,9 @@ pub enum Method {
 /// Least tolerance of a method with a step of its own: below this round-off alone would shorten the steps.
 pub const LEAST_TOLERANCE: f64 = 1e-14;
 
+/// Most steps in an output interval: the filter of each sensor has 28 numbers a step, 0.2 GB then.
+pub const MOST_STEPS_PER_INTERVAL: u32 = 1_000_000;
+
 /// When a run ends, how it is cut into steps, and how often it is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Schedule {
@@ -176,7 +179,14 @@ impl Schedule {
         // a step that fits a whole number of times up to round-off is kept as it is
         let steps = (interval / largest_step * (1.0 - 1e-9)).ceil().max(1.0);
         let intervals = (duration / interval * (1.0 - 1e-12)).ceil();
-        if steps > f64::from(u32::MAX) || intervals * steps > 1e15 {
+        if steps > f64::from(MOST_STEPS_PER_INTERVAL) {
+            return Err(TransientError::Schedule {
+                what: "step",
+                value: largest_step,
+                rule: "at least a millionth of the output interval, 1 / output_hz (stiff or strongly damped contacts shorten it)",
+            });
+        }
+        if intervals * steps > 1e15 {
             return Err(TransientError::Schedule {
                 what: "step",
                 value: largest_step,

@@ -8,7 +8,9 @@
 
 mod disk;
 mod kills;
+mod limits;
 mod mutations;
+mod neighbours;
 #[path = "../program/mod.rs"]
 mod program;
 mod replaced;

@@ -9,20 +9,6 @@ use crate::cli::init::bearing_names;
 /// Why there is nothing to analyse, or nothing to analyse it by.
 #[derive(Debug, Error)]
 pub enum AnalyzeError {
-    /// A folder without a run.
-    #[error("{} has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals", folder.display())]
-    NoRun {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// A run's result that does not say its case.
-    #[error("{}: expected the result of `plummer run`, with the path of its case, found {found}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What it has.
-        found: String,
-    },
     /// A case without a bearing.
     #[error("{}: expected a case with [bearing], found none", path.display())]
     CaseWithoutBearing {
@@ -101,9 +87,6 @@ impl AnalyzeError {
                 Some(lines.join("\n"))
             }
             Self::UnknownBearing { .. } => Some(format!("bearings: {}", bearing_names())),
-            Self::Damaged { .. } => {
-                Some("name the file of signals itself, with --bearing and --speed".to_owned())
-            }
             Self::BaselineChannel { known, .. } => {
                 let known: Vec<String> = known
                     .iter()
@@ -125,7 +108,7 @@ impl AnalyzeError {
                 "see --baseline-window and --baseline-speed for the part of it that counts"
                     .to_owned(),
             ),
-            Self::NoRun { .. } | Self::CaseWithoutBearing { .. } => None,
+            Self::CaseWithoutBearing { .. } => None,
         }
     }
 }

@@ -13,6 +13,8 @@ use crate::system::BearingSetup;
 
 /// Relative error of the orders of a real bearing: the contact angle under load and the cage's slip.
 const GEOMETRY_ERROR: f64 = 0.01;
+/// Rates and speeds that differ by less, relative, are the same: nominal speeds are rounded.
+const SAME: f64 = 0.01;
 
 /// A bearing and what is said of its shaft's speed.
 pub(super) struct Machine {
@@ -104,6 +106,43 @@ impl Machine {
             100.0 * orders.error(Fault::OuterRace)
         )]);
         Some((Kinematics::Given { orders, speed }, notes.collect()))
+    }
+
+    /// What is to be said where what was typed takes the place of what the file says of itself.
+    pub(super) fn overruled(
+        &self,
+        signal: &MeasuredSignal,
+        asked_rate: Option<f64>,
+    ) -> Vec<String> {
+        let differ = |typed: f64, own: f64| (typed / own - 1.0).abs() > SAME;
+        let hz = |value: f64| significant(value, 6);
+        let rate = asked_rate.zip(signal.own_rate_hz);
+        let rate = rate.filter(|&(typed, own)| differ(typed, own));
+        let rate = rate.map(|(typed, own)| {
+            format!(
+                "--rate takes {} Hz for what the file says are {} Hz",
+                hz(typed),
+                hz(own)
+            )
+        });
+        let speed = self.typed.as_ref().filter(|_| !self.own_first);
+        let speed = speed.zip(own_speed(signal)).map(|(typed, own)| {
+            let span = signal.series.span();
+            let turns = typed.profile.angle(span.to) - typed.profile.angle(span.from);
+            (
+                turns.abs() / std::f64::consts::TAU / (span.to - span.from),
+                own,
+            )
+        });
+        let speed = speed.filter(|&(typed, own)| differ(typed, own));
+        let speed = speed.map(|(typed, own)| {
+            format!(
+                "--speed takes {} Hz, on the average, for what the file says are {} Hz",
+                hz(typed),
+                hz(own)
+            )
+        });
+        rate.into_iter().chain(speed).collect()
     }
 
     /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.

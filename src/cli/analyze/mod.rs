@@ -37,16 +37,19 @@ const RESULT: &str = "analysis";
 /// # Errors
 /// [`CliError`] when the input is wrong or a file cannot be written.
 pub fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Outcome, CliError> {
-    if !options.quiet {
-        for text in asked.doubts() {
-            // nothing can be done about a closed standard error
-            let _ = emit(&mut io::stderr().lock(), &format!("warning: {text}"));
-        }
-    }
+    warn(&asked.doubts(), options);
     let folder = folder(asked, options);
     match asked.inputs.as_slice() {
         [input] => single::single(input, asked, options, &folder),
         inputs => survey::survey(inputs, asked, options, &folder),
+    }
+}
+
+/// Says warnings on standard error; reports have them too.
+fn warn(texts: &[String], options: &Options) {
+    for text in texts.iter().filter(|_| !options.quiet) {
+        // nothing can be done about a closed standard error
+        let _ = emit(&mut io::stderr().lock(), &format!("warning: {text}"));
     }
 }
 

@@ -16,6 +16,10 @@ const OTHER_NAMES: [(&str, usize, f64); 4] = [
     ("ftf", 3, 1.0),
 ];
 
+/// Orders that differ by less, relative, are equal.
+const SAME: f64 = 1e-6;
+/// Orders that differ by less, relative, are within each other's uncertainty.
+const NEAR: f64 = 0.01;
 /// How near an order of the ball must be to half or twice the expected one, relative.
 const SPIN_TOLERANCE: f64 = 0.03;
 
@@ -46,6 +50,12 @@ impl GivenOrders {
             }
         }
         FaultOrders::new(orders, 0.0).map_err(|error| error.to_string())?;
+        if let Some([first, second]) = nearest(&orders, SAME) {
+            return Err(format!(
+                "{} and {} are equal: lines of two parts at one order cannot be told apart",
+                NAMES[first], NAMES[second]
+            ));
+        }
         Ok(Self(orders))
     }
 
@@ -54,6 +64,14 @@ impl GivenOrders {
     /// cosine of the contact angle.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
+        if let Some([first, second]) = nearest(&self.0, NEAR) {
+            return Some(format!(
+                "the orders of {} and {} differ by less than {} %: their lines can hardly be told apart",
+                NAMES[first],
+                NAMES[second],
+                100.0 * NEAR
+            ));
+        }
         let [Some(outer), Some(inner), Some(ball), _] = self.0 else {
             return None;
         };
@@ -80,6 +98,16 @@ impl fmt::Display for GivenOrders {
         let known = known.filter_map(|(name, order)| Some(format!("{name}={}", order?)));
         to.write_str(&known.collect::<Vec<_>>().join(","))
     }
+}
+
+/// The first two orders that differ by less than a part of the larger one.
+fn nearest(orders: &[Option<f64>; 4], part: f64) -> Option<[usize; 2]> {
+    let pairs = (0..4).flat_map(|first| (first + 1..4).map(move |second| [first, second]));
+    let mut near = pairs.filter(|&[first, second]| {
+        let pair = orders[first].zip(orders[second]);
+        pair.is_some_and(|(a, b)| (a - b).abs() <= part * a.max(b))
+    });
+    near.next()
 }
 
 /// Place of a name in small letters, and what its number is multiplied by.
@@ -129,7 +157,11 @@ mod tests {
         for right in ["ball=4.7135", "bsf=2.357", "ball=3.8", "cage=0.4"] {
             assert_eq!(doubt(&format!("{races},{right}")), None, "{right}");
         }
-        assert_eq!(doubt("outer=3,inner=3,ball=4"), None);
+        assert_eq!(doubt("outer=3,inner=3.1,ball=4"), None);
+        assert_eq!(
+            doubt("outer=3.585,inner=3.6,ball=4").unwrap(),
+            "the orders of outer and inner differ by less than 1 %: their lines can hardly be told apart"
+        );
         assert_eq!(doubt("ball=2.357"), None);
     }
 
@@ -145,6 +177,11 @@ mod tests {
             (
                 "ball=4.714,bsf=2.357",
                 "ball (BSF) is there twice".to_owned(),
+            ),
+            (
+                "bpfo=3.585,cage=0.4,inner=3.585",
+                "outer and inner are equal: lines of two parts at one order cannot be told apart"
+                    .to_owned(),
             ),
             (
                 "outer=-1",

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::baseline::Baseline;
 use super::read::Unnamed;
 use super::source::Source;
-use super::{AnalyzeArguments, RESULT, command, write_table};
+use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::cli::report_files::ReportFiles;
 use crate::cli::results::{stages_s, windows_json};
 use crate::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
@@ -29,6 +29,7 @@ pub(super) fn single(
     let progress = Progress::new(options.visibility());
     progress.stage("read");
     let source = Source::open(asked, input, Unnamed::Only, options)?;
+    warn(&source.overruled, options);
     let baseline = Baseline::open(asked, options)?;
     folder.claim(RESULT, options.force)?;
     progress.stage("analyse");
@@ -44,6 +45,7 @@ pub(super) fn single(
     let name = input.display().to_string();
     let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
     report.warnings.extend(asked.doubts());
+    report.warnings.extend(source.overruled.iter().cloned());
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let rows: Vec<AnalysisRow> = windows
         .iter()

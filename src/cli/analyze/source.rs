@@ -9,14 +9,21 @@ use super::machine::Machine;
 use super::read::{Unnamed, read};
 use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::case::Case;
+use crate::cli::earlier_results::{Wanted, case_of_results};
 use crate::cli::{CliError, Options};
 use crate::diagnosis::{Fault, FaultOrders};
 use crate::exchange::{MeasuredSignal, SignalRequest};
-use crate::files;
 use crate::series::{TimeSeries, TimeWindow};
 use crate::stages::{
     AnalysisSettings, AskedBand, Kinematics, StageError, Unwatched, WindowAnalysis,
     compute_analysis,
+};
+
+/// The results that a run's signals are taken from.
+const RUN: Wanted = Wanted {
+    command: "run",
+    arrays: "signals.npz",
+    instead: "a file of signals",
 };
 
 /// Signals with all that an analysis needs.
@@ -27,6 +34,8 @@ pub(super) struct Source {
     pub(super) case: Option<PathBuf>,
     /// What is taken for granted, in words.
     pub(super) assumptions: Vec<String>,
+    /// What was typed against the file's own words.
+    pub(super) overruled: Vec<String>,
     machine: Machine,
 }
 
@@ -47,12 +56,12 @@ impl Source {
             rate_hz: asked.rate,
         };
         let (file, case) = if is_run {
-            let case = case_of_run(input, options)?;
+            let case = case_of_results(input, RUN, &options.set)?;
             if request.channels.is_empty() {
                 let sensors = case.sensors.iter();
                 request.channels = sensors.map(|sensor| sensor.name.clone()).collect();
             }
-            (input.join("signals.npz"), Some(case))
+            (input.join(RUN.arrays), Some(case))
         } else {
             let case = match named_bearing(asked)? {
                 Some(Named::Case(path)) => Some(Case::load(path, &options.set)?),
@@ -86,7 +95,13 @@ impl Source {
             }
         }
         let mut assumptions = read.left_out;
+        let mut overruled = Vec::new();
         for signal in &signals {
+            for text in machine.overruled(signal, asked.rate) {
+                if !overruled.contains(&text) {
+                    overruled.push(text);
+                }
+            }
             let notes = machine
                 .motion(signal)
                 .into_iter()
@@ -102,6 +117,7 @@ impl Source {
             settings: settings(asked, case.as_ref().filter(|_| is_run)),
             case: case.map(|case| case.source.path),
             assumptions,
+            overruled,
             machine,
         })
     }
@@ -193,30 +209,6 @@ fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), StageError> {
     let values = series.values().to_vec();
     signal.series = TimeSeries::new(series.start_s(), series.step_s(), "m/s^2", values)?;
     Ok(())
-}
-
-/// The case of a run's folder.
-fn case_of_run(folder: &Path, options: &Options) -> Result<Case, CliError> {
-    let path = folder.join("run.json");
-    if !folder.join("signals.npz").is_file() || !path.is_file() {
-        return Err(AnalyzeError::NoRun {
-            folder: folder.to_owned(),
-        }
-        .into());
-    }
-    let damaged = |found: String| AnalyzeError::Damaged {
-        path: path.clone(),
-        found,
-    };
-    let text = files::read_text(&path).map_err(|error| damaged(error.to_string()))?;
-    let json: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
-    let case = json["case"].as_str();
-    let case = case.ok_or_else(|| damaged("none".to_owned()))?;
-    let set = json["set"].as_array().into_iter().flatten();
-    let set = set.filter_map(|set| Some(set.as_str()?.to_owned()));
-    let set: Vec<String> = set.chain(options.set.iter().cloned()).collect();
-    Ok(Case::load(case, &set)?)
 }
 
 /// Filter and windows: what was typed, else what the run's case says.

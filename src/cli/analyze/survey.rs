@@ -12,7 +12,7 @@ use super::read::Unnamed;
 use super::single::no_part_judged;
 use super::source::Source;
 use super::terminal;
-use super::{AnalyzeArguments, RESULT, command, write_table};
+use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::cli::report_files::ReportFiles;
 use crate::cli::results::{stages_s, window_json};
 use crate::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
@@ -85,6 +85,7 @@ pub(super) fn survey(
         &command(asked),
     );
     report.warnings.extend(asked.doubts());
+    warn(&all.warnings, options);
     report.warnings.extend(all.warnings);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let table = write_table(folder, &all.rows)?;
@@ -135,6 +136,8 @@ impl Analysed {
                 return analysed;
             }
         };
+        let named = |text: &String| format!("{name}: {text}");
+        analysed.warnings.extend(source.overruled.iter().map(named));
         let mut orders = None;
         for signal in &source.signals {
             let compared = |mut windows: Vec<WindowAnalysis>| {

@@ -8,7 +8,6 @@ use crate::exchange::{
     DofTableError, MatrixMarketError, MbdynError, ModeShapesError, NpzError, NpzReadError,
     Op4Error, UffError, VtuError,
 };
-use crate::shell_word::shell_word;
 
 /// Why something was not exported.
 #[derive(Debug, Error)]
@@ -33,30 +32,6 @@ pub enum ExportError {
     InterfaceModes {
         /// The format.
         format: &'static str,
-    },
-    /// A folder without results of `plummer modes`.
-    #[error("{} has no modes.json: expected a case file or a folder with results of `plummer modes`", folder.display())]
-    NoResults {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// A `modes.json` that cannot be read, or is none.
-    #[error("{}: expected {expected}, found {found}", path.display())]
-    Results {
-        /// The file.
-        path: PathBuf,
-        /// What should be there.
-        expected: &'static str,
-        /// What is there.
-        found: String,
-    },
-    /// The case of earlier results is elsewhere.
-    #[error("{} names the case file {}, which is not there", path.display(), case.display())]
-    CaseGone {
-        /// The result file.
-        path: PathBuf,
-        /// The case file.
-        case: PathBuf,
     },
     /// Keys set for results that are computed already.
     #[error("--set changes the case, but {} holds results of it as it was", folder.display())]
@@ -123,16 +98,8 @@ impl ExportError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let text = match self {
-            Self::NoResults { folder } => format!(
-                "run `plummer modes CASE.toml --out {}` first, or name the case file",
-                shell_word(&folder.to_string_lossy())
-            ),
-            Self::CaseGone { .. } => {
-                "export from the folder in which `plummer modes` was called, or name the case file"
-                    .to_owned()
-            }
             Self::SetForResults { .. } => "name the case file to compute it again".to_owned(),
-            Self::Results { .. } | Self::DoesNotFit { .. } | Self::Read(_) => {
+            Self::DoesNotFit { .. } | Self::Read(_) => {
                 "run `plummer modes` again with --force, or name the case file".to_owned()
             }
             Self::NothingCondensed { .. } => {

@@ -2,19 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::{CliError, ExportError};
 use crate::case::Case;
+use crate::cli::earlier_results::{Wanted, case_of_results};
 use crate::cli::{Options, Progress};
 use crate::exchange::{ModeShapes, read_modes_npz};
-use crate::files;
 use crate::mesh::Mesh;
 use crate::stages::{StageError, compute_mode_shapes};
 
 /// Farthest that a point of the results may be from its node, relative to the mesh's largest coordinate. Coordinates are
 /// written with every bit; a mesh read in another unit or made again is off by far more.
 const SAME_POINT: f64 = 1e-9;
+
+/// The results that shapes are taken from.
+const MODES: Wanted = Wanted {
+    command: "modes",
+    arrays: "modes.npz",
+    instead: "a case file",
+};
 
 /// A case, and the folder with its results if they are to be taken from there.
 pub(super) struct Source {
@@ -36,8 +41,7 @@ impl Source {
         if !options.set.is_empty() {
             return Err(ExportError::SetForResults { folder }.into());
         }
-        let (path, set) = named_case(from)?;
-        let case = Case::load(path, &set)?;
+        let case = case_of_results(from, MODES, &[])?;
         Ok(Self {
             case,
             folder: Some(folder),
@@ -55,7 +59,7 @@ impl Source {
 
     /// The file with the mode shapes of earlier results.
     pub(super) fn modes_npz(&self) -> Option<PathBuf> {
-        self.folder().map(|folder| folder.join("modes.npz"))
+        self.folder().map(|folder| folder.join(MODES.arrays))
     }
 
     /// The mesh, if the case has one, and the mode shapes: at the mesh's nodes, then at the ring's.
@@ -81,46 +85,6 @@ impl Source {
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))
-    }
-}
-
-/// Case file and `--set` arguments of the results in a folder.
-fn named_case(folder: &Path) -> Result<(PathBuf, Vec<String>), ExportError> {
-    let path = folder.join("modes.json");
-    if !path.exists() {
-        let folder = folder.to_owned();
-        return Err(ExportError::NoResults { folder });
-    }
-    let wrong = |expected, found: String| ExportError::Results {
-        path: path.clone(),
-        expected,
-        found,
-    };
-    let text = files::read_text(&path)
-        .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;
-    let json: Value = serde_json::from_str(&text)
-        .map_err(|error| wrong("a result of `plummer modes`", error.to_string()))?;
-    let Some(case) = json["case"].as_str() else {
-        return Err(wrong(
-            "the case file's name under \"case\"",
-            json["case"].to_string(),
-        ));
-    };
-    let set: Option<Vec<String>> = match &json["set"] {
-        Value::Null => Some(Vec::new()),
-        set => serde_json::from_value(set.clone()).ok(),
-    };
-    let Some(set) = set else {
-        return Err(wrong(
-            "a list of texts under \"set\"",
-            json["set"].to_string(),
-        ));
-    };
-    let case = PathBuf::from(case);
-    if case.exists() {
-        Ok((case, set))
-    } else {
-        Err(ExportError::CaseGone { path, case })
     }
 }
 

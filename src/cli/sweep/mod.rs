@@ -72,6 +72,7 @@ fn whole(
         if options.force {
             return Err(CliError::ResumeAnew);
         }
+        folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
         if !changes.is_empty() {
             let folder = folder.path().to_owned();
@@ -194,10 +195,7 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
             source,
         })?;
     }
-    fs::create_dir_all(&points).map_err(|source| CliError::Folder {
-        path: points.clone(),
-        source,
-    })?;
+    folder.make_below(Path::new(POINTS))?;
     let text = serde_json::to_string_pretty(plan).unwrap_or_default();
     write_atomic(&file, format!("{text}\n").as_bytes())
 }

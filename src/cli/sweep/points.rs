@@ -8,8 +8,9 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::super::{CliError, Options, write_atomic};
+use super::super::{CliError, Options, folder_lock, write_atomic};
 use super::Share;
+use crate::files;
 use crate::stages::{StopRequest, UnfinishedRun};
 use crate::sweep::{Plan, PointRecord, SweepError, SweepPoint, SweptCommand};
 
@@ -125,6 +126,13 @@ impl Workers {
     /// Computes one point unless it has a result; false if it was stopped.
     fn point(&self, plan: &Plan, sweep: &Path, point: &SweepPoint) -> Result<bool, CliError> {
         let folder = plan.folder(sweep, point.number);
+        // a sweep that was killed leaves its processes, which end their points
+        while folder_lock::is_taken(&folder) {
+            if self.stopping() {
+                return Ok(false);
+            }
+            thread::sleep(LOOK);
+        }
         let result = folder.join(format!("{}.json", plan.command.name()));
         let record = PointRecord::read(&folder);
         if PointRecord::state(record.as_ref(), result.exists()).has_result() {
@@ -135,13 +143,15 @@ impl Workers {
             let path = path.to_owned();
             move |source| SweepError::Io { path, source }
         };
-        fs::create_dir_all(&folder).map_err(io(&folder))?;
+        let name = folder.strip_prefix(sweep).unwrap_or(&folder);
+        files::make_below(sweep, name).map_err(io(&folder))?;
         // of an earlier try
         if record.is_some() {
             let file = PointRecord::file(&folder);
             fs::remove_file(&file).map_err(io(&file))?;
         }
         let log = folder.join("log.txt");
+        files::no_link(&log).map_err(io(&log))?;
         let file = File::create(&log).map_err(io(&log))?;
         let mut command = Command::new(&self.program);
         command

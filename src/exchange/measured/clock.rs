@@ -42,6 +42,20 @@ impl Clock {
     }
 }
 
+impl Clock {
+    /// The sampling rate that a file's own words amount to, Hz.
+    pub(super) fn rate_hz(&self) -> Option<f64> {
+        let step_s = match self {
+            Self::Even { step_s, .. } => *step_s,
+            Self::Times { times, .. } => {
+                (times.last()? - times.first()?) / (times.len() - 1) as f64
+            }
+            Self::Unknown => return None,
+        };
+        (step_s > 0.0).then(|| 1.0 / step_s)
+    }
+}
+
 /// Checks that steps are equal. The step is that of the whole, (last - first) / (n - 1).
 fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), MeasuredError> {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else {

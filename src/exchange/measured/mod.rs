@@ -47,6 +47,8 @@ pub struct MeasuredSignal {
     pub series: TimeSeries,
     /// Shaft speed that the file itself states, Hz, > 0.
     pub speed_hz: Option<f64>,
+    /// Sampling rate by what the file itself says of time, Hz, whatever rate was asked for.
+    pub own_rate_hz: Option<f64>,
 }
 
 /// What is wanted of a file.
@@ -108,6 +110,7 @@ impl Channel {
             name: self.name,
             series,
             speed_hz: self.speed_hz,
+            own_rate_hz: self.clock.rate_hz(),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The file of a checkpoint.
 //!
 //! ```text
-//! plummer checkpoint 1            a line
+//! plummer checkpoint 2            a line
 //! {"identity": ..}                a line of JSON: what the run was begun with, how far it is, rows, words
 //! words                           64 bits each, little-endian
 //! SHA-256 of all before           32 bytes
@@ -9,14 +9,14 @@
 
 use super::{RunIdentity, UnfinishedError};
 use crate::dynamics::Snapshot;
-use crate::exchange::write_atomic;
+use crate::exchange::{ColumnFiles, write_atomic};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-const MAGIC: &[u8] = b"plummer checkpoint 1\n";
+const MAGIC: &[u8] = b"plummer checkpoint 2\n";
 
 /// Bytes of the digest at the end.
 const DIGEST: usize = 32;
@@ -27,6 +27,8 @@ pub(super) struct Checkpoint {
     pub identity: RunIdentity,
     /// Rows of the columns that belong to it.
     pub rows: usize,
+    /// SHA-256 of these rows, 64 hexadecimal digits.
+    pub columns_sha256: String,
     pub snapshot: Snapshot,
 }
 
@@ -36,6 +38,7 @@ struct Head {
     /// For a reader of the file.
     time_s: f64,
     rows: usize,
+    columns_sha256: String,
     words: usize,
 }
 
@@ -46,14 +49,15 @@ struct Head {
 pub(super) fn write(
     path: &Path,
     identity: &RunIdentity,
-    rows: usize,
+    columns: &ColumnFiles,
     time_s: f64,
     snapshot: &Snapshot,
 ) -> Result<(), UnfinishedError> {
     let head = Head {
         identity: identity.clone(),
         time_s,
-        rows,
+        rows: columns.rows(),
+        columns_sha256: columns.digest(),
         words: snapshot.words().len(),
     };
     let mut bytes = MAGIC.to_vec();
@@ -112,6 +116,7 @@ impl Checkpoint {
         Ok(Self {
             identity: head.identity,
             rows: head.rows,
+            columns_sha256: head.columns_sha256,
             snapshot: Snapshot::from_words(words),
         })
     }
@@ -138,9 +143,11 @@ mod tests {
         let mut snapshot = Snapshot::default();
         snapshot.numbers(&[f64::NAN, -0.0, 1.0 / 3.0]);
         snapshot.count(u64::MAX - 1);
-        write(&path, &identity(), 17, 0.25, &snapshot).unwrap();
+        let columns = ColumnFiles::create(folder.path(), Vec::new(), 0).unwrap();
+        write(&path, &identity(), &columns, 0.25, &snapshot).unwrap();
         let read = Checkpoint::read(&path).unwrap();
-        assert_eq!((read.rows, &read.snapshot), (17, &snapshot));
+        assert_eq!((read.rows, &read.snapshot), (0, &snapshot));
+        assert_eq!(read.columns_sha256, columns.digest());
         assert_eq!(read.identity, identity());
         let whole = fs::read(&path).unwrap();
         for place in [

@@ -2,6 +2,7 @@
 
 use super::super::{MeshDigest, StageError, mesh_digests};
 use crate::case::{Case, Defect};
+use crate::files;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -30,10 +31,9 @@ impl RunIdentity {
                 files.extend(MeshDigest::of_file(&measured.csv));
             }
         }
-        let digest = Sha256::digest(case.source.text.as_bytes());
         Ok(Self {
             plummer: env!("CARGO_PKG_VERSION").to_owned(),
-            case_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            case_sha256: files::hex(Sha256::new_with_prefix(&case.source.text)),
             set: case.source.set.clone(),
             files,
         })

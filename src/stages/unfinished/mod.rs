@@ -14,6 +14,7 @@ pub use identity::RunIdentity;
 use super::{Keeper, StageError, Wish};
 use crate::dynamics::Snapshot;
 use crate::exchange::ColumnFiles;
+use crate::files;
 use checkpoint::Checkpoint;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -70,6 +71,10 @@ impl UnfinishedRun {
     /// [`UnfinishedError::Nothing`], [`UnfinishedError::Changed`] if what it was begun with is not what it would go on
     /// with, [`UnfinishedError::Damaged`].
     pub fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
+        files::no_link(folder).map_err(|source| UnfinishedError::Folder {
+            path: folder.to_owned(),
+            source,
+        })?;
         if !Self::is_in(folder) {
             return Err(UnfinishedError::Nothing {
                 path: folder.to_owned(),
@@ -132,6 +137,7 @@ fn remove(folder: &Path) -> Result<(), UnfinishedError> {
         path: folder.to_owned(),
         source,
     };
+    files::no_link(folder).map_err(failed)?;
     if UnfinishedRun::is_in(folder) {
         fs::remove_file(folder.join(FILE)).map_err(failed)?;
     }
@@ -163,6 +169,14 @@ impl Keeper for UnfinishedRun {
             Some(checkpoint) => {
                 let rows = checkpoint.rows;
                 let record = ColumnFiles::resume(&self.folder, sensors, balls, rows)?;
+                if record.digest() != checkpoint.columns_sha256 {
+                    return Err(UnfinishedError::Damaged {
+                        path: self.folder.clone(),
+                        what: "the rows in its columns are not those that the checkpoint counts"
+                            .to_owned(),
+                    }
+                    .into());
+                }
                 (record, Some(checkpoint.snapshot))
             }
         })
@@ -187,7 +201,7 @@ impl Keeper for UnfinishedRun {
         let began = Instant::now();
         record.sync()?;
         let path = self.folder.join(FILE);
-        checkpoint::write(&path, &self.identity, record.rows(), t, snapshot)?;
+        checkpoint::write(&path, &self.identity, record, t, snapshot)?;
         self.last = Instant::now();
         self.cost = self.last - began;
         Ok(())

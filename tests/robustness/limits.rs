@@ -1,0 +1,71 @@
+//! Reference: the exit codes.
+//! Goal: limits of the system and requests beyond all measure end in a message and exit code 1 or 2, not in a signal.
+//! Sketch: the program under `ulimit`, with little memory and files that may not grow; steps that no computer would end.
+//! Conditions: a shell with `ulimit`.
+//! Parameters: 60 to 400 MB of address space, 50 KiB a file.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use super::program::{errors, scratch};
+
+/// The healthy scene's run under limits of the shell.
+fn limited(name: &str, limit: &str, set: &str) -> Output {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/healthy.toml");
+    let line = format!(
+        "ulimit {limit}; exec {} run {} --set transient.end=0.1 {set} --quiet --out out --force",
+        env!("CARGO_BIN_EXE_plummer"),
+        scene.display()
+    );
+    Command::new("sh")
+        .arg("-c")
+        .arg(line)
+        .env("RUST_BACKTRACE", "0")
+        .current_dir(scratch(name))
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn a_file_that_may_not_grow_is_an_error() {
+    let output = limited("file-size", "-f 100", "");
+    assert_eq!(output.status.code(), Some(1), "{:?}", output.status);
+    assert!(
+        errors(&output).contains("File too large"),
+        "{}",
+        errors(&output)
+    );
+}
+
+#[test]
+fn memory_that_does_not_suffice_is_an_error() {
+    let mut failures = 0;
+    for megabytes in [60, 100, 150, 200, 300, 400] {
+        let output = limited("memory", &format!("-v {}", 1000 * megabytes), "--threads 2");
+        let code = output.status.code();
+        assert!(
+            matches!(code, Some(0..=2)),
+            "{megabytes} MB: {:?}: {}",
+            output.status,
+            errors(&output)
+        );
+        failures += usize::from(code != Some(0));
+    }
+    assert!(failures > 0, "no limit was too low");
+}
+
+#[test]
+fn steps_beyond_measure_are_refused() {
+    for set in [
+        "--set bearing.contact_damping=1e9",
+        "--set transient.step=1e-14",
+    ] {
+        let output = limited("steps", "-v 4000000", set);
+        assert_eq!(output.status.code(), Some(2), "{set}: {:?}", output.status);
+        let text = errors(&output);
+        assert!(
+            text.starts_with("error: step must be at least a millionth of the output interval"),
+            "{set}: {text}"
+        );
+    }
+}

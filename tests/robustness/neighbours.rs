@@ -1,0 +1,210 @@
+//! Reference: none; the results themselves.
+//! Goal: files that stand beside each other belong together, whoever wrote between them.
+//! Sketch: a run whose folder another process holds, whose case or signals are changed afterwards, whose columns are damaged before it goes
+//!   on, or whose folders are links.
+//! Conditions: a file system with `flock`.
+//! Parameters: a run of the reference bearing, 0.02 s or less.
+
+use std::fs::{self, File};
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::program::{errors, plummer, scratch};
+
+const CASE: &str = "case.toml";
+
+/// A folder with a case of the healthy bearing alone.
+fn folder(name: &str) -> PathBuf {
+    let folder = scratch(name);
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/healthy.toml");
+    fs::copy(scene, folder.join(CASE)).unwrap();
+    folder
+}
+
+/// Words of a command line.
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+const RUN: &str = "run case.toml --set transient.end=0.01 --quiet --out out";
+
+fn refused(folder: &Path, line: &str, said: &str) {
+    let output = plummer(folder, &words(line));
+    assert_eq!(output.status.code(), Some(2), "{line}: {}", errors(&output));
+    assert!(
+        errors(&output).contains(said),
+        "{line}: {}",
+        errors(&output)
+    );
+}
+
+#[test]
+fn a_folder_is_written_by_one_process_at_a_time() {
+    let folder = folder("one-writer");
+    let out = folder.join("out");
+    fs::create_dir(&out).unwrap();
+    let held = File::open(&out).unwrap();
+    held.lock().unwrap();
+    for line in [
+        RUN,
+        "run case.toml --resume --out out",
+        "modes case.toml --out out",
+        "chart case.toml --out out",
+        "verify --out out",
+        "man --out out",
+        "export case.toml --to npz --out out",
+        "sweep case.toml --command modes --vary ring.nodes=24,25 --out out",
+    ] {
+        refused(&folder, line, "another plummer writes into out\n");
+    }
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+    drop(held);
+    assert!(plummer(&folder, &words(RUN)).status.success());
+}
+
+/// What was observed to fail without a lock: the results of one of two processes beside those of the other.
+#[test]
+fn of_two_runs_in_a_folder_one_is_refused_while_the_other_lasts() {
+    let folder = folder("two-runs");
+    let mut first = Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(&folder)
+        .args(words(
+            "run case.toml --set transient.end=5 --quiet --out out",
+        ))
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let partial = folder.join("out/.run.partial");
+    while !partial.exists() && first.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let other = "run case.toml --set transient.end=0.01 --set bearing.contact_damping=3 --force --quiet --out out";
+    refused(&folder, other, "another plummer writes into out\n");
+    // its death frees the folder
+    first.kill().unwrap();
+    first.wait().unwrap();
+    let output = plummer(&folder, &words(other));
+    assert!(output.status.success(), "{}", errors(&output));
+}
+
+#[test]
+fn signals_are_not_read_beside_the_result_of_another_run() {
+    let folder = folder("mixed");
+    for (damping, out) in [(1, "out"), (3, "other")] {
+        let line = format!(
+            "run case.toml --set transient.end=0.01 --set bearing.contact_damping={damping} --quiet --out {out}"
+        );
+        assert!(plummer(&folder, &words(&line)).status.success());
+    }
+    let analyze = "analyze out --window 0.001:0.01 --quiet --out analysed --force";
+    let whole = plummer(&folder, &words(analyze));
+    // too short for a verdict, but analysed
+    assert_eq!(whole.status.code(), Some(1), "{}", errors(&whole));
+    // another case's orders and speed would be those of the same signals
+    let case = fs::read_to_string(folder.join(CASE)).unwrap();
+    let changed = case.replace("[bearing]", "[bearing]\nradial_play = 1e-6");
+    fs::write(folder.join(CASE), changed).unwrap();
+    refused(
+        &folder,
+        analyze,
+        "out/run.json is the result of other values than case.toml has now\n",
+    );
+    // what is analysed may change, and words
+    let viewed = format!("# a remark\n{case}");
+    fs::write(folder.join(CASE), viewed).unwrap();
+    let output = plummer(
+        &folder,
+        &words(&format!("{analyze} --set analysis.whiten=true")),
+    );
+    assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+    fs::copy(
+        folder.join("other/signals.npz"),
+        folder.join("out/signals.npz"),
+    )
+    .unwrap();
+    refused(
+        &folder,
+        analyze,
+        "out/signals.npz is not the file that out/run.json speaks of: expected SHA-256 ",
+    );
+}
+
+#[test]
+fn a_run_does_not_go_on_with_other_rows_than_it_had() {
+    let folder = folder("columns");
+    let line = "run case.toml --set transient.end=5 --checkpoint-every 0.05 --quiet --out out";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .current_dir(&folder)
+        .args(words(line))
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let partial = folder.join("out/.run.partial");
+    let rows = || {
+        let bytes = fs::read(partial.join("checkpoint")).unwrap_or_default();
+        let head = String::from_utf8_lossy(&bytes);
+        let rows = head.split("\"rows\":").nth(1)?.split(',').next()?;
+        rows.parse::<usize>().ok()
+    };
+    while rows().is_none_or(|rows| rows == 0) && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let path = partial.join("shaft_x.f64");
+    let mut bytes = fs::read(&path).unwrap();
+    bytes[..8].copy_from_slice(&1.0_f64.to_le_bytes());
+    fs::write(&path, bytes).unwrap();
+    refused(
+        &folder,
+        "run case.toml --set transient.end=5 --resume --quiet --out out",
+        "the rows in its columns are not those that the checkpoint counts\nhelp: begin anew with --force\n",
+    );
+}
+
+#[test]
+fn links_in_a_folder_for_results_lead_nowhere() {
+    let folder = folder("links");
+    let elsewhere = folder.join("elsewhere");
+    for name in ["figures", "tables", ".run.partial"] {
+        let _ = fs::remove_dir_all(folder.join("out"));
+        fs::create_dir_all(folder.join("out")).unwrap();
+        fs::create_dir_all(&elsewhere).unwrap();
+        // what a report and a run would remove
+        for file in ["run-1-a.svg", "run-1-a.csv", "checkpoint"] {
+            fs::write(elsewhere.join(file), "kept").unwrap();
+        }
+        symlink(&elsewhere, folder.join("out").join(name)).unwrap();
+        let output = plummer(&folder, &words(&format!("{RUN} --force")));
+        assert_ne!(output.status.code(), Some(0), "{name}");
+        assert!(
+            errors(&output).contains("expected no symbolic link"),
+            "{name}: {}",
+            errors(&output)
+        );
+        let mut names: Vec<_> = fs::read_dir(&elsewhere)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect();
+        names.sort();
+        assert_eq!(
+            names,
+            ["checkpoint", "run-1-a.csv", "run-1-a.svg"],
+            "{name}"
+        );
+    }
+    // nor is a file written through one
+    let _ = fs::remove_dir_all(folder.join("out"));
+    fs::create_dir_all(folder.join("out")).unwrap();
+    for name in ["signals.npz", "signals.npz.partial", "run.json.partial"] {
+        symlink(elsewhere.join("checkpoint"), folder.join("out").join(name)).unwrap();
+    }
+    let output = plummer(&folder, &words(&format!("{RUN} --force")));
+    assert!(output.status.success(), "{}", errors(&output));
+    assert_eq!(
+        fs::read_to_string(elsewhere.join("checkpoint")).unwrap(),
+        "kept"
+    );
+    assert!(!folder.join("out/signals.npz").is_symlink());
+}
