@@ -39,6 +39,14 @@ pub enum RaceError {
         /// Contact angle, rad.
         contact_angle: f64,
     },
+    /// Neighbours would lie in each other.
+    #[error("{balls} balls of these diameters overlap: expected at most {most}")]
+    Overlap {
+        /// Number of balls.
+        balls: u32,
+        /// How many fit on the pitch circle.
+        most: u32,
+    },
 }
 
 /// A row of balls: count, diameters and contact angle, checked.
@@ -88,6 +96,14 @@ impl BallRow {
         }
         if !(0.0..FRAC_PI_2).contains(&contact_angle) {
             return Err(RaceError::ContactAngle { contact_angle });
+        }
+        // neighbours on the pitch circle are pitch sin(pi / N) apart
+        let most = std::f64::consts::PI / (ball_diameter / pitch_diameter).asin();
+        if f64::from(balls) > most * (1.0 + 1e-9) {
+            return Err(RaceError::Overlap {
+                balls,
+                most: most as u32,
+            });
         }
         let diameter_ratio = ball_diameter / pitch_diameter;
         Ok(Self {
@@ -170,6 +186,12 @@ mod tests {
         assert_eq!(
             BallRow::new(7, 2.0, 2.0, 0.0).unwrap_err().to_string(),
             "ball diameter 2 m must be positive and below the pitch diameter 2 m"
+        );
+        // six on a circle of diameter 1 are sin(pi / 6) = 1 / 2 apart
+        assert!(BallRow::new(6, 0.5, 1.0, 0.0).is_ok());
+        assert_eq!(
+            BallRow::new(7, 0.5, 1.0, 0.0).unwrap_err().to_string(),
+            "7 balls of these diameters overlap: expected at most 6"
         );
         assert!(BallRow::new(7, f64::NAN, 2.0, 0.0).is_err());
         assert!(BallRow::new(7, 1.0, f64::INFINITY, 0.0).is_err());

@@ -5,6 +5,7 @@
 
 mod decimator;
 mod error;
+mod flaws;
 mod kaiser;
 mod statistics;
 mod time_series;

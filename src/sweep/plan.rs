@@ -246,7 +246,10 @@ mod tests {
         // the case is set to three modes
         for axis in ["modes.count=3,4", "modes=1,2"] {
             let set = plan(&[axis]);
-            assert!(matches!(set, Err(SweepError::SetAndVaried { .. })), "{axis}");
+            assert!(
+                matches!(set, Err(SweepError::SetAndVaried { .. })),
+                "{axis}"
+            );
         }
         let within = plan(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
         assert!(matches!(within, Err(SweepError::Twice { .. })));

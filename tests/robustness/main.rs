@@ -14,6 +14,7 @@ mod neighbours;
 #[path = "../program/mod.rs"]
 mod program;
 mod replaced;
+mod signals;
 mod untrusted;
 
 use std::process::{Child, ExitStatus};

@@ -60,6 +60,15 @@ impl Baseline {
         }))
     }
 
+    /// What is to be said of its signals, as of those of an input.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let name = self.path.display();
+        let doubts = self.source.doubts.iter();
+        doubts
+            .map(|text| format!("--baseline {name}: {text}"))
+            .collect()
+    }
+
     /// Compares the analysed windows of a signal of an input with the baseline.
     ///
     /// # Errors
@@ -107,6 +116,10 @@ impl Baseline {
             if self.is(input) && !apart {
                 change.warnings.push(format!(
                     "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
+                ));
+            } else if signal.series.values() == earlier.signal.series.values() {
+                change.warnings.push(format!(
+                    "The baseline {name} has the input's own samples: it is a copy of it."
                 ));
             }
         }

@@ -108,7 +108,7 @@ impl Machine {
         Some((Kinematics::Given { orders, speed }, notes.collect()))
     }
 
-    /// What is to be said where what was typed takes the place of what the file says of itself.
+    /// What is to be said where what was typed takes the place of what the file says of itself, or is less than it needs.
     pub(super) fn overruled(
         &self,
         signal: &MeasuredSignal,
@@ -142,7 +142,23 @@ impl Machine {
                 hz(own)
             )
         });
-        rate.into_iter().chain(speed).collect()
+        let span = signal.series.span();
+        let beyond = self.typed.iter().filter_map(|typed| {
+            let times: Vec<f64> = typed.profile.knot_times().collect();
+            let (&first, &last) = times.first().zip(times.last())?;
+            let covered = times.len() < 2 || (first <= span.from && span.to <= last);
+            let seconds = |value: f64| significant(value, 5);
+            (!covered).then(|| {
+                format!(
+                    "--speed says the speed from {} to {} s, and the signal lasts from {} to {} s: the speeds at the ends go on",
+                    seconds(first),
+                    seconds(last),
+                    seconds(span.from),
+                    seconds(span.to)
+                )
+            })
+        });
+        rate.into_iter().chain(speed).chain(beyond).collect()
     }
 
     /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.

@@ -16,6 +16,8 @@ const OTHER_NAMES: [(&str, usize, f64); 4] = [
     ("ftf", 3, 1.0),
 ];
 
+/// How near the sum of both races' orders must be to the number of balls, relative: printed orders are rounded.
+const WHOLE: f64 = 5e-3;
 /// Orders that differ by less, relative, are equal.
 const SAME: f64 = 1e-6;
 /// Orders that differ by less, relative, are within each other's uncertainty.
@@ -59,7 +61,8 @@ impl GivenOrders {
         Ok(Self(orders))
     }
 
-    /// What is to be said of an order of the ball that is half or twice what the orders of the races give: the spin was taken for
+    /// What is to be said of orders that can hardly be a bearing's: two within each other's uncertainty, races whose sum is no whole
+    /// number of balls, an order of the ball that is half or twice what the orders of the races give: the spin was taken for
     /// what strikes, or the other way round. With gamma = (inner - outer) / (inner + outer) it is (1 - gamma^2) / gamma, times the
     /// cosine of the contact angle.
     #[must_use]
@@ -72,9 +75,16 @@ impl GivenOrders {
                 100.0 * NEAR
             ));
         }
-        let [Some(outer), Some(inner), Some(ball), _] = self.0 else {
+        let [Some(outer), Some(inner), ball, _] = self.0 else {
             return None;
         };
+        let balls = outer + inner;
+        if (balls / balls.round() - 1.0).abs() > WHOLE {
+            return Some(format!(
+                "BPFO and BPFI of --orders sum up to {balls:.3}, which is no whole number of balls: is one of them wrong?"
+            ));
+        }
+        let ball = ball?;
         let gamma = (inner - outer) / (inner + outer);
         let expected = (1.0 - gamma * gamma) / gamma;
         let is = |part: f64| (ball / (part * expected) - 1.0).abs() < SPIN_TOLERANCE;
@@ -157,7 +167,11 @@ mod tests {
         for right in ["ball=4.7135", "bsf=2.357", "ball=3.8", "cage=0.4"] {
             assert_eq!(doubt(&format!("{races},{right}")), None, "{right}");
         }
-        assert_eq!(doubt("outer=3,inner=3.1,ball=4"), None);
+        assert_eq!(doubt("outer=3,inner=4,ball=4"), None);
+        assert_eq!(
+            doubt("outer=3.585,inner=5.145").unwrap(),
+            "BPFO and BPFI of --orders sum up to 8.730, which is no whole number of balls: is one of them wrong?"
+        );
         assert_eq!(
             doubt("outer=3.585,inner=3.6,ball=4").unwrap(),
             "the orders of outer and inner differ by less than 1 %: their lines can hardly be told apart"

@@ -29,8 +29,10 @@ pub(super) fn single(
     let progress = Progress::new(options.visibility());
     progress.stage("read");
     let source = Source::open(asked, input, Unnamed::Only, options)?;
-    warn(&source.overruled, options);
     let baseline = Baseline::open(asked, options)?;
+    let mut doubts = source.doubts.clone();
+    doubts.extend(baseline.iter().flat_map(Baseline::doubts));
+    warn(&doubts, options);
     folder.claim(RESULT, options.force)?;
     progress.stage("analyse");
     let mut windows = Vec::new();
@@ -45,7 +47,7 @@ pub(super) fn single(
     let name = input.display().to_string();
     let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
     report.warnings.extend(asked.doubts());
-    report.warnings.extend(source.overruled.iter().cloned());
+    report.warnings.extend(doubts);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let rows: Vec<AnalysisRow> = windows
         .iter()

@@ -13,6 +13,7 @@ use crate::cli::earlier_results::{Wanted, case_of_results};
 use crate::cli::{CliError, Options};
 use crate::diagnosis::{Fault, FaultOrders};
 use crate::exchange::{MeasuredSignal, SignalRequest};
+use crate::report::significant;
 use crate::series::{TimeSeries, TimeWindow};
 use crate::stages::{
     AnalysisSettings, AskedBand, Kinematics, StageError, Unwatched, WindowAnalysis,
@@ -34,8 +35,8 @@ pub(super) struct Source {
     pub(super) case: Option<PathBuf>,
     /// What is taken for granted, in words.
     pub(super) assumptions: Vec<String>,
-    /// What was typed against the file's own words.
-    pub(super) overruled: Vec<String>,
+    /// What was typed against the file's own words, and what is wrong with the signals.
+    pub(super) doubts: Vec<String>,
     machine: Machine,
 }
 
@@ -52,7 +53,7 @@ impl Source {
     ) -> Result<Self, CliError> {
         let is_run = input.is_dir();
         let mut request = SignalRequest {
-            channels: asked.channel.clone(),
+            channels: once(&asked.channel),
             rate_hz: asked.rate,
         };
         let (file, case) = if is_run {
@@ -94,12 +95,14 @@ impl Source {
                 }
             }
         }
+        let settings = settings(asked, case.as_ref().filter(|_| is_run));
         let mut assumptions = read.left_out;
-        let mut overruled = Vec::new();
+        let mut doubts = Vec::new();
         for signal in &signals {
-            for text in machine.overruled(signal, asked.rate) {
-                if !overruled.contains(&text) {
-                    overruled.push(text);
+            let typed = machine.overruled(signal, asked.rate);
+            for text in typed.into_iter().chain(flaws(signal, &settings.windows)) {
+                if !doubts.contains(&text) {
+                    doubts.push(text);
                 }
             }
             let notes = machine
@@ -114,10 +117,10 @@ impl Source {
         }
         Ok(Self {
             signals,
-            settings: settings(asked, case.as_ref().filter(|_| is_run)),
+            settings,
             case: case.map(|case| case.source.path),
             assumptions,
-            overruled,
+            doubts,
             machine,
         })
     }
@@ -209,6 +212,57 @@ fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), StageError> {
     let values = series.values().to_vec();
     signal.series = TimeSeries::new(series.start_s(), series.step_s(), "m/s^2", values)?;
     Ok(())
+}
+
+/// Names without those that were there before.
+fn once(names: &[String]) -> Vec<String> {
+    let mut once = Vec::new();
+    for name in names {
+        if !once.contains(name) {
+            once.push(name.clone());
+        }
+    }
+    once
+}
+
+/// Share of clipped samples that is said: fewer are a spike or two.
+const CLIPPED: f64 = 1e-3;
+/// Share of a signal that may stand still, and fewest equal samples in a row that are said.
+const STILL: f64 = 0.01;
+const STILL_SAMPLES: f64 = 100.0;
+
+/// What a sensor or a converter did to a signal that is not constant.
+fn flaws(signal: &MeasuredSignal, windows: &[TimeWindow]) -> Vec<String> {
+    let all = [signal.series.span()];
+    let windows = if windows.is_empty() { &all } else { windows };
+    let parts = windows.iter();
+    // a window outside the signal is named where it is analysed
+    let parts = parts.filter_map(|window| signal.series.window(window.from, window.to).ok());
+    parts
+        .flat_map(|part| flaws_of(&signal.name, &part))
+        .collect()
+}
+
+fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
+    let samples = series.values().len() as f64;
+    let mut said = Vec::new();
+    let clipped = series.clipped_share();
+    if clipped >= CLIPPED {
+        said.push(format!(
+            "{name}: {} % of the samples stand at the end of a range: clipping makes lines and hides others",
+            significant(100.0 * clipped, 2)
+        ));
+    }
+    let still = series.longest_still();
+    let count = ((still.to - still.from) / series.step_s()).round();
+    if count >= STILL_SAMPLES.max(STILL * samples) && count < samples {
+        said.push(format!(
+            "{name}: nothing changes from {} to {} s: analyse the rest with --window",
+            significant(still.from, 5),
+            significant(still.to, 5)
+        ));
+    }
+    said
 }
 
 /// Filter and windows: what was typed, else what the run's case says.

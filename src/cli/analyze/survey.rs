@@ -85,6 +85,8 @@ pub(super) fn survey(
         &command(asked),
     );
     report.warnings.extend(asked.doubts());
+    all.warnings
+        .extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&all.warnings, options);
     report.warnings.extend(all.warnings);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
@@ -137,7 +139,7 @@ impl Analysed {
             }
         };
         let named = |text: &String| format!("{name}: {text}");
-        analysed.warnings.extend(source.overruled.iter().map(named));
+        analysed.warnings.extend(source.doubts.iter().map(named));
         let mut orders = None;
         for signal in &source.signals {
             let compared = |mut windows: Vec<WindowAnalysis>| {

@@ -124,6 +124,16 @@ pub enum MeasuredError {
         /// Channels of the file.
         known: Vec<String>,
     },
+    /// Samples whose squares are no numbers any more.
+    #[error("{}: channel \"{channel}\": expected a largest magnitude from {:e} to {:e}, found {peak:e}", path.display(), MAGNITUDES[0], MAGNITUDES[1])]
+    Magnitude {
+        /// The file.
+        path: PathBuf,
+        /// The channel.
+        channel: String,
+        /// The largest magnitude.
+        peak: f64,
+    },
     /// Samples that are none, or no samples.
     #[error("{}: channel \"{channel}\": {source}", path.display())]
     Series {
@@ -135,6 +145,9 @@ pub enum MeasuredError {
         source: SeriesError,
     },
 }
+
+/// Magnitudes whose fourth powers, which kurtosis takes, a number can hold.
+pub(super) const MAGNITUDES: [f64; 2] = [1e-60, 1e60];
 
 /// Most names that are listed.
 const LISTED: usize = 20;

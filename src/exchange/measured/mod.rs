@@ -37,6 +37,7 @@ pub use mat::signals_from_mat;
 
 use crate::series::TimeSeries;
 use clock::Clock;
+use error::MAGNITUDES;
 
 /// A signal with the name of its channel; the series has its unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +107,14 @@ impl Channel {
                     source,
                 }
             })?;
+        let peak = series.peak();
+        if peak > 0.0 && !(MAGNITUDES[0]..=MAGNITUDES[1]).contains(&peak) {
+            return Err(MeasuredError::Magnitude {
+                path: path.to_owned(),
+                channel: self.name,
+                peak,
+            });
+        }
         Ok(MeasuredSignal {
             name: self.name,
             series,

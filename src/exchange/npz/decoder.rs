@@ -29,7 +29,14 @@ fn lowest_first<const N: usize>(bytes: &[u8], big: bool) -> [u8; N] {
 /// NumPy's name of a type without its byte order, and whether the highest byte comes first.
 fn order(type_name: &str) -> Option<(bool, &str)> {
     let big = type_name.starts_with('>');
-    Some((big, type_name.strip_prefix(['<', '>'])?))
+    let name = type_name.strip_prefix(['<', '>']);
+    // a single byte has no order
+    let single = || {
+        type_name
+            .strip_prefix('|')
+            .filter(|name| name.ends_with('1'))
+    };
+    Some((big, name.or_else(single)?))
 }
 
 fn decoder<T, const N: usize>(
@@ -42,7 +49,7 @@ fn decoder<T, const N: usize>(
     })
 }
 
-/// Real numbers: f8, f4, i8, i4.
+/// Real numbers: f8, f4, and whole ones of one to eight bytes.
 pub(super) fn real(type_name: &str) -> Option<Decoder<f64>> {
     let (big, name) = order(type_name)?;
     match name {
@@ -50,6 +57,11 @@ pub(super) fn real(type_name: &str) -> Option<Decoder<f64>> {
         "f4" => decoder(big, |bytes| f64::from(f32::from_le_bytes(bytes))),
         "i8" => decoder(big, |bytes| i64::from_le_bytes(bytes) as f64),
         "i4" => decoder(big, |bytes| f64::from(i32::from_le_bytes(bytes))),
+        "i2" => decoder(big, |bytes| f64::from(i16::from_le_bytes(bytes))),
+        "i1" => decoder(big, |bytes| f64::from(i8::from_le_bytes(bytes))),
+        "u4" => decoder(big, |bytes| f64::from(u32::from_le_bytes(bytes))),
+        "u2" => decoder(big, |bytes| f64::from(u16::from_le_bytes(bytes))),
+        "u1" => decoder(big, |bytes| f64::from(u8::from_le_bytes(bytes))),
         _ => None,
     }
 }
@@ -108,7 +120,12 @@ mod tests {
         assert_eq!(read("<f4", &(-2.5_f32).to_le_bytes()), Some(-2.5));
         assert_eq!(read(">i4", &(-7_i32).to_be_bytes()), Some(-7.0));
         assert_eq!(read("<i8", &9_i64.to_le_bytes()), Some(9.0));
-        for other in ["<c16", "f8", "|O", "|b1", "<f2", "<u8", ""] {
+        assert_eq!(read("<i2", &(-300_i16).to_le_bytes()), Some(-300.0));
+        assert_eq!(read(">u2", &60_000_u16.to_be_bytes()), Some(60_000.0));
+        assert_eq!(read("<u4", &u32::MAX.to_le_bytes()), Some(4_294_967_295.0));
+        assert_eq!(read("|i1", &[0x80]), Some(-128.0));
+        assert_eq!(read("|u1", &[0x80]), Some(128.0));
+        for other in ["<c16", "f8", "|O", "|b1", "|S1", "|i2", "<f2", "<u8", ""] {
             assert_eq!(read(other, &[0; 16]), None, "{other}");
         }
         let read = |name: &str, bytes: &[u8]| whole(name).map(|own| (own.decode)(bytes));

@@ -90,12 +90,12 @@ impl NpzReader {
         self.values(name, "numbers of type '<i8'", own)
     }
 
-    /// Reads an array of real numbers as other programs may have it: f8, f4, i8, i4, in either byte order.
+    /// Reads an array of real numbers as other programs may have it: f8, f4, i1 to i8, u1 to u4, in either byte order.
     ///
     /// # Errors
     /// As [`f64`](Self::f64).
     pub fn real(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
-        self.values(name, "real numbers (f8, f4, i8 or i4)", real)
+        self.values(name, "real numbers (f8, f4, i1 to i8, u1 to u4)", real)
     }
 
     /// Reads an array of whole numbers as other programs may have it: i8, i4, u4, in either byte order.

@@ -1,0 +1,132 @@
+//! Reference: none; what is wrong with each signal is known.
+//! Goal: signals that no sensor gives, and words against the file's own, are refused or said.
+//! Sketch: noise of 0.5 s at 8 kHz in a table, spoiled in one way each.
+//! Conditions: none.
+//! Parameters: 4000 samples.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use super::Dice;
+use super::program::{errors, plummer, scratch};
+
+/// Writes a table of a time and a signal `x`, each sample what `spoil` makes of noise in -1 to 1.
+fn table(folder: &Path, name: &str, spoil: impl Fn(usize, f64) -> f64) -> PathBuf {
+    let mut dice = Dice(7);
+    let mut text = "time_s,x\n".to_owned();
+    for place in 0..4000_usize {
+        let noise = 2.0 * (dice.number() >> 11) as f64 / (1_u64 << 53) as f64 - 1.0;
+        writeln!(text, "{},{:e}", place as f64 / 8000.0, spoil(place, noise)).unwrap();
+    }
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn analyze(folder: &Path, file: &str, more: &str) -> Output {
+    let line = format!("analyze {file} --channel x --speed 29.95 --out out --force {more}");
+    plummer(folder, &line.split_whitespace().collect::<Vec<_>>())
+}
+
+const BEARING: &str = "--bearing 6205";
+
+#[test]
+fn what_a_converter_did_is_said() {
+    let folder = scratch("flawed-signals");
+    table(&folder, "good.csv", |_, noise| noise);
+    table(&folder, "clipped.csv", |_, noise| {
+        (3.0 * noise).clamp(-1.0, 1.0)
+    });
+    table(
+        &folder,
+        "dead.csv",
+        |place, noise| if place < 1000 { 0.0 } else { noise },
+    );
+    let said = |file: &str, more: &str| {
+        let output = analyze(&folder, file, &format!("{BEARING} {more}"));
+        assert!(
+            output.status.code().is_some_and(|code| code < 2),
+            "{}",
+            errors(&output)
+        );
+        let text = errors(&output);
+        let warnings = text.lines().filter(|line| line.starts_with("warning: "));
+        warnings.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert!(said("good.csv", "").is_empty());
+    let clipped = said("clipped.csv", "");
+    assert!(
+        clipped.len() == 1 && clipped[0].contains(" % of the samples stand at the end of a range"),
+        "{clipped:?}"
+    );
+    assert_eq!(
+        said("dead.csv", ""),
+        ["warning: x: nothing changes from 0.0000 to 0.12500 s: analyse the rest with --window"]
+    );
+    assert!(said("dead.csv", "--window 0.2:0.5").is_empty());
+}
+
+#[test]
+fn magnitudes_whose_squares_are_no_numbers_are_refused() {
+    let folder = scratch("magnitudes");
+    for (name, size) in [("large.csv", 1e200), ("small.csv", 1e-200)] {
+        table(&folder, name, |_, noise| size * noise);
+        let output = analyze(&folder, name, BEARING);
+        assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+        assert!(
+            errors(&output).contains("expected a largest magnitude from 1e-60 to 1e60"),
+            "{}",
+            errors(&output)
+        );
+    }
+}
+
+#[test]
+fn words_against_the_file_are_said() {
+    let folder = scratch("overruled");
+    table(&folder, "good.csv", |_, noise| noise);
+    for (more, expected) in [
+        (
+            "--bearing 6205 --rate 4000",
+            Some("--rate takes 4000.00 Hz for what the file says are 8000.00 Hz"),
+        ),
+        ("--bearing 6205 --rate 8001", None),
+        (
+            "--orders outer=3.585,inner=5.145",
+            Some("sum up to 8.730, which is no whole number of balls"),
+        ),
+        ("--orders outer=3.585,inner=5.415", None),
+        (
+            "--orders outer=4.5,inner=4.501",
+            Some("their lines can hardly be told apart"),
+        ),
+    ] {
+        let output = analyze(&folder, "good.csv", more);
+        assert!(
+            output.status.code().is_some_and(|code| code < 2),
+            "{}",
+            errors(&output)
+        );
+        let text = errors(&output);
+        match expected {
+            Some(expected) => assert!(text.contains(expected), "{more}: {text}"),
+            None => assert!(!text.contains("warning: "), "{more}: {text}"),
+        }
+    }
+    let line = "analyze good.csv --channel x --bearing 6205 --speed 0:10,0.2:30 --out out --force";
+    let output = plummer(&folder, &line.split_whitespace().collect::<Vec<_>>());
+    assert!(
+        errors(&output).contains("--speed says the speed from 0.0000 to 0.20000 s"),
+        "{}",
+        errors(&output)
+    );
+    let output = analyze(&folder, "good.csv", "--orders outer=3.585,inner=3.585");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("outer and inner are equal"),
+        "{}",
+        errors(&output)
+    );
+}
