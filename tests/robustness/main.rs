@@ -8,6 +8,7 @@
 
 mod disk;
 mod kills;
+mod mode_counts;
 mod mutations;
 #[path = "../program/mod.rs"]
 mod program;
