@@ -55,6 +55,9 @@ fn summary(result: &ModesResult) -> String {
         "{} degrees of freedom, {} rigid modes",
         survey.dof, survey.basis.rigid_modes
     );
+    if survey.basis.rigid_modes == survey.basis.count() {
+        first.push_str(" (all that were asked for)");
+    }
     if let Some(mass) = &survey.mass {
         first.push_str(&format!(", {:.6e} kg", mass.mass));
     }

@@ -13,8 +13,8 @@ const MAX_RESTARTS: usize = 300;
 /// afterwards; tolerance zero costs 2.7 times the solves for nothing.
 const TOLERANCE: f64 = 1e-10;
 
-/// How often missing pairs are looked for.
-const ROUNDS: usize = 6;
+/// Searches in a row that may find nothing new in the band.
+const IDLE: usize = 2;
 
 /// Size of the Lanczos basis for so many pairs.
 pub(super) fn largest_basis(count: usize) -> usize {
@@ -35,9 +35,11 @@ pub(super) fn between(
     count: usize,
 ) -> Result<Ritz, LinalgError> {
     let order = stiffness.order();
+    let inside = |pair: &(f64, Vec<f64>)| pair.0 > low && pair.0 < high;
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
-    for _ in 0..ROUNDS {
-        let missing = count - found.len();
+    let (mut known, mut idle) = (0, 0);
+    while known < count && idle < IDLE {
+        let missing = count - known;
         let request = Request {
             order,
             count: missing,
@@ -58,28 +60,21 @@ pub(super) fn between(
             |x, y| product(mass, x, y),
         )?;
         let vectors = pairs.vectors.chunks_exact(order).map(<[f64]>::to_vec);
-        let inside = pairs.values.into_iter().zip(vectors);
-        let before = found.len();
-        found.extend(inside.filter(|(value, _)| *value > low && *value < high));
-        if found.len() == count {
-            break;
-        }
-        if found.len() == before {
-            return Err(LinalgError::MissingModes {
-                below_hz: high.max(0.0).sqrt() / std::f64::consts::TAU,
-                counted: count,
-                found: before,
-            });
-        }
+        // those outside are taken out as well: from a place beside the middle they are nearer than the far end
+        found.extend(pairs.values.into_iter().zip(vectors));
+        let before =
+            std::mem::replace(&mut known, found.iter().filter(|pair| inside(pair)).count());
+        idle = if known > before { 0 } else { idle + 1 };
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if found.len() != count {
+    if known != count {
         return Err(LinalgError::MissingModes {
             below_hz: high.max(0.0).sqrt() / std::f64::consts::TAU,
             counted: count,
-            found: found.len(),
+            found: known,
         });
     }
+    found.retain(inside);
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let vectors = DenseMatrix::from_fn(order, count, |row, mode| found[mode].1[row]);
     Ok(Ritz {
         values: found.into_iter().map(|pair| pair.0).collect(),

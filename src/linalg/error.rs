@@ -125,7 +125,22 @@ pub enum LinalgError {
         /// Order of the matrix.
         available: usize,
     },
-    /// ARPACK did not converge.
+    /// More modes than there is memory for.
+    #[error(
+        "{asked} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",
+        gigabytes(*.bytes), gigabytes(*.free)
+    )]
+    ModesTooLarge {
+        /// Number asked for.
+        asked: usize,
+        /// Order of the matrix.
+        order: usize,
+        /// Memory that they take at least, in bytes.
+        bytes: u64,
+        /// Memory that the system can give, in bytes.
+        free: u64,
+    },
+    /// An iteration did not converge.
     #[error(
         "the eigenvalue iteration found {converged} of {asked} modes in {restarts} restarts; ask for more modes or fewer"
     )]
@@ -178,6 +193,18 @@ pub enum LinalgError {
 }
 
 impl LinalgError {
+    /// Whether an iteration failed where another way may not.
+    pub(super) fn is_of_iteration(&self) -> bool {
+        matches!(
+            self,
+            Self::NotConverged { .. }
+                | Self::MissingModes { .. }
+                | Self::NoGap { .. }
+                | Self::Residual { .. }
+                | Self::Arpack { .. }
+        )
+    }
+
     /// The error of a count that does not agree.
     pub(super) fn missing(check: super::CountCheck) -> Self {
         Self::MissingModes {

@@ -34,8 +34,12 @@ const SMALL_ENERGY: f64 = 1e-13;
 /// The step for the pairs beyond, whose values are needed to a few digits.
 const GUARD_CONVERGED: f64 = 1e-2;
 
-/// Relative change of an eigenvalue after which a converged pair is looked at again: another one has come below it.
+/// Change of an eigenvalue, relative to its distance from the shift, after which a converged pair is looked at again:
+/// another one has come below it.
 const CHANGED: f64 = 1e-7;
+
+/// Change of an eigenvalue that is round-off of the dense solver, in units of that of `K x`: up to five were seen.
+const DRIFT: f64 = 32.0;
 
 /// Corrections after which the iteration gives up; three to five are usual.
 const CORRECTIONS: usize = 100;
@@ -44,12 +48,17 @@ const CORRECTIONS: usize = 100;
 const ROUNDING: f64 = 16.0;
 
 /// Largest `K_ii / M_ii`: about a third of the highest eigenvalue.
-fn largest_ratio(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
+pub(super) fn largest_ratio(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
     let ratios = stiffness.diagonal().into_iter().zip(mass.diagonal());
     ratios
         .map(|(stiffness, mass)| stiffness / mass)
         .filter(|ratio| ratio.is_finite())
         .fold(0.0, f64::max)
+}
+
+/// Round-off of `K x` for a unit x, in the norm of M, 1/s^2.
+pub(super) fn round_off(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
+    ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass)
 }
 
 /// Ritz pairs: values ascending, vectors M-orthonormal.
@@ -75,7 +84,7 @@ pub(super) struct Search<'p> {
     pursued: usize,
     krylov: usize,
     /// Round-off of `K x` for a unit x, in the norm of M, 1/s^2.
-    round_off: f64,
+    pub round_off: f64,
     /// Shift sigma of the factor, 1/s^2.
     pub shift: f64,
     /// Seeds used so far: every new block starts elsewhere.
@@ -118,7 +127,7 @@ impl<'p> Search<'p> {
             wanted,
             pursued,
             krylov: krylov_size(pursued),
-            round_off: ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass),
+            round_off: round_off(stiffness, mass),
             shift,
             started: 0,
             done: vec![None; pursued],
@@ -262,7 +271,9 @@ impl<'p> Search<'p> {
         let pursued = self.pursued.min(self.basis.size());
         let changed = (0..pursued).find(|&place| {
             let value = spectrum.values[place];
-            let apart = |before: f64| (value - before).abs() > CHANGED * value.abs();
+            // a rigid motion's value is all round-off, and changes with every step
+            let same = CHANGED * (value - self.shift).abs() + DRIFT * self.round_off;
+            let apart = |before: f64| (value - before).abs() > same;
             place < self.wanted && self.done[place].is_some_and(apart)
         });
         if let Some(first) = changed {

@@ -5,7 +5,10 @@ use super::lowest::Ritz;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, symmetric_generalised_eigen};
 
-/// The `count` lowest of all eigenpairs.
+/// Gap in which it is counted, relative to the distance from the shift: equal values of one motion differ by round-off.
+const SMALLEST_GAP: f64 = 1e-5;
+
+/// The `count` lowest of all eigenpairs, counted in the first gap behind them; `shift` is below all eigenvalues.
 ///
 /// # Errors
 /// [`LinalgError::TooManyModes`] if fewer have mass; what the dense solver reports.
@@ -13,6 +16,7 @@ pub(super) fn all_pairs(
     k: &SymmetricMatrix,
     m: &SymmetricMatrix,
     count: usize,
+    shift: f64,
 ) -> Result<(Ritz, CountCheck), LinalgError> {
     let spectrum = symmetric_generalised_eigen(&dense(k), &dense(m))?;
     let available = spectrum
@@ -27,11 +31,14 @@ pub(super) fn all_pairs(
         });
     }
     let values = spectrum.values[..available].to_vec();
-    let below = match values.get(count) {
-        Some(next) => 0.5 * (values[count - 1] + next),
-        None => 2.0 * values[count - 1].abs(),
+    let gap = |place: &usize| {
+        values[*place] - values[place - 1] > SMALLEST_GAP * (values[*place] - shift)
     };
-    let counted = values.iter().filter(|value| **value < below).count();
+    let counted = (count..available).find(gap).unwrap_or(available);
+    let below = match values.get(counted) {
+        Some(next) => 0.5 * (values[counted - 1] + next),
+        None => 2.0 * values[counted - 1].abs(),
+    };
     let check = CountCheck {
         above: None,
         below,

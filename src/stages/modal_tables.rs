@@ -67,8 +67,11 @@ pub(super) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
         .note("|K phi - lambda M phi| over its terms"),
         Fact::new("Orthogonality", significant(basis.orthogonality, 2))
             .note("largest entry of Phi^T M Phi - 1"),
-        Fact::new("Modes without strain", basis.rigid_modes.to_string())
-            .note("strain energy, summed element by element, zero within its error bound"),
+        Fact::new(
+            "Modes without strain, of those computed",
+            basis.rigid_modes.to_string(),
+        )
+        .note("strain energy, summed element by element, zero within its error bound"),
     ]
 }
 
@@ -221,6 +224,12 @@ pub fn free_motions(result: &ModesResult) -> Vec<String> {
     let mut sentences = mechanisms.sentences();
     let (expected, found) = (mechanisms.total(), survey.basis.rigid_modes);
     let all_asked = survey.basis.count() > expected;
+    if found < expected && found == survey.basis.count() {
+        sentences.push(format!(
+            "{found} of the {expected} modes without strain were asked for and computed: `modes.count = {}` gives the first elastic one too.",
+            expected + 1
+        ));
+    }
     if all_asked && expected != found && survey.basis.count_check.above_hz.is_none() {
         sentences.push(format!(
             "{found} modes without strain were found where the connections of the parts leave {expected} free motions: look at the mode shapes."

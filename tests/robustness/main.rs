@@ -9,6 +9,7 @@
 mod disk;
 mod kills;
 mod limits;
+mod mode_counts;
 mod mutations;
 mod neighbours;
 #[path = "../program/mod.rs"]

@@ -13,6 +13,10 @@ use std::time::Instant;
 /// Gap in which it is counted, relative to the distance from the shift.
 const SMALLEST_GAP: f64 = 1e-5;
 
+/// Smallest distance of a shift from a rigid motion, in units of the round-off of `K x`: the factor's contraction is
+/// about its reciprocal.
+pub(super) const FIRM: f64 = 1e6;
+
 /// Bytes of an entry of a large factor.
 const SINGLE: u64 = 4;
 
@@ -41,9 +45,10 @@ impl EigenProblem {
         for _ in 0..rounds {
             search.explore(&factor)?;
         }
-        // a shift far below the wanted values makes all of them look alike
+        // a shift far below the wanted values makes all of them look alike; beside a rigid motion it must stay there, or
+        // the factor would be round-off
         let last = search.value(count - 1)?;
-        if shift < 0.0 && last > 0.0 && last < -0.1 * shift {
+        if last > FIRM * search.round_off && last < -0.1 * shift {
             let nearer = self.stiffness.shifted(-last, &self.mass);
             if let Ok(better) = self.definite(&nearer, false) {
                 (shift, factor) = (-last, Arc::new(better));

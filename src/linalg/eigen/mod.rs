@@ -1,26 +1,47 @@
 //! Eigenpairs of a sparse symmetric problem, with a residual and a bound for each and a proof that none is missing.
 
+mod cuts;
 mod factors;
 mod iteration;
 mod pairs;
+mod slices;
 
 pub use pairs::{EigenPairs, EigenTimes};
 
 use super::bound::Quality;
-use super::count::{CountCheck, count_below, count_between};
-use super::factor::{Factor, FactorMemory};
+use super::count::CountCheck;
+use super::factor::Factor;
 use super::lowest::{Ritz, largest_basis};
 use super::numeric::Kind;
 use super::ordering::Ordering;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, band, small};
+use super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, memory, small};
+use cuts::{Side, check_of};
 use iteration::Iterated;
+use slices::FIRST;
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Largest order that is solved densely whatever is asked: below it the dense solver is faster and needs no shift.
 const DENSE_LIMIT: usize = 60;
+
+/// Largest order that is solved densely where the search for the lowest pairs would fill the whole space; beyond it, slices
+/// are faster.
+const DENSE_SHARE_LIMIT: usize = 1200;
+
+/// Largest order that is solved densely where an iteration failed: 0.4 GB and a minute.
+const DENSE_RESCUE_LIMIT: usize = 4000;
+
+/// Pairs that are searched for at once in any problem, and the most in a large one: where the space is at most a
+/// [`SHARE`] of the order, that is faster than slices up to here.
+const AT_ONCE: [usize; 2] = [100, 200];
+
+/// Part of the order, as a divisor, beyond which round-off of the highest Ritz values hides the lowest ones.
+const SHARE: usize = 4;
+
+/// Blocks [n x count] that are held at the same time, about.
+const COPIES: u64 = 6;
 
 /// Pairs pursued beyond those wanted: among them a gap is found in which to count.
 const BEYOND: usize = 4;
@@ -145,9 +166,9 @@ impl EigenProblem {
     /// The `count` lowest eigenpairs.
     ///
     /// # Errors
-    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::MissingModes`] if pairs that exist were not
-    /// found; [`LinalgError::Residual`] for a pair that does not satisfy its equation; what factorisation and
-    /// iteration report.
+    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::ModesTooLarge`] if there is no memory for
+    /// them; [`LinalgError::MissingModes`] if pairs that exist were not found; [`LinalgError::Residual`] for a pair that
+    /// does not satisfy its equation; what factorisation and iteration report.
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
         if count == 0 || count > order {
@@ -156,6 +177,32 @@ impl EigenProblem {
                 available: order,
             });
         }
+        self.find_room(count)?;
+        let fills = largest_basis(count + BEYOND.min(order - count)) > order;
+        let dense = order <= DENSE_LIMIT
+            || self.is_too_small_for_slices() && fills
+            || order <= DENSE_SHARE_LIMIT && fills;
+        if dense {
+            return self.by_dense_solver(count);
+        }
+        let [any, large] = AT_ONCE;
+        let small_share = SHARE * largest_basis(count + BEYOND) <= order;
+        let mut found = Err(LinalgError::NoGap { asked: count });
+        if count <= any || count <= large && small_share {
+            found = self.lowest_at_once(count);
+        }
+        if count > FIRST && failed(&found) {
+            found = self.lowest_in_slices(count);
+        }
+        if order <= DENSE_RESCUE_LIMIT && failed(&found) {
+            found = self.by_dense_solver(count);
+        }
+        found
+    }
+
+    /// The `count` lowest pairs by one search, counted in a gap behind them.
+    fn lowest_at_once(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+        let order = self.order();
         let mut times = EigenTimes {
             order: self.order_s,
             ..EigenTimes::default()
@@ -163,9 +210,6 @@ impl EigenProblem {
         let mut beyond = BEYOND.min(order - count);
         let mut check = None;
         for round in 1..=ROUNDS {
-            if order <= DENSE_LIMIT || largest_basis(count + beyond) > order {
-                return self.by_dense_solver(count, times);
-            }
             let iterated = self.iterate(count, beyond, round, &mut times)?;
             let Iterated {
                 ritz,
@@ -199,7 +243,7 @@ impl EigenProblem {
     /// As [`EigenProblem::lowest`].
     pub fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
-        let (below, count) = self.count_near(limit)?;
+        let (below, count) = self.count_near(limit, Side::Above)?;
         let elapsed = started.elapsed().as_secs_f64();
         if count == 0 {
             let mut none = EigenPairs::none(self.order(), below);
@@ -212,80 +256,47 @@ impl EigenProblem {
         Ok(pairs)
     }
 
-    /// All eigenpairs with values between `low` and `high`, 1/s^2.
+    /// All eigenpairs with values between `low` and `high`, 1/s^2; one that lies on an end is among them. An end that
+    /// round-off cannot tell from zero is below the rigid motions if it is `low`, above them if it is `high`.
     ///
     /// # Errors
     /// As [`EigenProblem::lowest`].
     pub fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
-        let (low, before) = self.count_near(low)?;
-        let (high, below) = self.count_near(high)?;
-        let count = below.saturating_sub(before);
+        let low = self.count_near(low, Side::Below)?;
+        let high = self.count_near(high, Side::Above)?;
         let elapsed = started.elapsed().as_secs_f64();
-        let check = CountCheck {
-            above: Some(low),
-            below: high,
-            counted: count,
-            found: count,
+        let check = check_of(low, high);
+        let mut pairs = if check.counted == 0 {
+            EigenPairs::none(self.order(), high.0)
+        } else if low.1 == 0 {
+            self.lowest(high.1)?
+        } else if self.order() <= DENSE_LIMIT || self.is_too_small_for_slices() {
+            let mut pairs = self.by_dense_solver(high.1)?;
+            pairs.drop_first(low.1);
+            pairs
+        } else {
+            self.find_room(check.counted)?;
+            let (slices, _) = self.slices(low, high.1, Some(high.0))?;
+            self.joined(slices)?
         };
-        if count == 0 {
-            let mut none = EigenPairs::none(self.order(), high);
-            none.count_check = check;
-            none.times.count = elapsed;
-            return Ok(none);
-        }
-        let mut times = EigenTimes {
-            order: self.order_s,
-            count: elapsed,
-            ..EigenTimes::default()
-        };
-        if self.order() <= DENSE_LIMIT || band::largest_basis(count) > self.order() {
-            let mut pairs = self.by_dense_solver(below, times)?;
-            pairs.drop_first(before);
-            pairs.count_check = check;
-            return Ok(pairs);
-        }
-        let started = Instant::now();
-        let middle = self.middle_factor(low, high)?;
-        times.factor = started.elapsed().as_secs_f64();
-        let started = Instant::now();
-        let ritz = band::between(&self.stiffness, &self.mass, &middle, [low, high], count)?;
-        let quality = Quality::of(
-            &self.stiffness,
-            &self.mass,
-            &middle.1,
-            middle.0,
-            &ritz,
-            count,
-        );
-        times.iterate = started.elapsed().as_secs_f64();
-        self.finished(ritz, quality, count, check, middle.0, times)
+        pairs.count_check = check;
+        pairs.times.order = self.order_s;
+        pairs.times.count += elapsed;
+        Ok(pairs)
     }
 
-    /// Eigenvalues below a value that is moved a little if it is an eigenvalue itself.
-    fn count_near(&self, value: f64) -> Result<(f64, usize), LinalgError> {
-        let attempt = |value: f64| {
-            count_below(
-                &self.symbolic,
-                &self.stiffness,
-                &self.mass,
-                value,
-                FactorMemory::default(),
-            )
-        };
-        match attempt(value) {
-            Ok(count) => Ok((value, count)),
-            Err(LinalgError::NearlySingular { .. }) => {
-                let width = 1e-6 * value.abs();
-                count_between(
-                    &self.symbolic,
-                    &self.stiffness,
-                    &self.mass,
-                    [value, value + width],
-                    FactorMemory::default(),
-                )
-            }
-            Err(error) => Err(error),
+    /// An error if there is no memory for so many pairs.
+    fn find_room(&self, count: usize) -> Result<(), LinalgError> {
+        let bytes = 8 * COPIES * self.order() as u64 * count as u64;
+        match memory::available() {
+            Some(free) if bytes > free => Err(LinalgError::ModesTooLarge {
+                asked: count,
+                order: self.order(),
+                bytes,
+                free,
+            }),
+            _ => Ok(()),
         }
     }
 
@@ -322,21 +333,28 @@ impl EigenProblem {
         })
     }
 
-    fn by_dense_solver(
-        &self,
-        count: usize,
-        mut times: EigenTimes,
-    ) -> Result<EigenPairs, LinalgError> {
+    fn by_dense_solver(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+        let mut times = EigenTimes {
+            order: self.order_s,
+            ..EigenTimes::default()
+        };
         let started = Instant::now();
-        let (ritz, check) = small::all_pairs(&self.stiffness, &self.mass, count)?;
         let shift = self.free_shift();
+        let (ritz, check) = small::all_pairs(&self.stiffness, &self.mass, count, shift)?;
         let shifted = self.stiffness.shifted(shift, &self.mass);
         let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
         let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
-        times.iterate += started.elapsed().as_secs_f64();
+        times.iterate = started.elapsed().as_secs_f64();
         self.finished(ritz, quality, count, check, shift, times)
     }
 }
 
+/// Whether an iteration failed where another way may not.
+fn failed(found: &Result<EigenPairs, LinalgError>) -> bool {
+    found.as_ref().is_err_and(LinalgError::is_of_iteration)
+}
+
+#[cfg(test)]
+mod many_tests;
 #[cfg(test)]
 mod tests;

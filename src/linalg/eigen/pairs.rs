@@ -2,6 +2,7 @@
 
 use super::super::DenseMatrix;
 use super::super::count::CountCheck;
+use std::ops::Range;
 
 /// Where the time of an eigenvalue computation went, s. With several threads the count goes on beside the iteration.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -59,18 +60,56 @@ impl EigenPairs {
         }
     }
 
+    /// Pairs of ascending parts, shift and check of the first; orthogonality is that of the worst part.
+    pub(super) fn one_behind_the_other(parts: Vec<Self>, order: usize) -> Self {
+        let count = parts.iter().map(|part| part.values.len()).sum();
+        let mut vectors = DenseMatrix::zeros(order, count);
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_else(|| Self::none(order, 0.0));
+        let mut place = 0;
+        let mut add = |part: &DenseMatrix| {
+            vectors
+                .as_mut()
+                .subcols_mut(place, part.ncols())
+                .copy_from(part);
+            place += part.ncols();
+        };
+        add(&all.vectors);
+        for part in parts {
+            add(&part.vectors);
+            all.values.extend(part.values);
+            all.residuals.extend(part.residuals);
+            all.bounds.extend(part.bounds);
+            all.rounding.extend(part.rounding);
+            all.orthogonality = all.orthogonality.max(part.orthogonality);
+            all.times.factor += part.times.factor;
+            all.times.iterate += part.times.iterate;
+            all.times.count += part.times.count;
+        }
+        all.vectors = vectors;
+        all
+    }
+
+    /// Leaves the first pairs alone.
     pub(super) fn drop_first(&mut self, dropped: usize) {
+        self.keep(dropped..self.values.len());
+    }
+
+    /// Leaves out all but the first pairs.
+    pub(super) fn keep_first(&mut self, kept: usize) {
+        self.keep(0..kept);
+    }
+
+    fn keep(&mut self, kept: Range<usize>) {
         for list in [
             &mut self.values,
             &mut self.residuals,
             &mut self.bounds,
             &mut self.rounding,
         ] {
-            list.drain(..dropped);
+            list.truncate(kept.end);
+            list.drain(..kept.start);
         }
-        self.vectors = self
-            .vectors
-            .subcols(dropped, self.vectors.ncols() - dropped)
-            .to_owned();
+        self.vectors = self.vectors.subcols(kept.start, kept.len()).to_owned();
     }
 }

@@ -1,0 +1,117 @@
+use super::super::TripletBuilder;
+use super::*;
+
+/// Free chains along three axes, `cells` masses each and all of them coupled: eigenvalues are sums of three of
+/// `4 sin^2(j pi / 2 cells)`, most of them threefold or sixfold, and the lowest is zero.
+fn lattice(cells: usize) -> (EigenProblem, Vec<f64>) {
+    let order = cells.pow(3);
+    let mut k = TripletBuilder::new(order, order);
+    let mut m = TripletBuilder::new(order, order);
+    for row in 0..order {
+        m.add(row, row, 1.0);
+        for stride in [1, cells, cells * cells] {
+            if row / stride % cells + 1 < cells {
+                for (a, b, value) in [
+                    (row, row, 1.0),
+                    (row + stride, row + stride, 1.0),
+                    (row, row + stride, -1.0),
+                    (row + stride, row, -1.0),
+                ] {
+                    k.add(a, b, value);
+                }
+            }
+        }
+    }
+    let one = |j: usize| {
+        4.0 * (std::f64::consts::PI * j as f64 / (2 * cells) as f64)
+            .sin()
+            .powi(2)
+    };
+    let mut exact: Vec<f64> = (0..order)
+        .map(|n| one(n % cells) + one(n / cells % cells) + one(n / cells / cells))
+        .collect();
+    exact.sort_by(f64::total_cmp);
+    (
+        EigenProblem::new(&k.build(), &m.build()).expect("an order"),
+        exact,
+    )
+}
+
+fn assert_exact(pairs: &EigenPairs, exact: &[f64], what: &str) {
+    assert_eq!(pairs.values.len(), exact.len(), "{what}");
+    for (value, expected) in pairs.values.iter().zip(exact) {
+        // residuals of 1e-5 leave 1e-10 of an eigenvalue; the highest is 12
+        assert!(
+            (value - expected).abs() < 1e-9 * expected + 1e-12,
+            "{what}: {value} {expected}"
+        );
+    }
+    let check = pairs.count_check;
+    assert!(
+        check.counted == check.found && check.found >= exact.len(),
+        "{what}: {check:?}"
+    );
+    assert!(
+        pairs.orthogonality < 1e-10,
+        "{what}: {:e}",
+        pairs.orthogonality
+    );
+}
+
+#[test]
+fn any_number_of_pairs() {
+    let (problem, exact) = lattice(11);
+    for count in [1, 3, 4, 40, 101, 170, 400, 443, 700, 1331] {
+        let pairs = problem.lowest(count).expect("found");
+        assert_exact(&pairs, &exact[..count], &count.to_string());
+    }
+}
+
+#[test]
+fn slices_of_a_band_and_ends_on_eigenvalues() {
+    let (problem, exact) = lattice(11);
+    let below = |value: f64| exact.iter().filter(|&&one| one < value).count();
+    for [low, high] in [[1.01, 1.11], [0.51, 4.03], [3.02, 12.5], [11.01, 1e300]] {
+        let pairs = problem.between(low, high).expect("found");
+        assert_exact(
+            &pairs,
+            &exact[below(low)..below(high)],
+            &format!("{low} {high}"),
+        );
+    }
+    for low in [0.0, 1e-20, -1.0] {
+        let pairs = problem.between(low, 0.51).expect("found");
+        assert_exact(&pairs, &exact[..below(0.51)], &low.to_string());
+        assert!(pairs.count_check.above.is_none());
+    }
+    // the first three are equal, and all within the band that they begin
+    let pairs = problem.between(exact[1], exact[4]).expect("found");
+    assert_exact(
+        &pairs,
+        &exact[1..below(exact[4] * (1.0 + 1e-9))],
+        "on eigenvalues",
+    );
+    for high in [0.0, 1e-20] {
+        assert_exact(&problem.below(high).expect("found"), &exact[..1], "zero");
+    }
+    assert!(problem.between(20.0, 30.0).expect("none").values.is_empty());
+    assert!(
+        problem
+            .between(1e200, 1e300)
+            .expect("none")
+            .values
+            .is_empty()
+    );
+}
+
+#[test]
+fn modes_that_fill_the_memory_are_refused() {
+    let (problem, _) = lattice(3);
+    assert!(problem.find_room(27).is_ok());
+    // 2^40 blocks of 27 rows: 10^15 bytes
+    let refused = problem.find_room(1 << 40);
+    assert!(
+        matches!(refused, Err(LinalgError::ModesTooLarge { order: 27, .. })),
+        "{refused:?}"
+    );
+}
