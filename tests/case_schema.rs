@@ -108,6 +108,7 @@ fn other_forms_are_valid() {
         "sensors=[{name='a',node=3,direction=[0,1,0]}]",
         "frf={from=[{ring_deg=3,direction=[0,1,0]}],check_hz=[1,2],band_hz=[0,1e3]}",
         "housing.links=[]",
+        "housing.overlap=refuse",
         "accuracy={band_hz=[0,1000]}",
     ] {
         let case = read(FULL, &[set]);

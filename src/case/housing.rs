@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::model::OverlapRule;
 use crate::units::LengthUnit;
 
 use super::link::Link;
@@ -32,6 +33,8 @@ pub struct Housing {
     pub masses: Vec<PointMass>,
     /// Connections between its groups; may be empty.
     pub links: Vec<Link>,
+    /// Whether bodies may lie in one another.
+    pub overlap: OverlapRule,
 }
 
 /// What a plane mesh assumes across its plane.

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::union::{Mismatch, written_as};
 use super::{Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support};
+use crate::model::OverlapRule;
 use crate::units::LengthUnit;
 
 /// Where the housing comes from.
@@ -97,6 +98,9 @@ struct SourceForm {
     /// Connections between its groups; may be empty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     links: Option<Vec<Link>>,
+    /// Whether bodies may lie in one another; refused unless "allow".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    overlap: Option<OverlapRule>,
 }
 
 impl SourceForm {
@@ -112,6 +116,7 @@ impl SourceForm {
             ("supports", self.supports.is_some()),
             ("masses", self.masses.is_some()),
             ("links", self.links.is_some()),
+            ("overlap", self.overlap.is_some()),
         ];
         keys.iter().find(|(_, given)| *given).map(|(key, _)| *key)
     }
@@ -145,6 +150,7 @@ impl TryFrom<SourceForm> for HousingSource {
             supports: form.supports.unwrap_or_default(),
             masses: form.masses.unwrap_or_default(),
             links: form.links.unwrap_or_default(),
+            overlap: form.overlap.unwrap_or_default(),
         })))
     }
 }
@@ -162,6 +168,7 @@ impl From<HousingSource> for SourceForm {
             supports: None,
             masses: None,
             links: None,
+            overlap: None,
         };
         match source {
             HousingSource::Superelement(path) => form.superelement = Some(path),
@@ -176,6 +183,7 @@ impl From<HousingSource> for SourceForm {
                 form.supports = Some(housing.supports);
                 form.masses = Some(housing.masses);
                 form.links = Some(housing.links).filter(|links| !links.is_empty());
+                form.overlap = Some(housing.overlap).filter(|&rule| rule != OverlapRule::Refuse);
             }
         }
         form

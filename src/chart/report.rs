@@ -19,6 +19,9 @@ pub fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report {
             significant(chart.settings.target, 2)
         ));
     }
+    for text in &chart.scene.doubts {
+        report = report.warning(text);
+    }
     for text in &chart.starts.left_out {
         report = report.warning(format!("Left out: {text}"));
     }

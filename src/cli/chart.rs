@@ -1,7 +1,7 @@
 //! `plummer chart`: speed against accuracy, and the stability map.
 
 use super::report_files::ReportFiles;
-use super::results::common;
+use super::results::{common, warnings};
 use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
@@ -133,6 +133,7 @@ fn summary(result: &Chart) -> String {
             result.omissions().count()
         ),
     ];
+    lines.extend(warnings(&result.scene.doubts));
     lines.extend(
         result
             .front
@@ -180,6 +181,7 @@ fn fields(case: &Case, result: &Chart) -> Map<String, Value> {
     let reference = &result.reference;
     let fields = json!({
         "scene": case.title,
+        "warnings": result.scene.doubts,
         "band_hz": case.band_hz(),
         "target": result.settings.target,
         "span_s": result.settings.span_s,

@@ -1,7 +1,7 @@
 //! `plummer condense`: a superelement and its certificate.
 
 use super::report_files::ReportFiles;
-use super::results::{common, condense_fields, imported_fields};
+use super::results::{common, condense_fields, imported_fields, warnings};
 use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::exchange::write_superelement_npz;
@@ -158,6 +158,7 @@ fn summary(result: &CondenseResult) -> String {
         ),
     ];
     lines.splice(1..1, of_modes);
+    lines.extend(warnings(&result.doubts));
     if let Boundary::Nodes(nodes) = &result.stage.boundary
         && !nodes.held.is_empty()
     {

@@ -1,7 +1,7 @@
 //! `plummer frf`: transfer paths.
 
 use super::report_files::ReportFiles;
-use super::results::common;
+use super::results::{common, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::exchange::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
@@ -76,6 +76,7 @@ fn summary(result: &FrfResult) -> String {
         element.interface_dof,
         element.modal_dof()
     )];
+    lines.extend(warnings(&result.doubts));
     for path in &result.paths {
         let modes: Vec<String> = path
             .shares
@@ -166,6 +167,7 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
         "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
         "target": result.target,
         "not_compared": result.not_compared,
+        "warnings": result.doubts,
         "ranking": result.ranking.iter().map(|ranked| json!({
             "path": ranked.path,
             "variants": ranked.variants.iter().map(|variant| json!({

@@ -51,11 +51,21 @@ pub fn inspect(
     })
 }
 
-/// A mesh is good unless elements of it are folded.
+/// A mesh is good unless elements of it are folded or count twice.
 pub(super) fn verdict(found: &Inspection) -> Verdict {
-    match found.invalid.first() {
-        None => Verdict::Good,
-        Some(first) => Verdict::Bad {
+    let overlapping = found.overlapping.iter();
+    let overlapping: Vec<String> = overlapping.map(|overlap| overlap.sentence()).collect();
+    match (found.invalid.first(), &found.doubled) {
+        (None, None) if overlapping.is_empty() => Verdict::Good,
+        (None, None) => Verdict::Bad {
+            what: overlapping.join("; "),
+            help: Some("cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are".to_owned()),
+        },
+        (None, Some(doubled)) => Verdict::Bad {
+            what: doubled.sentence(),
+            help: Some("keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again".to_owned()),
+        },
+        (Some(first), _) => Verdict::Bad {
             what: format!(
                 "{} elements are inverted, folded or without size (the first is element {})",
                 found.invalid_elements, first.tag
@@ -129,6 +139,15 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
                 tags.join(", ")
             ),
         );
+    }
+    if let Some(doubled) = &found.doubled {
+        line("DOUBLED", doubled.sentence());
+    }
+    for overlap in &found.overlapping {
+        line("OVERLAP", overlap.sentence());
+    }
+    for touching in &found.touching {
+        line("warning", touching.sentence());
     }
     line("connected parts", inventory.parts.len().to_string());
     if inventory.parts.len() > 1 {

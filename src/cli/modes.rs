@@ -3,7 +3,7 @@
 use super::earlier_results::{ARRAYS, digests};
 use super::mode_checks::{check_lines, failures};
 use super::report_files::ReportFiles;
-use super::results::{modes_json, write_modes};
+use super::results::{modes_json, warnings, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::stages::{ModesResult, Reading, compute_modes, modes_report};
@@ -64,6 +64,7 @@ fn summary(result: &ModesResult) -> String {
     let mut lines = vec![first];
     let imported = result.structure.iter().flat_map(|stage| &stage.imported);
     lines.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
+    lines.extend(warnings(&result.doubts));
     lines.push(match check.above_hz {
         Some(above) => format!(
             "between {above:.2} and {:.2} Hz: {} modes counted, {} found",

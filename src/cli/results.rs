@@ -47,6 +47,11 @@ pub(super) fn common(
     map
 }
 
+/// Doubts as lines of a summary.
+pub(super) fn warnings(doubts: &[String]) -> impl Iterator<Item = String> {
+    doubts.iter().map(|text| format!("warning: {text}"))
+}
+
 /// `run.json`.
 pub(super) fn run_json<R: Recording>(
     case: &Case,
@@ -122,6 +127,7 @@ pub(super) fn run_json<R: Recording>(
         "windows": windows_json(&result.windows),
         "superelement": imported(&result.scene.stage),
         "not_analysed": result.not_analysed,
+        "warnings": result.scene.doubts,
     });
     extend(&mut map, fields);
     Value::Object(map)
@@ -258,6 +264,7 @@ pub(super) fn modes_json(
         "expected": result.base.expected,
         "comparisons": result.comparisons,
         "convergence": result.convergence,
+        "warnings": result.doubts,
         "variants": result.variants.iter().map(|variant| json!({
             "what": variant.what,
             "set": variant.set,
@@ -308,6 +315,7 @@ pub(super) fn condense_fields(result: &CondenseResult) -> Map<String, Value> {
             "effectivity": result.full.as_ref().and_then(|full| full.effectivity),
             "error_by_size": result.full.as_ref().map(|full| error_by_size(&full.sizes)),
             "tie_price": result.tie_price,
+            "warnings": result.doubts,
         }),
     );
     map

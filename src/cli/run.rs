@@ -2,7 +2,7 @@
 
 use super::earlier_results::{ARRAYS, digests};
 use super::report_files::ReportFiles;
-use super::results::{choice_json, run_json, write_scalograms, write_signals};
+use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
 use crate::shell_word::shell_word;
@@ -217,6 +217,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());
     }
+    lines.extend(warnings(&result.scene.doubts));
     for text in &result.not_analysed {
         lines.push(format!("warning: not analysed: {text}"));
     }

@@ -1,6 +1,6 @@
 //! What can be wrong between a mesh and what is asked of it.
 
-use super::RingFrame;
+use super::{Doubled, Overlap, RingFrame};
 use crate::element::ElementError;
 use crate::mesh::MeshError;
 use thiserror::Error;
@@ -50,6 +50,28 @@ pub enum ModelError {
         first: String,
         /// The part met second.
         second: String,
+    },
+    /// Elements that stand twice.
+    #[error(
+        "{path}: {}; their mass and stiffness would count twice: keep each element once; put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
+        doubled.sentence()
+    )]
+    Doubled {
+        /// The mesh file.
+        path: String,
+        /// Which elements.
+        doubled: Box<Doubled>,
+    },
+    /// Bodies that fill one space.
+    #[error(
+        "{path}: {}; mass and stiffness would count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments) or delete the copy; housing.overlap = \"allow\" takes them as they are",
+        overlap.sentence()
+    )]
+    Overlap {
+        /// The mesh file.
+        path: String,
+        /// Which parts, and where.
+        overlap: Box<Overlap>,
     },
     /// Elements of the housing that no part names.
     #[error(

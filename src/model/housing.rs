@@ -4,7 +4,7 @@
 use super::elements::{HousingElements, highest_dimension};
 use super::link::TiedNodes;
 use super::support::{HousingSupport, Link, PointMass};
-use super::{ModelError, RingFrame};
+use super::{Bodies, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::material::ElasticMaterial;
 use crate::mesh::{Mesh, PhysicalGroup};
@@ -43,6 +43,8 @@ pub struct HousingDescription {
     pub masses: Vec<PointMass>,
     /// Connections between its groups.
     pub links: Vec<Link>,
+    /// Whether bodies may lie in one another.
+    pub overlap: OverlapRule,
     /// Where the bearing sits.
     pub frame: RingFrame,
 }
@@ -93,6 +95,8 @@ pub struct HousingModel {
     pub(crate) supports: Vec<HousingSupport>,
     pub(crate) links: Vec<Link>,
     pub(crate) point_masses: Vec<PointMass>,
+    overlaps: Vec<Overlap>,
+    touching: Vec<Touching>,
     /// The mesh file, for messages.
     pub(crate) path: String,
     pub(crate) node_tags: Vec<u64>,
@@ -114,11 +118,14 @@ impl HousingModel {
             supports,
             masses,
             links,
+            overlap,
             frame,
         } = description;
         check_plane(mesh, dimension, plane, &frame, &path)?;
         let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
         let elements = HousingElements::of_parts(mesh, &groups, &path)?;
+        let part_groups: Vec<String> = parts.iter().map(|part| part.group.clone()).collect();
+        let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
         let properties = parts
             .iter()
             .map(|part| properties(part, plane, &path))
@@ -139,7 +146,7 @@ impl HousingModel {
                 .iter()
                 .map(|part| part.material.loss_factor())
                 .collect(),
-            part_groups: parts.iter().map(|part| part.group.clone()).collect(),
+            part_groups,
             formulation,
             springs: Vec::new(),
             masses: Vec::new(),
@@ -149,6 +156,8 @@ impl HousingModel {
             supports,
             links,
             point_masses: masses,
+            overlaps,
+            touching: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
         };
@@ -161,7 +170,32 @@ impl HousingModel {
         for index in 0..model.links.len() {
             model.attach_link(mesh, index)?;
         }
+        model.touching = model.unconnected();
         Ok(model)
+    }
+
+    /// Faces that lie on each other where no link connects them.
+    fn unconnected(&self) -> Vec<Touching> {
+        let mut linked = vec![false; self.coordinates.len()];
+        let tied = self.tied.iter();
+        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
+        let springs = self.springs.iter();
+        let springs = springs.filter(|spring| matches!(spring.source, NodalSource::Link(_)));
+        for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
+            linked[node] = true;
+        }
+        Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
+            .touching(|node| linked[node])
+    }
+
+    /// Parts that lie in one another; none unless the description allows it.
+    pub fn overlaps(&self) -> &[Overlap] {
+        &self.overlaps
+    }
+
+    /// Parts whose faces lie on each other without common nodes and without a link.
+    pub fn touching(&self) -> &[Touching] {
+        &self.touching
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -245,6 +279,36 @@ impl HousingModel {
                 purpose,
             })
         }
+    }
+}
+
+/// Parts that lie in one another as far as the rule allows it.
+///
+/// # Errors
+/// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::Overlap`] for the first overlap that is not
+/// allowed.
+fn accepted_overlaps(
+    mesh: &Mesh,
+    elements: &HousingElements,
+    parts: &[String],
+    rule: OverlapRule,
+    path: &str,
+) -> Result<Vec<Overlap>, ModelError> {
+    let path = || path.to_owned();
+    let bodies = Bodies::of_housing(&mesh.nodes, elements, parts);
+    if let Some(doubled) = bodies.doubled().map(Box::new) {
+        return Err(ModelError::Doubled {
+            path: path(),
+            doubled,
+        });
+    }
+    let overlaps = bodies.overlaps();
+    match (rule, overlaps.first()) {
+        (OverlapRule::Refuse, Some(first)) => Err(ModelError::Overlap {
+            path: path(),
+            overlap: Box::new(first.clone()),
+        }),
+        _ => Ok(overlaps),
     }
 }
 

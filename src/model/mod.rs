@@ -10,6 +10,7 @@ mod housing;
 mod interface;
 mod joint;
 mod link;
+mod overlap;
 mod partition;
 mod ring;
 mod section_springs;
@@ -26,6 +27,7 @@ pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use interface::NodeInterface;
+pub use overlap::{Bodies, Doubled, Overlap, OverlapRule, Touching};
 pub use partition::HousingPartition;
 pub use ring::{
     RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,

@@ -4,7 +4,7 @@ use super::condensed::CondensedStage;
 use super::loose::name_mechanisms;
 use super::modal_system::FullModes;
 use super::reduced_interface::{ReducedInterface, characteristic_modes};
-use super::{StageError, TIE_PRICE_MODES, TiePrice, Watch, tie_price};
+use super::{HousingStage, StageError, TIE_PRICE_MODES, TiePrice, Watch, doubts, tie_price};
 use crate::case::{Case, InterfaceModes, ModeExtent};
 use crate::linalg::EigenProblem;
 use crate::reduction::{
@@ -57,6 +57,8 @@ pub struct CondenseResult {
     pub full: Option<FullComparison>,
     /// What the ring's rigid sections change, if the full model was asked for and a ring is tied.
     pub tie_price: Option<TiePrice>,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
 }
 
 impl CondenseResult {
@@ -133,7 +135,9 @@ pub fn compute_condense(
         }
     }
     drop(matrices);
+    let HousingStage { mesh, model, .. } = &stage.housing;
     Ok(CondenseResult {
+        doubts: doubts(case, Some((mesh, model)), None)?,
         stage,
         interface,
         estimate,

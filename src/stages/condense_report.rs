@@ -67,6 +67,9 @@ pub fn condense_report(
     if let Some(price) = &result.tie_price {
         report = report.section(tie(price));
     }
+    for text in &result.doubts {
+        report = report.warning(text);
+    }
     Ok(report)
 }
 

@@ -2,7 +2,9 @@
 
 use super::{ImportError, UnfinishedError};
 use crate::bearing::defect::DefectError;
-use crate::bearing::{CageError, GeometryError, SlipError, SpeedError, StiffnessError, WaveError};
+use crate::bearing::{
+    CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError,
+};
 use crate::case::{CaseError, ModeExtent};
 use crate::diagnosis::DiagnosisError;
 use crate::element::ElementError;
@@ -114,6 +116,38 @@ pub enum StageError {
     /// Bearing geometry.
     #[error("bearing: {0}")]
     Geometry(#[from] GeometryError),
+    /// A contact that is as wide as the ball.
+    #[error(
+        "bearing.{race}_groove_radius: the contact of a ball with the {race} race would have a half-axis of {half_axis:.3e} m under the largest force at rest, {force:.3e} N, and the ball's radius is {ball_radius:.3e} m: expected a patch well below it, found a groove of {groove:e} m, {:.7} of the ball's diameter (0.51 to 0.54 are built); check the groove, the ball and the load on the shaft",
+        0.5 * groove / ball_radius
+    )]
+    WidePatch {
+        /// The race.
+        race: Race,
+        /// Radius of its groove, m.
+        groove: f64,
+        /// Radius of the ball, m.
+        ball_radius: f64,
+        /// Largest force of a ball on it, N.
+        force: f64,
+        /// Longer half-axis of the patch under that force, m.
+        half_axis: f64,
+    },
+    /// A pressure that no solid bears.
+    #[error(
+        "bearing: the pressure between a ball and the {race} race would be {:.0} MPa under the largest force at rest, {force:.3e} N: expected below {:.0} MPa, a tenth of the effective modulus, beyond which no solid is elastic (bearing steel is rated to 4200 MPa, ISO 76); check the load on the shaft, bearing.ball_radius and the groove radii",
+        1e-6 * pressure, 1e-6 * limit
+    )]
+    Pressure {
+        /// The race.
+        race: Race,
+        /// Largest force of a ball on it, N.
+        force: f64,
+        /// Largest pressure under that force, Pa.
+        pressure: f64,
+        /// Largest pressure that is accepted, Pa.
+        limit: f64,
+    },
     /// Contact stiffness.
     #[error("bearing.stiffness: {0}")]
     Stiffness(#[from] StiffnessError),

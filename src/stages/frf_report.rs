@@ -60,6 +60,9 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
     if let Some(why) = &result.not_compared {
         report = report.warning(format!("Nothing was compared with the full model: {why}."));
     }
+    for text in &result.doubts {
+        report = report.warning(text);
+    }
     Ok(report)
 }
 

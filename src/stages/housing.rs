@@ -97,6 +97,7 @@ pub(super) fn description(
             })
             .collect(),
         links: housing.links.iter().map(link).collect(),
+        overlap: housing.overlap,
         frame: frame(case)?,
     })
 }

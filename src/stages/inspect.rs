@@ -2,7 +2,7 @@
 
 use crate::element::continuum::{measure, quality, surface_weights};
 use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::model::{continuum_kind, surface_kind};
+use crate::model::{Bodies, Doubled, Overlap, Touching, continuum_kind, surface_kind};
 use crate::units::LengthUnit;
 use serde::Serialize;
 use std::path::Path;
@@ -55,6 +55,12 @@ pub struct Inspection {
     pub invalid_elements: usize,
     /// The first of them.
     pub invalid: Vec<ElementShape>,
+    /// Elements of the highest dimension on the corners of another one.
+    pub doubled: Option<Doubled>,
+    /// Groups of the highest dimension that lie in one another.
+    pub overlapping: Vec<Overlap>,
+    /// Groups of the highest dimension whose faces lie on each other without common nodes.
+    pub touching: Vec<Touching>,
 }
 
 impl Inspection {
@@ -71,6 +77,7 @@ impl Inspection {
     #[must_use]
     pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
+        let bodies = Bodies::of_mesh(mesh);
         let mut found = Self {
             length_unit: unit,
             size: 0.0,
@@ -78,6 +85,9 @@ impl Inspection {
             worst: None,
             invalid_elements: 0,
             invalid: Vec::new(),
+            doubled: bodies.doubled(),
+            overlapping: bodies.overlaps(),
+            touching: bodies.touching(|_| false),
             inventory,
         };
         let all = elements_of(mesh, found.inventory.dimension);

@@ -23,9 +23,11 @@ mod comparison;
 mod condense;
 mod condense_report;
 mod condensed;
+mod contact_limits;
 mod convergence;
 mod damping;
 mod dent_drops;
+mod doubts;
 mod draft;
 mod drawing;
 mod energy_tables;
@@ -65,6 +67,7 @@ mod run_model;
 mod run_report;
 mod scalogram;
 mod scene;
+mod seat;
 mod shape_view;
 mod simulation;
 #[cfg(test)]
@@ -93,6 +96,7 @@ pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense}
 pub use condense_report::condense_report;
 pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
+pub use doubts::doubts;
 pub use draft::{Draft, DraftError, DraftRequest, FoundCylinder, UnitFrom};
 pub use error::StageError;
 pub use free_system::FreeSystem;

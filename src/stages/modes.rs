@@ -2,13 +2,17 @@
 //! verification against expected ones.
 
 use super::comparison::{ComparedFile, FileComparison};
+use super::contact_limits::accept_contacts;
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::loaded_pass::LoadedPass;
 use super::mesh_sequence::MeshSequence;
 use super::modal_system::{UnloadedModes, unloaded_modes};
 use super::mode_shapes::mode_shapes;
 use super::statics::Statics;
-use super::{HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup};
+use super::{
+    HousingStage, ModalSurvey, StageError, StructureStage, Watch, bearing_setup, doubts,
+    race_contacts,
+};
 use crate::case::{Case, Expected, Linearise, ModeExtent};
 use crate::exchange::ModeShapes;
 use crate::mesh::Mesh;
@@ -73,6 +77,8 @@ pub struct ModesResult {
     pub statics: Option<Statics>,
     /// Loaded modes over a ball pass and over the load, if asked for.
     pub loaded_pass: Option<LoadedPass>,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
 }
 
 impl ModesResult {
@@ -180,14 +186,22 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
             variants.push(reading(&variant.case, &built, unloaded, what, set)?);
         }
     }
+    let housing = stage.housing.as_ref();
+    let housing = housing.map(|housing| (&housing.mesh, &housing.model));
+    let setup = linearised_setup(case)?;
+    let at_rest = statics
+        .iter()
+        .flat_map(|statics| &statics.equilibria)
+        .next();
     Ok(ModesResult {
         base,
         variants,
         survey,
-        structure: Some(stage),
         housing: None,
         comparisons: Vec::new(),
         convergence: None,
+        doubts: doubts(case, housing, setup.as_ref().zip(at_rest))?,
+        structure: Some(stage),
         statics,
         loaded_pass,
     })
@@ -214,6 +228,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
         variants: Vec::new(),
         survey,
         structure: None,
+        doubts: doubts(case, Some((&mesh, &model)), None)?,
         housing: Some((mesh, model)),
         comparisons: Vec::new(),
         convergence: None,
@@ -247,6 +262,9 @@ fn reading(
         Some(setup) => {
             let condition = StaticCondition::at(&setup, start_time(case));
             let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+            if let Some(contacts) = race_contacts(case)? {
+                accept_contacts(&setup, &contacts, &equilibrium)?;
+            }
             let modes = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
             Some(modes)
         }

@@ -96,7 +96,13 @@ pub fn modes_report(
     }
     let notes = result.convergence.iter();
     let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
-    for text in free_motions(result).into_iter().chain(notes) {
+    for text in result
+        .doubts
+        .iter()
+        .cloned()
+        .chain(free_motions(result))
+        .chain(notes)
+    {
         report = report.warning(text);
     }
     Ok(report)

@@ -54,6 +54,9 @@ pub fn run_report<R: Recording>(
     for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
         report = report.warning(text);
     }
+    for text in &result.scene.doubts {
+        report = report.warning(text);
+    }
     for text in assumptions(case, Some(&result.scene.setup)) {
         report = report.assumption(text);
     }

@@ -1,7 +1,8 @@
 //! What is simulated: structure and bearing of a case, at rest where they start.
 
+use super::contact_limits::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
-use super::{RunModel, StageError, StructureStage, Watch, bearing_setup, race_contacts};
+use super::{RunModel, StageError, StructureStage, Watch, bearing_setup, doubts, race_contacts};
 use crate::bearing::{Race, RaceContacts};
 use crate::case::Case;
 use crate::dynamics::State;
@@ -24,6 +25,8 @@ pub struct Scene {
     pub start: f64,
     /// Equilibrium with cage and loads as they are then.
     pub equilibrium: Equilibrium,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
 }
 
 impl Scene {
@@ -55,7 +58,11 @@ impl Scene {
         }
         let condition = StaticCondition::at(&setup, asked.start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+        accept_contacts(&setup, &contacts, &equilibrium)?;
+        let housing = stage.housing.as_ref();
+        let housing = housing.map(|housing| (&housing.mesh, &housing.model));
         Ok(Self {
+            doubts: doubts(case, housing, Some((&setup, &equilibrium)))?,
             stage,
             setup,
             contacts,

@@ -7,6 +7,8 @@
 //!     cargo test --release --test robustness -- --ignored --nocapture --test-threads 1
 
 mod disk;
+mod doubled;
+mod impossible;
 mod kills;
 mod limits;
 mod mode_counts;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::super::{
     BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect,
-    Formulation, RaceName, Slip,
+    Formulation, RaceName, Section, Slip,
 };
 use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
@@ -50,6 +50,9 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
             return Err(Rule::Count { found, expected }.at(at("order")));
         }
         zero_or_more(at("amplitude"), wave.amplitude)?;
+        let limit = 0.1 * bearing.ball_radius;
+        let what = "a tenth of the ball's radius";
+        below(at("amplitude"), wave.amplitude, what, limit)?;
     }
     let differences = &bearing.ball_radius_differences;
     let key = "bearing.ball_radius_differences";
@@ -118,6 +121,14 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
         "`bearing.inner_race_radius`",
         inner,
     )?;
+    if let Some(face) = outer_face(case) {
+        below(
+            "bearing.outer_race_radius",
+            bearing.outer_race_radius,
+            "the outer face of the ring: `ring.outer_radius`, or that of its outermost section",
+            face,
+        )?;
+    }
     for (key, groove) in [
         ("bearing.inner_groove_radius", bearing.inner_groove_radius),
         ("bearing.outer_groove_radius", bearing.outer_groove_radius),
@@ -125,6 +136,16 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
         above(key, groove, "`bearing.ball_radius`", ball)?;
     }
     Ok(())
+}
+
+/// Radius of the ring's outer face, m: as given, or by rectangles in the place of the sections, whose radial side is
+/// `sqrt(12 I / A)`.
+fn outer_face(case: &Case) -> Option<f64> {
+    let ring = case.ring.as_ref()?;
+    let of_section =
+        |section: &Section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
+    let faces = ring.sections.iter().map(of_section);
+    faces.chain(ring.outer_radius).reduce(f64::max)
 }
 
 /// The balls fit between the races and side by side.

@@ -10,6 +10,7 @@ use crate::case::{
     Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method,
     ModeExtent, ModesKept, PerNodeOrGroup, SensorSpot, Source, StepLength,
 };
+use crate::model::OverlapRule;
 
 #[test]
 fn every_key_of_the_full_case_arrives() {
@@ -38,6 +39,7 @@ fn every_key_of_the_full_case_arrives() {
         (housing.integration, housing.linear),
         (Integration::FourPoint, LinearElements::Plain)
     );
+    assert_eq!(housing.overlap, OverlapRule::Allow);
     let between = ["lid seat", "case seat"].map(str::to_owned);
     assert_eq!(
         housing.links[0],

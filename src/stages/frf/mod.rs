@@ -61,6 +61,8 @@ pub struct FrfResult {
     pub target: f64,
     /// Variants by path.
     pub ranking: Vec<RankedPath>,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
 }
 
 impl FrfResult {
@@ -100,7 +102,12 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         compared::compare(case, asked, &reduced, &response, &paths, watch)?;
     let others = variants(case, watch)?;
     let ranking = ranking::rank(&response, &others, &paths, reduced.band_hz)?;
+    let of_mesh = match &reduced.housing {
+        FrfHousing::Mesh(stage) => Some((&stage.housing.mesh, &stage.housing.model)),
+        FrfHousing::File(_) => None,
+    };
     Ok(FrfResult {
+        doubts: super::doubts(case, of_mesh, None)?,
         band_hz: reduced.band_hz,
         target: case.target(),
         housing: reduced.housing,

@@ -4,7 +4,8 @@ use super::reason::{NoTiePrice, Stop};
 use crate::case::{self, Case};
 use crate::element::continuum::PlaneAssumption;
 use crate::material::{Material, RingLayer};
-use crate::model::{HousingModel, PlaneModel, SolidRing};
+use crate::model::{PlaneModel, SolidRing};
+use crate::stages::seat::Seat;
 use crate::stages::structure::layer;
 use crate::stages::{HousingStage, StageError};
 
@@ -74,8 +75,8 @@ impl RingBody {
                     .to_owned(),
             );
         }
-        let seat = Seat::of(housing, tie)?;
-        if housing.model.dimension() == 3 && seat.sticks_out(width) {
+        let seat = Seat::of(&housing.mesh, &housing.model, tie)?;
+        if housing.model.dimension() == 3 && seat.share_outside(width) > 1e-6 {
             notes.push(format!(
                 "The ring, {:.4e} m wide, reaches beyond the bore, whose nodes lie from {:.4e} to {:.4e} m along its axis.",
                 width, seat.from, seat.to
@@ -202,32 +203,7 @@ fn layer_is_not_rectangular(layer: &RingLayer) -> bool {
         || differs(layer.torsion_constant(), own.torsion_constant())
 }
 
-/// The bore in the ring's frame.
-struct Seat {
-    nodes: usize,
-    /// First and last place along the axis, m.
-    from: f64,
-    to: f64,
-}
-
 impl Seat {
-    fn of(housing: &HousingStage, tie: &case::Tie) -> Result<Self, StageError> {
-        let model: &HousingModel = &housing.model;
-        let group = model.group_on_housing(&housing.mesh, &tie.group, "the tie")?;
-        let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
-        let along: Vec<f64> = nodes.map(|&node| model.ring_coordinates(node)[2]).collect();
-        Ok(Self {
-            nodes: along.len(),
-            from: along.iter().copied().fold(f64::INFINITY, f64::min),
-            to: along.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        })
-    }
-
-    fn sticks_out(&self, width: f64) -> bool {
-        let tolerance = 1e-6 * width;
-        self.from > -0.5 * width + tolerance || self.to < 0.5 * width - tolerance
-    }
-
     /// Makes the ring's face finer than the bore's, if it is not: the nodes of the finer one follow.
     fn refine(&self, ring: &mut SolidRing, dimension: usize) {
         let round = |sides: f64| (sides.ceil() as usize).clamp(AROUND[0], AROUND[1]);

@@ -24,8 +24,8 @@ use crate::linalg::DenseMatrix;
 use crate::mesh::Mesh;
 use crate::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
 use crate::model::{
-    Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, PlaneModel, Ring,
-    SpringStiffness, SupportShare,
+    Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
+    PlaneModel, Ring, SpringStiffness, SupportShare,
 };
 use body::RingBody;
 use points::{Points, beam_shapes, section_nodes};
@@ -235,6 +235,8 @@ fn joined(
             Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
         }
     };
+    // the rectangle may reach into the housing by a small part of its height
+    description.overlap = OverlapRule::Allow;
     description.links.push(Link {
         between: [meshed.outer_face.clone(), tie.group.clone()],
         connection,

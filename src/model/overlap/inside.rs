@@ -1,0 +1,122 @@
+//! Bodies that lie in one another: elements whose centre is within another element.
+
+use super::boxes::{Bounds, BoxTree};
+use super::doubled::sorted_corners;
+use super::outline::{centre, holds};
+use super::{Bodies, at, both};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Two parts that fill one space, or a part that fills it twice.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Overlap {
+    /// Names of the parts; twice the same for elements of one part.
+    pub parts: [String; 2],
+    /// Elements whose centre lies in an element of the other part, > 0.
+    pub elements: usize,
+    /// Area (m^2) or volume (m^3) of these elements, of the part that has more of it, or half of all within one part:
+    /// what about counts twice.
+    pub size: f64,
+    /// Tags of the first of them and of the element that it lies in.
+    pub tags: [u64; 2],
+    /// Centre of the first, m.
+    pub place: [f64; 3],
+    /// 2 or 3.
+    pub dimension: usize,
+}
+
+impl Overlap {
+    /// What overlaps where, in words.
+    pub fn sentence(&self) -> String {
+        let [first, second] = self.tags;
+        let parts = match &self.parts {
+            [a, b] if a == b => format!("elements of \"{a}\" lie in one another"),
+            parts => format!("the parts {} lie in one another", both(parts)),
+        };
+        format!(
+            "{parts}: {} elements have their centre in another element, on about {:.3e} m^{}, the first is element \
+             {first} in element {second} at {}",
+            self.elements,
+            self.size,
+            self.dimension,
+            at(self.place)
+        )
+    }
+}
+
+/// What is known of a pair of parts.
+struct Sum {
+    elements: usize,
+    /// Of the elements of the first part and of the second.
+    sizes: [f64; 2],
+    first: [usize; 2],
+}
+
+impl Bodies<'_> {
+    /// Parts that lie in one another, by pairs in the order of the parts. Elements on the same corners are left to
+    /// [`Bodies::doubled`], elements without valid shape to the assembly.
+    pub fn overlaps(&self) -> Vec<Overlap> {
+        if !self.is_flat_or_solid() {
+            return Vec::new();
+        }
+        let bounds = self.solids.par_iter().map(|solid| {
+            let points = solid.nodes.iter().map(|&node| self.points[node]);
+            Bounds::of(points, 0.0)
+        });
+        let tree = BoxTree::new(bounds.collect());
+        let centres = self.solids.par_iter().map(|solid| centre(self, solid));
+        let centres: Vec<Vector3<f64>> = centres.collect();
+        let order = tree.order().par_iter();
+        let mut within: Vec<[usize; 2]> = order
+            .filter_map(|&index| {
+                let index = index as usize;
+                Some([index, self.lies_in(index, &centres, &tree)?])
+            })
+            .collect();
+        within.sort_unstable();
+        let mut sums: BTreeMap<[usize; 2], Sum> = BTreeMap::new();
+        for [index, other] in within {
+            let solid = &self.solids[index];
+            let (part, of_other) = (solid.part, self.solids[other].part);
+            let sum = sums
+                .entry([part.min(of_other), part.max(of_other)])
+                .or_insert_with(|| Sum {
+                    elements: 0,
+                    sizes: [0.0; 2],
+                    first: [index, other],
+                });
+            sum.elements += 1;
+            sum.sizes[usize::from(part > of_other)] += self.size(solid).unwrap_or(0.0);
+        }
+        let found = sums.into_iter().map(|(parts, sum)| Overlap {
+            parts: self.names(parts),
+            elements: sum.elements,
+            size: match parts {
+                [a, b] if a == b => 0.5 * sum.sizes[0],
+                _ => sum.sizes[0].max(sum.sizes[1]),
+            },
+            tags: sum.first.map(|index| self.solids[index].tag),
+            place: centres[sum.first[0]].into(),
+            dimension: self.solids[sum.first[0]].kind.dimension(),
+        });
+        found.collect()
+    }
+
+    /// The first element other than this one that its centre lies in.
+    fn lies_in(&self, index: usize, centres: &[Vector3<f64>], tree: &BoxTree) -> Option<usize> {
+        let (solid, point) = (&self.solids[index], &centres[index]);
+        let mut found: Option<usize> = None;
+        tree.visit((*point).into(), 0.0, |other| {
+            let earlier = found.is_none_or(|found| other < found);
+            if other != index && earlier && holds(self, &self.solids[other], &centres[other], point)
+            {
+                found = Some(other);
+            }
+        });
+        let other = &self.solids[found?];
+        let valid = self.size(solid).is_some() && self.size(other).is_some();
+        found.filter(|_| valid && sorted_corners(solid) != sorted_corners(other))
+    }
+}

@@ -1,0 +1,155 @@
+//! What of a model is accepted and may be meant otherwise, a sentence each: warnings of reports and results.
+
+use super::contact_limits::contact_doubts;
+use super::seat::Seat;
+use super::structure::layer;
+use super::{StageError, race_contacts};
+use crate::case::{self, Case};
+use crate::mesh::Mesh;
+use crate::model::HousingModel;
+use crate::system::{BearingSetup, Equilibrium};
+use std::f64::consts::PI;
+
+/// Share of a ring's width beyond its bore that is told. The width is that of a rectangle in the section's place, which
+/// misses that of a grooved section by some percent.
+const OVERHANG: f64 = 0.05;
+
+/// Distance between a ring's outer face and its bore that is told, over the section's height: so far the section moves
+/// the bore by a rigid arm.
+const ARM: f64 = 0.5;
+
+/// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
+/// the faces of grooved sections.
+const APART: f64 = 0.5;
+
+/// Densities of balls, kg/m^3: those of solids, from plastics to tungsten.
+const BALL_DENSITIES: [f64; 2] = [800.0, 20_000.0];
+
+/// The doubts about a case: of its housing, of how the ring sits in it, and of the bearing under the load at rest.
+///
+/// # Errors
+/// [`StageError`] of materials and of the bearing.
+pub fn doubts(
+    case: &Case,
+    housing: Option<(&Mesh, &HousingModel)>,
+    at_rest: Option<(&BearingSetup, &Equilibrium)>,
+) -> Result<Vec<String>, StageError> {
+    let mut found = Vec::new();
+    if let Some((_, model)) = housing {
+        found.extend(housing_doubts(model));
+    }
+    if let Some(ring) = &case.ring {
+        found.extend(ring_doubts(case, ring, housing)?);
+    }
+    if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
+        found.extend(race_in_ring(case)?);
+        found.extend(ball_density(setup));
+        found.extend(contact_doubts(setup, &contacts, equilibrium));
+    }
+    Ok(found)
+}
+
+fn housing_doubts(model: &HousingModel) -> Vec<String> {
+    let overlaps = model.overlaps().iter().map(|overlap| {
+        format!(
+            "{}; housing.overlap allows it, mass and stiffness count twice there",
+            overlap.sentence()
+        )
+    });
+    let touching = model.touching().iter().map(|touching| {
+        let [a, b] = &touching.parts;
+        let help = match a == b {
+            true => "where they are one body, merge their nodes in gmsh (Coherence Mesh)".to_owned(),
+            false => format!(
+                "nothing holds them together there; where they are one body, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
+            ),
+        };
+        format!("{}; {help}", touching.sentence())
+    });
+    overlaps.chain(touching).collect()
+}
+
+/// How the ring sits in the housing.
+fn ring_doubts(
+    case: &Case,
+    ring: &case::Ring,
+    housing: Option<(&Mesh, &HousingModel)>,
+) -> Result<Vec<String>, StageError> {
+    let (Some((mesh, model)), Some(tie)) = (housing, &ring.tie) else {
+        return Ok(Vec::new());
+    };
+    let mut found = Vec::new();
+    let (mut width, mut face, mut height) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for section in &ring.sections {
+        let layer = layer(case, section)?;
+        let [radial, along] = layer.rectangle();
+        // a groove takes from the area and hardly from the second moment: the smaller of two estimates
+        let by_inertia = (12.0 * layer.out_of_plane_inertia() / layer.area).sqrt();
+        width = width.max(along.min(by_inertia));
+        if layer.radius + 0.5 * radial > face {
+            (face, height) = (layer.radius + 0.5 * radial, radial);
+        }
+    }
+    if model.dimension() == 3 {
+        let seat = Seat::of(mesh, model, tie)?;
+        let outside = seat.share_outside(width);
+        if outside > OVERHANG {
+            found.push(format!(
+                "{:.0} % of the ring's width lies outside the bore \"{}\": the ring is about {width:.3e} m wide by its sections and the bore reaches from {:.3e} to {:.3e} m along the axis, from the ring's plane; the overhang is tied as a rigid arm; check ring.tie.centre, ring.tie.axis and ring.sections",
+                100.0 * outside,
+                tie.group,
+                seat.from,
+                seat.to
+            ));
+        }
+    }
+    let outer = ring.outer_radius.unwrap_or(face);
+    if (outer - face).abs() > ARM * height {
+        found.push(format!(
+            "ring.outer_radius is {outer:.4e} m and the outer face of ring.sections lies at about {face:.4e} m: the tie bridges {:.3e} m between them as a rigid arm; check both",
+            (outer - face).abs()
+        ));
+    }
+    Ok(found)
+}
+
+/// Whether the outer race is in the innermost section of its ring.
+fn race_in_ring(case: &Case) -> Result<Option<String>, StageError> {
+    let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
+        return Ok(None);
+    };
+    let mut sections = ring.sections.iter();
+    let Some(first) = sections.next() else {
+        return Ok(None);
+    };
+    let innermost = sections.fold(first, |least, next| {
+        if next.radius < least.radius {
+            next
+        } else {
+            least
+        }
+    });
+    let layer = layer(case, innermost)?;
+    let [height, _] = layer.rectangle();
+    let (race, half) = (bearing.outer_race_radius, 0.5 * height);
+    let faces = [layer.radius - half, layer.radius + half];
+    let near = faces[0] - APART * height..faces[1];
+    Ok((!near.contains(&race)).then(|| {
+        format!(
+            "bearing.outer_race_radius is {race:.4e} m and the innermost of ring.sections reaches from about {:.4e} to {:.4e} m: the race is cut into that ring; check both",
+            faces[0], faces[1]
+        )
+    }))
+}
+
+/// Density of a ball of the given mass.
+fn ball_density(setup: &BearingSetup) -> Option<String> {
+    let (radius, mass) = (setup.geometry.ball_radius(), setup.geometry.ball_mass());
+    let density = mass / (4.0 / 3.0 * PI * radius.powi(3));
+    let [least, most] = BALL_DENSITIES;
+    (!(least..=most).contains(&density)).then(|| {
+        format!(
+            "a ball of {mass:.4e} kg and {radius:.4e} m radius has a density of {density:.3e} kg/m^3, which no solid ball has: check bearing.ball_mass, bearing.density and bearing.ball_radius"
+        )
+    })
+}
