@@ -3,6 +3,7 @@
 //! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
 
 mod balls;
+mod loaded_errors;
 mod mode_errors;
 mod stepping;
 mod table;
@@ -13,6 +14,7 @@ use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation, ModeSelection};
 use crate::transient::Method;
+use loaded_errors::LoadedErrors;
 use mode_errors::{ModeErrors, undamped_ball_hz};
 use std::f64::consts::TAU;
 
@@ -69,8 +71,10 @@ impl ModelChoice {
         let source = asked.method == case::Method::NewmarkExplicit;
         // the source's method steps all ring displacements, and its equations need them
         let whole = source || scene.setup.formulation == Formulation::Printed;
-        let (modes, modes_part) = modes(asked, scene, band_hz, target, whole);
-        let (balls_inertia, balls_part) = balls::chosen(case, scene, band_hz, target);
+        let loaded = LoadedErrors::of(scene, band_hz, asked.end - asked.start)?;
+        let errors = ModeErrors::of(scene, band_hz, &loaded);
+        let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
+        let (balls_inertia, balls_part) = balls::chosen(case, scene, band_hz, target, &loaded);
         let mut model = RunModel {
             modes,
             residual: asked.residual,
@@ -99,10 +103,10 @@ fn modes(
     scene: &Scene,
     band_hz: f64,
     target: f64,
+    errors: &ModeErrors,
     whole: bool,
 ) -> (ModeSelection, ChosenPart) {
     let all = scene.stage.modes.count();
-    let errors = ModeErrors::of(scene, band_hz);
     let (selection, why) = match asked.modes {
         ModesKept::All => (ModeSelection::All, "given".to_owned()),
         ModesKept::Count(count) => (ModeSelection::Count(count.min(all)), "given".to_owned()),
