@@ -214,6 +214,9 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());
     }
+    for text in &result.warnings {
+        lines.push(format!("warning: {text}"));
+    }
     for text in &result.not_analysed {
         lines.push(format!("warning: not analysed: {text}"));
     }

@@ -32,6 +32,9 @@ pub fn run_report<R: Recording>(
     for text in &result.not_analysed {
         report = report.warning(format!("Not analysed: {text}"));
     }
+    for text in &result.warnings {
+        report = report.warning(text);
+    }
     for window in &result.windows {
         report = report.section(window_section(window));
     }
