@@ -127,7 +127,7 @@ pub(super) fn run_json<R: Recording>(
         "windows": windows_json(&result.windows),
         "superelement": imported(&result.scene.stage),
         "not_analysed": result.not_analysed,
-        "warnings": result.scene.doubts,
+        "warnings": result.warnings,
     });
     extend(&mut map, fields);
     Value::Object(map)

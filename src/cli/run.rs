@@ -217,7 +217,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());
     }
-    lines.extend(warnings(&result.scene.doubts));
+    lines.extend(warnings(&result.warnings));
     for text in &result.not_analysed {
         lines.push(format!("warning: not analysed: {text}"));
     }

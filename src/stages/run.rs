@@ -36,6 +36,8 @@ pub struct RunResult<R = RunRecord> {
     pub scalograms: Vec<SensorScalogram>,
     /// Windows or sensors that could not be analysed, and why.
     pub not_analysed: Vec<String>,
+    /// The scene's doubts, and what of the model errs by more than the target.
+    pub warnings: Vec<String>,
 }
 
 /// Carries the command out, its signals in memory.
@@ -89,6 +91,7 @@ pub fn compute_kept_run<K: Keeper>(
     let told = |done| watch.fraction(done);
     let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
     let mut result = RunResult {
+        warnings: [scene.doubts.clone(), choice.warnings(case.target())].concat(),
         scene,
         statics,
         choice,

@@ -32,6 +32,9 @@ pub fn run_report<R: Recording>(
     for text in &result.not_analysed {
         report = report.warning(format!("Not analysed: {text}"));
     }
+    for text in &result.warnings {
+        report = report.warning(text);
+    }
     for window in &result.windows {
         report = report.section(window_section(window));
     }
@@ -52,9 +55,6 @@ pub fn run_report<R: Recording>(
     report = report.section(Section::new("Computation").facts(computation(result)));
     let imported = result.scene.stage.imported.iter();
     for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
-        report = report.warning(text);
-    }
-    for text in &result.scene.doubts {
         report = report.warning(text);
     }
     for text in assumptions(case, Some(&result.scene.setup)) {

@@ -1,6 +1,7 @@
 //! Whether the balls need their inertia.
 
 use super::super::Scene;
+use super::loaded_errors::LoadedErrors;
 use super::{ChosenPart, ball_frequency, hertz};
 use crate::case::{self, Case};
 use crate::report::significant;
@@ -10,12 +11,13 @@ use crate::system::{BallsInertia, Formulation};
 const SHARE: f64 = 0.2;
 
 /// Balls with inertia unless all of them stay pressed onto both races and vibrate there far above the band: a motion of
-/// frequency f then loses `(f / f_ball)^2`.
+/// frequency f then loses `(f / f_ball)^2`, and the mass that ring and shaft lack shifts their phase more and more.
 pub(super) fn chosen(
     case: &Case,
     scene: &Scene,
     band_hz: f64,
     target: f64,
+    loaded: &LoadedErrors,
 ) -> (BallsInertia, ChosenPart) {
     let given = case
         .bearing
@@ -28,8 +30,9 @@ pub(super) fn chosen(
     let slowest = balls
         .map(|ball| hertz(ball_frequency(scene, ball.inner, ball.outer)))
         .fold(f64::INFINITY, f64::min);
-    let lost = pressed.then(|| (band_hz / slowest).powi(2));
+    let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls()));
     let setup = &scene.setup;
+    let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
     let (inertia, why) = match given {
         Some(case::BallsInertia::Dynamic) => (BallsInertia::Dynamic, "given".to_owned()),
@@ -37,6 +40,10 @@ pub(super) fn chosen(
         None if !pressed => (
             BallsInertia::Dynamic,
             "not all balls are held between both races: they move on their own".to_owned(),
+        ),
+        None if damaged => (
+            BallsInertia::Dynamic,
+            "damage throws balls off their races".to_owned(),
         ),
         None if !supported => (
             BallsInertia::Dynamic,
@@ -49,8 +56,9 @@ pub(super) fn chosen(
                 false => BallsInertia::Dynamic,
             };
             let why = format!(
-                "the slowest ball vibrates between its races at {} kHz",
-                significant(slowest / 1e3, 3)
+                "the slowest ball vibrates between its races at {} kHz; without the balls' mass the phases of the band's modes err by {} in the end",
+                significant(slowest / 1e3, 3),
+                significant(loaded.without_balls(), 2)
             );
             (inertia, why)
         }

@@ -10,11 +10,13 @@
 //! contact  rms of k dH at the raceway, the worst place: the relative change of a contact force; k both contacts in series
 //! ```
 //!
-//! and the estimate is the root of the sum of both squares. Where nothing damps the contacts the balls' own vibration stays, far
+//! and the estimate is the root of the sum of both squares, and with the static residual of the square of what the loaded system
+//! loses ([`LoadedErrors`]). Where nothing damps the contacts the balls' own vibration stays, far
 //! above the band, and what a wrong raceway does to its period adds up: there the contact's frequencies go up to that of a ball
 //! under an impact, and it counts [`ADDS_UP`] times.
 
 use super::super::Scene;
+use super::loaded_errors::LoadedErrors;
 use super::{IMPACT, ball_frequency, hertz};
 use crate::system::{ModeDamping, StructureModes};
 use std::f64::consts::TAU;
@@ -39,8 +41,8 @@ pub(super) struct ModeErrors {
 type Complex = [f64; 2];
 
 impl ModeErrors {
-    /// For a band up to `band_hz`.
-    pub(super) fn of(scene: &Scene, band_hz: f64) -> Self {
+    /// For a band up to `band_hz`, with what the loaded system loses.
+    pub(super) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
         let modes = &scene.stage.modes;
         let contacts = at_raceway(scene);
         let sensors: Vec<Vec<f64>> = scene
@@ -96,6 +98,8 @@ impl ModeErrors {
                 by_count[mode][kind] =
                     (most(&mut path.into_iter()) + most(&mut contact.into_iter())).sqrt();
             }
+            let [_, with_residual] = &mut by_count[mode];
+            *with_residual = with_residual.hypot(loaded.with(mode));
         }
         Self { by_count }
     }
@@ -153,7 +157,7 @@ fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] 
     [whole, [whole[0] - softness, whole[1]]]
 }
 
-fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
+pub(super) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
     (0..modes.count())
         .map(|mode| modes.participation(mode, row))
         .collect()
@@ -161,18 +165,27 @@ fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
 
 /// Participations of radial forces at places all round the raceway.
 fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
-    let structure = &scene.stage.structure;
     let count = PLACES * scene.setup.balls();
+    radial_forces(
+        scene,
+        (0..count).map(|number| TAU * number as f64 / count as f64),
+    )
+}
+
+/// Participations of radial forces at angles (rad) of the raceway.
+pub(super) fn radial_forces(scene: &Scene, angles: impl Iterator<Item = f64>) -> Vec<Vec<f64>> {
+    let structure = &scene.stage.structure;
     let mut row = vec![0.0; structure.dof()];
-    let place = |number: usize| {
-        let rows = structure.ring().rows_at(TAU * number as f64 / count as f64);
-        row.fill(0.0);
-        for (dof, value) in rows.dofs.into_iter().zip(rows.radial) {
-            row[dof] += value;
-        }
-        participations(&scene.stage.modes, &row)
-    };
-    (0..count).map(place).collect()
+    angles
+        .map(|angle| {
+            let rows = structure.ring().rows_at(angle);
+            row.fill(0.0);
+            for (dof, value) in rows.dofs.into_iter().zip(rows.radial) {
+                row[dof] += value;
+            }
+            participations(&scene.stage.modes, &row)
+        })
+        .collect()
 }
 
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.
@@ -200,6 +213,11 @@ mod tests {
     use crate::case::Case;
     use crate::stages::Unwatched;
 
+    fn errors(scene: &Scene) -> ModeErrors {
+        let loaded = LoadedErrors::of(scene, 40e3, 5e-3).unwrap();
+        ModeErrors::of(scene, 40e3, &loaded)
+    }
+
     fn dented() -> Scene {
         dented_with(&[])
     }
@@ -214,7 +232,7 @@ mod tests {
     /// over the impacts until 6 ms, which dominate without residual, 7.3e-2 (7), 3.4e-2 (13), 8e-3 (31).
     #[test]
     fn estimates_are_near_the_errors_of_runs() {
-        let errors = ModeErrors::of(&dented(), 40e3);
+        let errors = errors(&dented());
         for (modes, measured) in [(5, 4.4e-3), (7, 6.4e-4), (13, 2.4e-4)] {
             let ratio = errors.with(modes, true) / measured;
             // a flat spectrum of forces stands for that of the scene
@@ -229,7 +247,7 @@ mod tests {
     #[test]
     fn the_fewest_modes_hold_the_target_and_one_less_does_not() {
         let scene = dented();
-        let errors = ModeErrors::of(&scene, 40e3);
+        let errors = errors(&scene);
         for target in [1e-2, 1e-3, 1e-4] {
             for residual in [false, true] {
                 let fewest = errors.fewest(target, residual);
@@ -248,7 +266,7 @@ mod tests {
         let hz = undamped_ball_hz(&undamped).unwrap();
         // the 80 to 117 kHz of a ball under the weight, times ten to the power 1/6
         assert!((117e3..175e3).contains(&hz), "{hz}");
-        let fewest = |scene: &Scene| ModeErrors::of(scene, 40e3).fewest(2e-3, true);
+        let fewest = |scene: &Scene| errors(scene).fewest(2e-3, true);
         let kept = fewest(&undamped);
         assert!(kept > fewest(&damped) + 4, "{kept}");
         // all that a ball can be in resonance with

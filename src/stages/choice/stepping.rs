@@ -12,7 +12,7 @@ use crate::transient::Method;
 /// contact begins; the error fell with the tolerance to the power [`ADAMS_ORDER`].
 const ADAMS_TOLERANCE: f64 = 1e-3;
 const ADAMS_TARGET: f64 = 1e-2;
-const ADAMS_ORDER: f64 = 0.75;
+pub(super) const ADAMS_ORDER: f64 = 0.75;
 
 /// Part of the target that the steps may take.
 const SHARE: f64 = 0.8;

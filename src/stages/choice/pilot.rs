@@ -1,0 +1,161 @@
+//! The error of the steps, measured on a short stretch before the run.
+//!
+//! The stretch begins at rest at the highest speed, a ball just before the first defect. It is stepped as the run will be and with a
+//! tenth of the tolerance in half the steps; with an error that falls as `tolerance^p` the two differ by `1 - 10^-p` of it.
+
+use super::super::{RunEnd, RunModel, Scene, Simulation, Span};
+use super::stepping::ADAMS_ORDER;
+use crate::bearing::Race;
+use crate::case;
+use crate::series::TimeSeries;
+use crate::signal::{band_limit, relative_difference};
+use crate::system::{Equilibrium, StaticCondition};
+use crate::transient::Method;
+
+/// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.
+const LEAST_S: f64 = 2e-3;
+const LEAST_PERIODS: f64 = 30.0;
+
+/// How much smaller the second tolerance is, and how much shorter its steps.
+const FINER: f64 = 0.1;
+const SHORTER: f64 = 0.5;
+
+/// Instants among which the highest speed is looked for.
+const INSTANTS: u32 = 64;
+
+/// Relative error of the steps in the band, the worst sensor's; `None` for a method without a tolerance, or where the stretch
+/// cannot be stepped or is silent.
+pub(super) fn measured(
+    asked: &case::Transient,
+    model: &RunModel,
+    scene: &Scene,
+    band_hz: f64,
+) -> Option<f64> {
+    let Method::ExponentialAdams {
+        tolerance: Some(tolerance),
+    } = model.method
+    else {
+        return None;
+    };
+    let whole = asked.end - asked.start;
+    let span = Span {
+        duration: LEAST_S.max(LEAST_PERIODS / band_hz).min(whole),
+        output_hz: asked.output_hz,
+    };
+    let begin = begin(asked, scene, whole - span.duration);
+    let condition = StaticCondition::at(&scene.setup, begin);
+    let rest = Equilibrium::find(&scene.stage.structure, &scene.setup, condition).ok()?;
+    let signals = |model: &RunModel| -> Option<Vec<TimeSeries>> {
+        let system = scene.system(model).ok()?;
+        let state = system.state_at(begin, &rest, &scene.stage.modes);
+        let run = Simulation::from_state(system, state, model, span, |_| ()).ok()?;
+        let complete = matches!(run.end, RunEnd::Complete);
+        let sensors = 0..run.record.sensors.len();
+        let signals = sensors.map(|sensor| {
+            let signal = run.signal(sensor).ok()?;
+            // a band that the sampling or the length of the stretch does not let out is not cut
+            Some(band_limit(&signal, band_hz).unwrap_or(signal))
+        });
+        signals.collect::<Option<_>>().filter(|_| complete)
+    };
+    let finer = RunModel {
+        method: Method::ExponentialAdams {
+            tolerance: Some(FINER * tolerance),
+        },
+        step: SHORTER * model.step,
+        ..*model
+    };
+    let (run, finer) = (signals(model)?, signals(&finer)?);
+    let errors = run.iter().zip(&finer);
+    let errors = errors.map(|(run, finer)| relative_difference(run, finer).ok());
+    let most = errors.collect::<Option<Vec<f64>>>()?;
+    let most = most.into_iter().reduce(f64::max)?;
+    Some(most / (1.0 - FINER.powf(ADAMS_ORDER)))
+}
+
+/// The instant of the highest speed among those of the run that leave the stretch, and from there the time to the next impact.
+fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
+    let setup = &scene.setup;
+    let speed = |t: f64| setup.cage.motion(t).speed.abs();
+    let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(INSTANTS);
+    let instants = (1..=INSTANTS).map(at);
+    let fastest = instants.fold(asked.start, |best, t| match speed(t) > speed(best) {
+        true => t,
+        false => best,
+    });
+    let Some(defect) = setup.race_defects.first() else {
+        return fastest;
+    };
+    let (cage, shaft) = (setup.cage.motion(fastest), setup.cage.shaft());
+    let turned = match defect.race() {
+        Race::Outer => 0.0,
+        Race::Inner => shaft.angle(fastest),
+    };
+    // how fast and how far balls go from here to the edge
+    let passing = match defect.race() {
+        Race::Outer => cage.speed,
+        Race::Inner => cage.speed - cage.speed / setup.geometry.orders().cage,
+    };
+    if passing == 0.0 {
+        return fastest;
+    }
+    let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
+    let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing());
+    let until = edge / passing.abs();
+    match until <= spare - (fastest - asked.start) {
+        true => fastest + until,
+        false => fastest,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::stages::{ModelChoice, Unwatched};
+
+    fn with_tolerance(example: &str, tolerance: f64, set: &[&str]) -> (Option<f64>, f64) {
+        let case = Case::example(example, set);
+        let asked = case.transient.as_ref().unwrap();
+        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let model = RunModel {
+            method: Method::ExponentialAdams {
+                tolerance: Some(tolerance),
+            },
+            ..choice.model
+        };
+        let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
+        (measured(asked, &model, &scene, 40e3), begin)
+    }
+
+    #[test]
+    fn a_rougher_tolerance_has_a_larger_error() {
+        let [rough, fine] = [1e-1, 1e-5].map(|tolerance| {
+            let measured = with_tolerance("scenes/impact", tolerance, &[]);
+            measured.0.unwrap()
+        });
+        assert!(rough > 10.0 * fine, "{rough} {fine}");
+        assert!(fine < 1e-2, "{fine}");
+    }
+
+    #[test]
+    fn the_stretch_begins_before_an_impact_at_the_highest_speed() {
+        let (_, begin) = with_tolerance("tadina2011/outer-dent", 1e-3, &[]);
+        let case = Case::example("tadina2011/outer-dent", &[]);
+        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let (cage, defect) = (scene.setup.cage.motion(begin), &scene.setup.race_defects[0]);
+        let ahead = (defect.angle() - cage.angle).rem_euclid(scene.setup.cage.spacing());
+        let edge = ahead / defect.contact_half_angle();
+        assert!((edge - 1.5).abs() < 0.5, "{edge}");
+        assert!(
+            cage.speed
+                > 0.9
+                    * scene
+                        .setup
+                        .cage
+                        .motion(case.transient.as_ref().unwrap().end)
+                        .speed
+        );
+    }
+}
