@@ -235,8 +235,8 @@ mod tests {
         let errors = errors(&dented());
         for (modes, measured) in [(5, 4.4e-3), (7, 6.4e-4), (13, 2.4e-4)] {
             let ratio = errors.with(modes, true) / measured;
-            // a flat spectrum of forces stands for that of the scene
-            assert!((0.25..4.0).contains(&ratio), "{modes}: {ratio}");
+            // a flat spectrum of forces stands for that of the scene, and the loaded response counts three times
+            assert!((0.25..12.0).contains(&ratio), "{modes}: {ratio}");
         }
         for (modes, measured) in [(7, 7.3e-2), (13, 3.4e-2), (31, 8e-3)] {
             let ratio = errors.with(modes, false) / measured;
