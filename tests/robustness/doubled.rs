@@ -238,6 +238,21 @@ fn parts_that_touch_without_a_link_are_said() {
     }
 }
 
+/// Reaching into one another by 1.3 mm, a twenty-fifth of a cell: no centre of an element lies in another one.
+#[test]
+fn parts_that_reach_into_one_another_by_little_are_said() {
+    let folder = scratch("doubled-little");
+    let mut blocks = Blocks::default();
+    blocks.cube(1, "a", [0.0; 3], 3);
+    blocks.cube(2, "b", [0.0987, 0.0, 0.0], 3);
+    blocks.write(&folder, &["a", "b"], "");
+    for output in [modes(&folder), inspect(&folder)] {
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let words = "18 faces on 1.000e-2 m^2, at most 1.3e-3 m apart or into one another";
+        assert!(text(&output).contains(words), "{}", text(&output));
+    }
+}
+
 /// Apart by less than a hundredth of a cell, or joined by common nodes: nothing is said.
 #[test]
 fn parts_that_do_not_touch_are_not_said_to() {

@@ -100,8 +100,8 @@ impl Bodies<'_> {
         })
     }
 
-    /// Distance of a point from a facet along the facet's normal, m, if its foot is on the facet.
-    pub(super) fn distance(&self, facet: &Facet, point: &Vector3<f64>) -> Option<f64> {
+    /// Height of a point over a facet, along the normal that leads out of the body, m, if its foot is on the facet.
+    pub(super) fn height(&self, facet: &Facet, point: &Vector3<f64>) -> Option<f64> {
         let along = facet.normal.dot(&(point - facet.centre));
         let foot = point - facet.normal * along;
         let places: Vec<_> = facet
@@ -120,7 +120,7 @@ impl Bodies<'_> {
                 other * own.signum() >= -self.tolerance * across.norm()
             }),
         };
-        on_it.then_some(along.abs())
+        on_it.then_some(along)
     }
 }
 

@@ -6,8 +6,8 @@
 //! O(n log n).
 //!
 //! # Limitations
-//! An overlap shows itself by the centre of an element that lies within another. A body that crosses another between
-//! the centres of both is not seen. Faces touch where the centre of one lies on the other.
+//! An overlap shows itself by the centre of an element or of a face that lies within another element. A body that crosses
+//! another between all these centres is not seen. Faces touch where the centre of one lies on the other.
 
 mod boxes;
 mod doubled;

@@ -2,6 +2,7 @@
 
 use super::boxes::{Bounds, BoxTree};
 use super::facets::Facet;
+use super::outline::{centre, holds};
 use super::{Bodies, at, both};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -20,8 +21,9 @@ pub struct Touching {
     pub faces: usize,
     /// Their area, m^2 (length, m, in the plane), of the part that has more of it.
     pub size: f64,
-    /// Largest distance of such a centre from the face that it lies on, m: zero but for round-off on planes. On curved
-    /// surfaces up to what flat faces miss; smaller gaps than that are not told from contact.
+    /// Largest distance of such a centre from the face that it lies on, m: zero but for round-off on planes that touch. On
+    /// curved surfaces up to what flat faces miss; smaller gaps than that are not told from contact. Where one body
+    /// reaches into the other, the depth.
     pub gap: f64,
     /// Pairs of their corners that are in one place.
     pub node_pairs: usize,
@@ -43,7 +45,7 @@ impl Touching {
             parts => format!("the parts {} touch", both(parts)),
         };
         format!(
-            "{parts} without common nodes: {} {what} on {:.3e} m{power}, at most {:.1e} m apart, {} pairs of nodes in one place, the first at {}",
+            "{parts} without common nodes: {} {what} on {:.3e} m{power}, at most {:.1e} m apart or into one another, {} pairs of nodes in one place, the first at {}",
             self.faces,
             self.size,
             self.gap,
@@ -65,16 +67,17 @@ impl Bodies<'_> {
     /// Faces on each other, by pairs of parts; those left out whose corners, or those of the face that they lie on, are
     /// all `linked`.
     ///
-    /// Faces of one body lie on each other if they do so within round-off. Those of two may be apart, or reach into one
-    /// another, by as much as flat facets miss a curved surface.
+    /// Faces of one body lie on each other if they do so within round-off. Those of two may be apart by as much as flat
+    /// facets miss a curved surface, and one may have sunk into the outermost element of the other.
     pub fn touching(&self, linked: impl Fn(usize) -> bool) -> Vec<Touching> {
         if !self.is_flat_or_solid() {
             return Vec::new();
         }
         let facets = self.facets();
+        // with the whole element behind it: the face of another body may have sunk into it
         let bounds = facets.iter().map(|facet| {
-            let corners = facet.corners.iter().map(|&node| self.points[node]);
-            Bounds::of(corners, facet.reach)
+            let nodes = self.solids[facet.solid].nodes.iter();
+            Bounds::of(nodes.map(|&node| self.points[node]), facet.reach)
         });
         let tree = BoxTree::new(bounds.collect());
         let order = tree.order().par_iter();
@@ -127,7 +130,8 @@ impl Bodies<'_> {
         found.collect()
     }
 
-    /// The nearest facet that looks the other way and that the centre of this one lies on, and its distance, m.
+    /// The nearest facet that looks the other way and that the centre of this one lies on or is sunk behind, and its
+    /// distance, m.
     fn lies_on(&self, facets: &[Facet], index: usize, tree: &BoxTree) -> Option<(usize, f64)> {
         let facet = &facets[index];
         let mut best: Option<(f64, usize)> = None;
@@ -141,15 +145,22 @@ impl Bodies<'_> {
                 true => self.tolerance,
                 false => reach + other.reach,
             };
-            let distance = self.distance(other, &facet.centre);
-            if let Some(distance) = distance.filter(|&distance| distance <= limit) {
-                let nearer = best.is_none_or(|best| (distance, number) < best);
-                if nearer {
-                    best = Some((distance, number));
-                }
+            let Some(height) = self.height(other, &facet.centre) else {
+                return;
+            };
+            let nearer = best.is_none_or(|best| (height.abs(), number) < best);
+            let sunk = || other.body != facet.body && height < 0.0 && self.is_within(facet, other);
+            if nearer && (height.abs() <= limit || sunk()) {
+                best = Some((height.abs(), number));
             }
         });
         best.map(|(distance, number)| (number, distance))
+    }
+
+    /// Whether the centre of a facet lies within the element behind another one.
+    fn is_within(&self, facet: &Facet, other: &Facet) -> bool {
+        let solid = &self.solids[other.solid];
+        holds(self, solid, &centre(self, solid), &facet.centre)
     }
 
     /// Corners of two facets that are in one place and are not one.
