@@ -401,6 +401,15 @@ impl Command {
     }
 }
 
+/// Most threads: more than any machine that the program is for has cores.
+const MOST_THREADS: usize = 1024;
+
+fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok();
+    let number = number.filter(|number| number.get() <= MOST_THREADS);
+    number.ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
+}
+
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
@@ -409,7 +418,7 @@ pub struct Options {
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
-    #[arg(long, global = true, value_name = "N")]
+    #[arg(long, global = true, value_name = "N", value_parser = number_of_threads)]
     pub threads: Option<NonZeroUsize>,
     /// No progress and no summary; errors only
     #[arg(long, global = true)]
@@ -509,6 +518,8 @@ mod tests {
             "plummer run",
             "plummer rnu a.toml",
             "plummer run a.toml --threads 0",
+            "plummer run a.toml --threads 1025",
+            "plummer run a.toml --threads 100000",
             "plummer modes a.toml --fast",
             "plummer inspect a.msh --length-unit feet",
             "plummer inspect a.msh --density -1",

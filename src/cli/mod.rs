@@ -46,9 +46,29 @@ pub use sweep::{Share, SweepArguments};
 
 use crate::case::{Case, Purpose};
 
+/// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
+const STACK: usize = 8 << 20;
+
 /// Runs the program on the process's arguments and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    let named = std::thread::Builder::new().name("main".to_owned());
+    match named.stack_size(STACK).spawn(on_arguments) {
+        Ok(work) => work
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Err(error) => {
+            let _ = writeln!(
+                io::stderr(),
+                "error: a thread with a stack of {} MiB could not be started: {error}\nhelp: raise the limits of memory and threads (ulimit -v, ulimit -u)",
+                STACK >> 20
+            );
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn on_arguments() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {

@@ -125,6 +125,18 @@ pub enum LinalgError {
         /// Order of the matrix.
         available: usize,
     },
+    /// Stiffness and mass so far apart that no frequency is a number.
+    #[error(
+        "no motion of the {order} degrees of freedom has a frequency that can be computed: the largest entries are {stiffness:.1e} N/m of stiffness and {mass:.1e} kg of mass; look at the units of moduli, densities, masses and springs"
+    )]
+    NoFrequency {
+        /// Order of the matrices.
+        order: usize,
+        /// Largest entry of the stiffness's diagonal.
+        stiffness: f64,
+        /// Largest entry of the mass's diagonal.
+        mass: f64,
+    },
     /// More modes than there is memory for.
     #[error(
         "{asked} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",

@@ -420,7 +420,10 @@ impl StageError {
                     | SystemError::NoModesKept { .. }
             ),
             Self::Transient(error) => !matches!(error, TransientError::BlewUp(_)),
-            Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. }),
+            Self::Linalg(error) => matches!(
+                error,
+                LinalgError::TooManyModes { .. } | LinalgError::NoFrequency { .. }
+            ),
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,

@@ -21,6 +21,22 @@ pub(super) fn above_zero(key: impl Into<String>, found: f64) -> Result<(), Broke
     within(found > 0.0, key, found, "a number above 0")
 }
 
+/// Wide beyond all materials: further out, products of matrix entries leave the numbers.
+pub(super) fn density(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    let key = key.into();
+    above_zero(key.as_str(), found)?;
+    let expected = "a density from 1e-9 to 1e9 kg/m^3";
+    within((1e-9..=1e9).contains(&found), key, found, expected)
+}
+
+/// As [`density`].
+pub(super) fn modulus(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    let key = key.into();
+    above_zero(key.as_str(), found)?;
+    let expected = "a modulus from 1e-6 to 1e18 Pa";
+    within((1e-6..=1e18).contains(&found), key, found, expected)
+}
+
 pub(super) fn zero_or_more(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
     within(found >= 0.0, key, found, "a number not below 0")
 }
@@ -128,11 +144,15 @@ pub(super) fn below(
 }
 
 pub(super) fn direction(key: impl Into<String>, vector: [f64; 3]) -> Result<(), BrokenRule> {
-    if vector.iter().any(|part| part.abs() > 0.0) {
-        Ok(())
-    } else {
-        Err(Rule::NoDirection.at(key))
+    let longest = vector
+        .iter()
+        .fold(0.0_f64, |most, part| most.max(part.abs()));
+    if longest <= 0.0 {
+        return Err(Rule::NoDirection.at(key));
     }
+    // beyond, the square of its length is zero or infinite
+    let expected = "a direction whose largest component is from 1e-150 to 1e150";
+    within((1e-150..=1e150).contains(&longest), key, longest, expected)
 }
 
 pub(super) fn not_empty(

@@ -6,8 +6,8 @@ use super::super::{
     RadiusRule, Ring, RingSupport, Spring,
 };
 use super::range::{
-    above, above_zero, direction, each_once, known_isotropic, known_material, loss_factor,
-    not_empty, poisson, share, zero_or_more,
+    above, above_zero, density, direction, each_once, known_isotropic, known_material, loss_factor,
+    modulus, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::material::MaterialError;
@@ -17,13 +17,13 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
         let at = |key: &str| format!("materials.{}.{key}", quoted(name));
         match material {
             Material::Isotropic(material) => {
-                above_zero(at("young"), material.young)?;
+                modulus(at("young"), material.young)?;
                 poisson(at("poisson"), material.poisson)?;
             }
             Material::Orthotropic(material) => {
                 for (key, values) in [("young", material.young), ("shear", material.shear)] {
                     for (place, value) in values.into_iter().enumerate() {
-                        above_zero(format!("{}[{place}]", at(key)), value)?;
+                        modulus(format!("{}[{place}]", at(key)), value)?;
                     }
                 }
                 direction(at("x_axis"), material.x_axis)?;
@@ -37,7 +37,7 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
                 })?;
             }
         }
-        above_zero(at("density"), material.density())?;
+        density(at("density"), material.density())?;
         loss_factor(at("loss_factor"), material.loss_factor())?;
     }
     Ok(())

@@ -570,3 +570,41 @@ fn a_ball_has_one_mass() {
         "{message}"
     );
 }
+
+/// Values that overflow or vanish in the products of matrix entries: refused where they are written.
+#[test]
+fn materials_and_directions_beyond_all_numbers() {
+    let material = |keys: &str| format!("materials.steel={{{keys}}}");
+    for (keys, key, rule) in [
+        (
+            "young=2e11,poisson=0.3,density=1e-300",
+            "materials.steel.density",
+            "found 1e-300, expected a density from 1e-9 to 1e9 kg/m^3",
+        ),
+        (
+            "young=2e11,poisson=0.3,density=1e12",
+            "materials.steel.density",
+            "expected a density from 1e-9 to 1e9 kg/m^3",
+        ),
+        (
+            "young=1e-300,poisson=0.3,density=7800",
+            "materials.steel.young",
+            "found 1e-300, expected a modulus from 1e-6 to 1e18 Pa",
+        ),
+        (
+            "young=1e300,poisson=0.3,density=7800",
+            "materials.steel.young",
+            "expected a modulus from 1e-6 to 1e18 Pa",
+        ),
+    ] {
+        let text = read(FULL, &[&material(keys)]).unwrap_err().to_string();
+        assert!(
+            text.contains(&format!("`{key}`")) && text.contains(rule),
+            "{text}"
+        );
+    }
+    for length in ["1e-200", "1e200"] {
+        let broken = super::range::direction("direction", [length.parse().unwrap(), 0.0, 0.0]);
+        assert!(broken.is_err(), "{length}");
+    }
+}

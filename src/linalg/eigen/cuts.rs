@@ -7,6 +7,9 @@ use super::super::lowest::{largest_ratio, round_off};
 use super::EigenProblem;
 use super::iteration::FIRM;
 
+/// Distance, relative to the value, within which an eigenvalue lies on it: ten times the usual error of a computed one.
+const ON_AN_END: f64 = 1e-8;
+
 /// How far a value on an eigenvalue is moved, relative to it.
 const NEAR: f64 = 1e-6;
 
@@ -32,20 +35,19 @@ pub(super) fn check_of(low: Cut, high: Cut) -> CountCheck {
 }
 
 impl EigenProblem {
-    /// Eigenvalues below a value, which is moved to one side if it is an eigenvalue itself or too near to zero.
+    /// Eigenvalues below a value, which is moved to one side: a little, so that those that lie on it are on the other, and
+    /// further if it cannot be told from an eigenvalue or from zero.
     pub(super) fn count_near(&self, value: f64, side: Side) -> Result<Cut, LinalgError> {
+        let sign = match side {
+            Side::Below => -1.0,
+            Side::Above => 1.0,
+        };
         let value = value.min(self.above_all());
+        let value = value + sign * ON_AN_END * value.abs();
+        let from_zero = sign * (sign * value).max(0.0);
         let count = |value| {
             let memory = FactorMemory::default();
             count_below(&self.symbolic, &self.stiffness, &self.mass, value, memory)
-        };
-        let count_in = |ends| {
-            let memory = FactorMemory::default();
-            count_between(&self.symbolic, &self.stiffness, &self.mass, ends, memory)
-        };
-        let (sign, from_zero) = match side {
-            Side::Below => (-1.0, value.min(0.0)),
-            Side::Above => (1.0, value.max(0.0)),
         };
         let singular = |error: &LinalgError| matches!(error, LinalgError::NearlySingular { .. });
         let mut found = count(value).map(|counted| (value, counted));
@@ -57,11 +59,29 @@ impl EigenProblem {
             from_zero + 1e2 * nearest,
         ] {
             match &found {
-                Err(error) if singular(error) => found = count_in([value, end]),
+                Err(error) if singular(error) => found = self.count_in_gap([value, end]),
                 _ => break,
             }
         }
         found
+    }
+
+    /// Eigenvalues below a place between two values.
+    pub(super) fn count_in_gap(&self, ends: [f64; 2]) -> Result<Cut, LinalgError> {
+        let memory = FactorMemory::default();
+        count_between(&self.symbolic, &self.stiffness, &self.mass, ends, memory)
+    }
+
+    /// The end of a band, lowered towards the eigenvalues if it is far above all.
+    pub(super) fn nearer_end(&self, mut end: Cut) -> Result<f64, LinalgError> {
+        while end.0 > largest_ratio(&self.stiffness, &self.mass) {
+            let lower = self.count_near(0.25 * end.0, Side::Above)?;
+            if lower.1 < end.1 {
+                break;
+            }
+            end = lower;
+        }
+        Ok(end.0)
     }
 
     /// A value above all eigenvalues, 1/s^2: those of elements are at most some hundred times the largest

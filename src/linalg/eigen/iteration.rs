@@ -2,7 +2,7 @@
 
 use super::super::LinalgError;
 use super::super::bound::Quality;
-use super::super::count::count_between;
+use super::super::count::{CountCheck, count_between};
 use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{Ritz, Search};
 use super::super::memory;
@@ -96,6 +96,35 @@ impl EigenProblem {
             shift,
             counted: counted.map(|(value, counted, _)| (value, counted)),
         })
+    }
+
+    /// Counts before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
+    /// are known, whichever vectors of the crowd were found. `None` if one is missing.
+    pub(super) fn count_before(
+        &self,
+        ritz: &Ritz,
+        count: usize,
+        shift: f64,
+    ) -> Result<Option<CountCheck>, LinalgError> {
+        let gap = |place: usize| {
+            let low = place.checked_sub(1).map_or(shift, |last| ritz.values[last]);
+            [low, ritz.values[place]]
+        };
+        let wide = |place: &usize| {
+            let [low, high] = gap(*place);
+            high - low > SMALLEST_GAP * (high - shift)
+        };
+        let Some(found) = (0..count).rev().find(wide) else {
+            return Ok(None);
+        };
+        let (below, counted) = self.count_in_gap(gap(found))?;
+        let check = CountCheck {
+            above: None,
+            below,
+            counted,
+            found,
+        };
+        Ok((counted == found).then_some(check))
     }
 
     /// Whether a second factor can stand beside the first without filling the memory.

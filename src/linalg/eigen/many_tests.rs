@@ -115,3 +115,60 @@ fn modes_that_fill_the_memory_are_refused() {
         "{refused:?}"
     );
 }
+
+/// A hundred equal chains: the wanted pair is one of a hundred, and none lies below them.
+#[test]
+fn a_crowd_without_end_is_counted_before_it() {
+    let order = 100 * 60;
+    let (mut k, mut m) = (
+        TripletBuilder::new(order, order),
+        TripletBuilder::new(order, order),
+    );
+    for row in 0..order {
+        m.add(row, row, 1.0);
+        k.add(row, row, 2.0);
+        if row % 60 + 1 < 60 {
+            k.add(row, row + 1, -1.0);
+            k.add(row + 1, row, -1.0);
+        }
+    }
+    let problem = EigenProblem::new(&k.build(), &m.build()).expect("an order");
+    let pairs = problem.lowest(3).expect("found");
+    let first = 4.0 * (std::f64::consts::PI / 122.0).sin().powi(2);
+    assert!(
+        pairs
+            .values
+            .iter()
+            .all(|value| (value / first - 1.0).abs() < 1e-9),
+        "{:?}",
+        pairs.values
+    );
+    let check = pairs.count_check;
+    assert_eq!((check.counted, check.found), (0, 0));
+    assert!(check.below < first && check.below > 0.0);
+}
+
+/// Mass and stiffness 10^299 apart: the message speaks of them, not of degrees of freedom.
+#[test]
+fn no_frequency_at_all() {
+    let order = 300;
+    let (mut k, mut m) = (
+        TripletBuilder::new(order, order),
+        TripletBuilder::new(order, order),
+    );
+    for row in 0..order {
+        k.add(row, row, 2e299);
+        m.add(row, row, 1.0);
+        if row > 0 {
+            k.add(row, row - 1, -1e299);
+            k.add(row - 1, row, -1e299);
+        }
+    }
+    let found = EigenProblem::new(&k.build(), &m.build())
+        .expect("an order")
+        .lowest(2);
+    assert!(
+        matches!(found, Err(LinalgError::NoFrequency { order: 300, .. })),
+        "{found:?}"
+    );
+}

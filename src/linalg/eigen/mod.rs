@@ -49,6 +49,9 @@ const BEYOND: usize = 4;
 /// How often missing pairs, or a gap, are looked for.
 const ROUNDS: usize = 5;
 
+/// Rounds after which equal eigenvalues are taken for a crowd without end.
+const CROWDED: usize = 3;
+
 /// Largest relative residual of a mode. That of a rigid mode is a ratio of round-off to the shift's term; a
 /// frequency's relative error is below the square of it.
 const LARGEST_RESIDUAL: f64 = 1e-5;
@@ -183,7 +186,8 @@ impl EigenProblem {
             || self.is_too_small_for_slices() && fills
             || order <= DENSE_SHARE_LIMIT && fills;
         if dense {
-            return self.by_dense_solver(count);
+            let found = self.by_dense_solver(count);
+            return found.map_err(|error| self.explained(error));
         }
         let [any, large] = AT_ONCE;
         let small_share = SHARE * largest_basis(count + BEYOND) <= order;
@@ -197,7 +201,7 @@ impl EigenProblem {
         if order <= DENSE_RESCUE_LIMIT && failed(&found) {
             found = self.by_dense_solver(count);
         }
-        found
+        found.map_err(|error| self.explained(error))
     }
 
     /// The `count` lowest pairs by one search, counted in a gap behind them.
@@ -218,6 +222,10 @@ impl EigenProblem {
                 counted,
             } = iterated;
             let Some((value, counted)) = counted else {
+                let before = (round >= CROWDED).then(|| self.count_before(&ritz, count, shift));
+                if let Some(found) = before.transpose()?.flatten() {
+                    return self.finished(ritz, quality, count, found, shift, times);
+                }
                 beyond = (2 * beyond + BEYOND).min(order - count);
                 continue;
             };
@@ -271,19 +279,40 @@ impl EigenProblem {
             EigenPairs::none(self.order(), high.0)
         } else if low.1 == 0 {
             self.lowest(high.1)?
-        } else if self.order() <= DENSE_LIMIT || self.is_too_small_for_slices() {
-            let mut pairs = self.by_dense_solver(high.1)?;
-            pairs.drop_first(low.1);
-            pairs
         } else {
             self.find_room(check.counted)?;
-            let (slices, _) = self.slices(low, high.1, Some(high.0))?;
-            self.joined(slices)?
+            let mut found = Err(LinalgError::NoGap { asked: high.1 });
+            if !self.is_too_small_for_slices() {
+                let nearer = self.nearer_end(high)?;
+                found = self
+                    .slices(low, high.1, Some(nearer))
+                    .and_then(|(slices, _)| self.joined(slices));
+            }
+            if self.order() <= DENSE_RESCUE_LIMIT && failed(&found) {
+                found = self.by_dense_solver(high.1);
+                if let Ok(pairs) = &mut found {
+                    pairs.drop_first(low.1);
+                }
+            }
+            found?
         };
         pairs.count_check = check;
         pairs.times.order = self.order_s;
         pairs.times.count += elapsed;
         Ok(pairs)
+    }
+
+    /// No eigenvalues at all: stiffness and mass are too far apart for any number.
+    fn explained(&self, error: LinalgError) -> LinalgError {
+        let largest = |a: &SymmetricMatrix| a.diagonal().into_iter().fold(0.0, f64::max);
+        match error {
+            LinalgError::TooManyModes { available: 0, .. } => LinalgError::NoFrequency {
+                order: self.order(),
+                stiffness: largest(&self.stiffness),
+                mass: largest(&self.mass),
+            },
+            error => error,
+        }
     }
 
     /// An error if there is no memory for so many pairs.

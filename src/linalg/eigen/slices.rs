@@ -114,9 +114,18 @@ impl EigenProblem {
                 found: count - 1,
             }));
         }
-        // the nearest orthonormal vectors, to first order
-        let half = first * faer::Scale(0.5);
-        pairs.vectors -= times(pairs.vectors.as_ref(), half.as_ref());
+        // what a pair has of the lower ones is taken out of it, to first order; rigid motions stay as they are
+        let lower = DenseMatrix::from_fn(count, count, |row, column| {
+            if row < column {
+                first[(row, column)]
+            } else {
+                0.0
+            }
+        });
+        pairs.vectors -= times(pairs.vectors.as_ref(), lower.as_ref());
+        for (mode, residual) in pairs.residuals.iter_mut().enumerate() {
+            *residual += lower.col(mode).norm_l2();
+        }
         pairs.orthogonality = coupling(&pairs.vectors).norm_max();
         Ok(pairs)
     }
