@@ -12,7 +12,8 @@ consistent ones. `damping` has alpha and beta of (17) over decades. `angle` turn
 unbalance, which both turn with the shaft.
 
 Acceleration at P1 from 2.2 to 2.8 s, m/s^2: 99.9th percentile of the magnitude for each start (smallest and largest,
-medians of the starts: the source's figures show one run). A run begins at rest in equilibrium at 2.0 s or 13.7 and 27.4 ms later; what it begins with has died away by 2.2 s.
+medians of the starts: the source's figures show one run). A run begins at rest in equilibrium at 2.0 s or 13.7 and 27.4 ms
+later; what it begins with has died away by 2.2 s.
 One thread a run; results do not depend on it.
 """
 
@@ -29,7 +30,7 @@ EXAMPLES = pathlib.Path(__file__).parent.parent / "examples/tadina2011"
 STARTS = (2.0, 2.0137, 2.0274)
 FROM, END = 2.2, 2.8
 KINDS = ("healthy", "outer", "inner", "flat")
-# The radius of a rim: the cases' own, and a tenth of it, where 5 % of the deepest dent's wall is left.
+# The radius of a rim: the cases' own, and a tenth of it for a wall.
 ROUND, SHARP = 5e-5, 5e-6
 
 OURS = {"case": "healthy.toml"}
@@ -86,13 +87,13 @@ ANGLES = range(0, 360, 45)
 
 
 def defects(kind, rim, curvature, angle):
-    """The dents and the flat of figure 8. On the inner race the ball would conform to the dent by (24): it is refused."""
+    """The dents and the flat of figure 8."""
     common = f"rim_radius={rim},curvature="
     race = f"length={0.75e-3 if kind == 'outer' else 0.8e-3},depth=1.5e-5,{common}"
     return {
         "healthy": "[]",
         "outer": f'[{{on="outer",angle_deg=270,{race}"{curvature}"}}]',
-        "inner": f'[{{on="inner",angle_deg={angle},{race}"profile"}}]',
+        "inner": f'[{{on="inner",angle_deg={angle},{race}"{curvature}"}}]',
         "flat": f'[{{on="ball",ball=0,angle_deg=0,flat_radius=2e-3,depth=1e-5,{common}"{curvature}"}}]',
     }[kind]
 
@@ -148,6 +149,8 @@ def main():
     arguments.add_argument("--tables", default="ours,source,damping,angle")
     asked = arguments.parse_args()
     program = asked.plummer.resolve()
+    if not program.exists():
+        sys.exit(f"no program at {asked.plummer}: cargo build --release, or --plummer")
     for name in asked.tables.split(","):
         if name == "ours":
             table(program, "our cases but for", OURS, FROM_OURS)

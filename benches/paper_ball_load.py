@@ -18,6 +18,7 @@ largest, medians of the starts).
 import argparse
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
@@ -190,6 +191,8 @@ def main():
     arguments.add_argument("--plummer", type=pathlib.Path, default=pathlib.Path("target/release/plummer"))
     arguments.add_argument("--beta", type=float, default=1.5e-6, help="s; C = beta K, (17)")
     asked = arguments.parse_args()
+    if not asked.plummer.exists():
+        sys.exit(f"no program at {asked.plummer}: cargo build --release, or --plummer")
     begins = [STARTS if i == MANY_STARTS else STARTS[:1] for i in range(len(LOADS))]
     held = np.sqrt(GRAVITY / (OUTER - BALL)) / CAGE / TAU
     print(f"At the top a ball's weight exceeds its load up to {held:.1f} Hz of the shaft; with the shaft's speed in (15) the")

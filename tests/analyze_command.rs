@@ -650,6 +650,7 @@ error: 4 of 5 inputs could not be analysed in full:
   folder has no run.json and signals.npz: expected a folder with results of `plummer run`, or a file of signals
   cannot read missing.csv: No such file or directory (os error 2)
   other.csv: expected a channel \"P1\", found \"P2\"
+help: run `plummer run CASE.toml --out folder` first
 help: did you mean --channel 'P2'?
 ";
     assert_eq!(errors(&output), expected);

@@ -66,6 +66,15 @@ fn refused(folder: &Path, words: &str) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// Names the shapes that stand in a folder now in its `modes.json`, as if they had been computed so.
+fn name_again(out: &Path) {
+    let path = out.join("modes.json");
+    let mut result = json(path.clone());
+    let digest = MeshDigest::of_file(&out.join("modes.npz")).unwrap();
+    result["arrays"]["modes.npz"] = digest.sha256.into();
+    fs::write(path, result.to_string()).unwrap();
+}
+
 fn json(path: PathBuf) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
@@ -187,6 +196,7 @@ fn shapes_of_earlier_results_are_not_solved_for_again() {
     assert_eq!(shapes.count_points(), 160 + 24);
     shapes.frequencies_hz[1] = 123.25;
     write_modes_npz(&path, &shapes).unwrap();
+    name_again(&out);
     let shown = good(&folder, "export out/coupled --to vtu");
     assert!(
         shown.contains("wrote out/coupled/modes.vtu\nwrote out/coupled/ring.vtu\n"),
@@ -281,6 +291,7 @@ fn results_that_do_not_fit_are_refused() {
         .iter_mut()
         .for_each(|shape| shape.truncate(3 * 183));
     write_modes_npz(&path, &fewer).unwrap();
+    name_again(&out);
     let error = refused(&folder, "export out/coupled --to uff");
     assert!(
         error.starts_with("error: out/coupled/modes.npz does not fit the case: expected 160 nodes of the mesh and 24 of the ring, found 183 nodes\n"),
@@ -289,6 +300,7 @@ fn results_that_do_not_fit_are_refused() {
     let mut moved = whole.clone();
     moved.points.as_mut().unwrap()[5][1] += 1e-6;
     write_modes_npz(&path, &moved).unwrap();
+    name_again(&out);
     let error = refused(&folder, "export out/coupled --to vtu");
     assert!(
         error.contains("does not fit the case: expected node "),
@@ -300,6 +312,8 @@ fn results_that_do_not_fit_are_refused() {
         "{error}"
     );
     fs::write(&path, "damaged").unwrap();
+    assert!(refused(&folder, "export out/coupled --to vtu").contains("is not the file that"));
+    name_again(&out);
     assert!(refused(&folder, "export out/coupled --to vtu").contains("expected a NumPy archive"));
     fs::rename(folder.join("coupled.toml"), folder.join("moved.toml")).unwrap();
     let error = refused(&folder, "export out/coupled --to mtx");

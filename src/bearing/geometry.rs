@@ -131,7 +131,6 @@ impl BearingGeometry {
             d.ball_radius,
         )?;
         let pitch_radius = 0.5 * (d.outer_race_radius + d.inner_race_radius);
-        let row = BallRow::new(d.balls, 2.0 * d.ball_radius, 2.0 * pitch_radius, 0.0)?;
         let most = (PI / (d.ball_radius / pitch_radius).asin()).floor();
         if f64::from(d.balls) > most {
             return Err(GeometryError::Crowded {
@@ -141,6 +140,7 @@ impl BearingGeometry {
                 most: most as u32,
             });
         }
+        let row = BallRow::new(d.balls, 2.0 * d.ball_radius, 2.0 * pitch_radius, 0.0)?;
         Ok(Self {
             dimensions,
             radial_play,

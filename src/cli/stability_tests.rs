@@ -9,9 +9,9 @@ use crate::case::Case;
 use crate::chart::{Condition, stability_report};
 use crate::stages::{Scene, Unwatched};
 
-/// The smooth scene made small: a ring of 12 nodes.
+/// The smooth scene made small: a ring of 12 nodes, and a target for which seven modes are enough, whose limits are the test's.
 fn small() -> Case {
-    Case::example("scenes/smooth", &["ring.nodes=12"])
+    Case::example("scenes/smooth", &["ring.nodes=12", "accuracy.target=0.1"])
 }
 
 fn limit(of: &Value, which: &str) -> f64 {

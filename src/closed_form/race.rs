@@ -99,11 +99,10 @@ impl BallRow {
         }
         // neighbours on the pitch circle are pitch sin(pi / N) apart
         let most = std::f64::consts::PI / (ball_diameter / pitch_diameter).asin();
-        if f64::from(balls) > most * (1.0 + 1e-9) {
-            return Err(RaceError::Overlap {
-                balls,
-                most: most as u32,
-            });
+        // balls that touch fit, but for round-off
+        let most = (most * (1.0 + 1e-9)) as u32;
+        if balls > most {
+            return Err(RaceError::Overlap { balls, most });
         }
         let diameter_ratio = ball_diameter / pitch_diameter;
         Ok(Self {

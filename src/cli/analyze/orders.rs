@@ -167,7 +167,7 @@ mod tests {
         for right in ["ball=4.7135", "bsf=2.357", "ball=3.8", "cage=0.4"] {
             assert_eq!(doubt(&format!("{races},{right}")), None, "{right}");
         }
-        assert_eq!(doubt("outer=3,inner=4,ball=4"), None);
+        assert_eq!(doubt("outer=3,inner=4,ball=4.5"), None);
         assert_eq!(
             doubt("outer=3.585,inner=5.145").unwrap(),
             "BPFO and BPFI of --orders sum up to 8.730, which is no whole number of balls: is one of them wrong?"
