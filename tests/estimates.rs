@@ -216,7 +216,6 @@ fn row(number: u64) -> Result<Row, String> {
     let asked = case.transient.as_ref().ok_or("no transient")?;
     let scene = Scene::build(&case, &Unwatched).map_err(|error| error.to_string())?;
     let choice = ModelChoice::of_case(&case, asked, &scene).map_err(|error| error.to_string())?;
-    //BEFORE
     let estimate = choice.estimated_error.ok_or("no estimate")?;
     let (truth, horizon) = reference(&scene, &drawn, case.target())?;
     if horizon <= 0.0 {

@@ -34,8 +34,8 @@ const PUSHING: usize = 8;
 /// Powers of 1/w of the excitation's amplitude.
 const SLOPES: usize = 3;
 
-/// How much larger than the first order a response's error is taken: runs of random scenes erred by up to this times as much
-/// (`cargo test --test estimates`).
+/// How much larger than the first order a response's error is taken: runs of `examples/scenes/smooth` with 7 to 60 modes, as it is,
+/// with a preload of 10 um and with 100 times the mass, err by 0.6 to 3.2 times as much, and once by 4.4 times.
 const RESPONSE_SAFETY: f64 = 3.0;
 
 /// Estimated errors of a loaded system without some inertia, relative.
