@@ -36,7 +36,7 @@ const SLOPES: usize = 3;
 
 /// How much larger than the first order a response's error is taken: runs of `examples/scenes/smooth` with 7 to 60 modes, as it is,
 /// with a preload of 10 um and with 100 times the mass, err by 0.6 to 3.2 times as much, and once by 4.4 times.
-const RESPONSE_SAFETY: f64 = 3.0;
+pub(super) const RESPONSE_SAFETY: f64 = 3.0;
 
 /// Estimated errors of a loaded system without some inertia, relative.
 #[derive(Debug, Clone)]
