@@ -25,9 +25,10 @@ const SCENES: u64 = 40;
 /// Seed of the first scene's numbers; the others follow it.
 const SEED: u64 = 20_261_124;
 
-/// Steps of the reference, s: the longest one, and how often it is halved at most.
+/// Steps of the reference, s: the longest one, how often it is halved, and how often at most while there is no reference yet.
 const FIRST_STEP: f64 = 1e-7;
 const HALVINGS: usize = 2;
+const MOST_HALVINGS: usize = 7;
 
 /// Samples in a period of the band's highest frequency.
 const SAMPLES: f64 = 10.0;
@@ -171,7 +172,11 @@ fn reference(scene: &Scene, drawn: &Drawn, target: f64) -> Result<(Trace, f64), 
     };
     let mut coarse = signals(scene, &by(step), drawn);
     let mut best: Result<(Trace, f64), String> = Err("no reference".to_owned());
-    for _ in 0..HALVINGS {
+    for halving in 0..MOST_HALVINGS {
+        let found = best.as_ref().is_ok_and(|(_, horizon)| *horizon > 0.0);
+        if halving >= HALVINGS && found {
+            break;
+        }
         step *= 0.5;
         let fine = signals(scene, &by(step), drawn);
         if let (Ok(a), Ok(b)) = (&coarse, &fine) {

@@ -44,6 +44,9 @@ pub(super) struct BallGroup {
     pub own: Lanes,
     pub damping: Lanes,
     pub law: [Lanes; 2],
+    /// With it and contact damping: velocity towards the race of the kept modes, and of the race by the changing forces, m/s.
+    pub approach: Lanes,
+    pub yielding: Lanes,
     /// Velocity towards the outer race and along it, m/s.
     pub rate: Lanes,
     pub along: Lanes,

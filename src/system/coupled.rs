@@ -126,9 +126,9 @@ pub(super) struct Work {
     /// What each ball may feel at the outer race, and which of them feel anything.
     pub damage: Vec<Damage>,
     pub damaged: Vec<usize>,
-    /// With a static residual: balls on waves or damage, and the displacement of each one's last evaluation and its force.
+    /// With a static residual: balls on waves or damage, and the displacement and rate of each one's last evaluation and its force.
     pub uneven: Vec<usize>,
-    pub known: Vec<(f64, RaceForce)>,
+    pub known: Vec<(f64, f64, RaceForce)>,
     /// Of all balls, N.
     pub on_shaft: [f64; 2],
     /// Force that is evaluated for its tangent alone.
@@ -310,7 +310,7 @@ impl Work {
             damage: vec![Damage::None; balls],
             damaged: Vec::with_capacity(balls),
             uneven: Vec::with_capacity(balls),
-            known: vec![(0.0, RaceForce::default()); balls],
+            known: vec![(0.0, 0.0, RaceForce::default()); balls],
             on_shaft: [0.0; 2],
             force: Vec::new(),
         }

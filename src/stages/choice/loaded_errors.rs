@@ -10,11 +10,11 @@
 //! **Response.** A force at the raceway reaches a sensor by `H = D^-1`. To first order the model makes of it
 //!
 //! ```text
-//! dH_se = - sum_S H_ke [(w^2 - i w c_k) H_sk + i w sum_j c F_j H_sj phi_kj]
+//! dH_se = - sum_S [(w^2 - i w c_k) H_sk H_ke + A_sk A_ke / w_k^2]      A_sk = i w sum_j c F_j H_sj phi_kj
 //! ```
 //!
-//! k a mode left out, j a ball. The second part is contact damping c F_j: the damper of a model with static residual does not
-//! feel the residual's own velocity (`G dF/dt`), and the more the contact is loaded, the more that counts.
+//! k a mode left out, j a ball. The second part is contact damping c F_j: the damper of a model with static residual feels the
+//! residual's velocity to first order, and the more the contact is loaded, the more the second order counts.
 //!
 //! The spectrum of the excitation is not known: that of the forces is taken as flat, as 1/w and as 1/w^2, and the largest error
 //! counts. Source: Craig (1981), Structural Dynamics, sections 11.3 and 11.6 (modes and mode acceleration); Golub and Van
@@ -284,22 +284,31 @@ impl<'a> Loaded<'a> {
         for k in (0..count).rev() {
             let square = self.scene.stage.modes.squared_frequencies[k];
             let damping = self.scene.damping.coefficient(square);
-            for sensor in 0..sensors {
-                for frequency in 0..FREQUENCIES {
-                    let w = at(frequency);
+            for frequency in 0..FREQUENCIES {
+                let w = at(frequency);
+                // A / w_k but for the i: the signs of both pairs, race against ball, take each other out
+                let damped = |place: usize| -> Complex {
+                    let by_ball = self.balls.iter().enumerate().map(|(j, ball)| {
+                        let [re, im] = complex(&of_pairs, j, frequency, place);
+                        [ball[k] * re, ball[k] * im]
+                    });
+                    let sum = by_ball.fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]]);
+                    sum.map(|x| w / square.sqrt() * x)
+                };
+                let pushed = (0..pushing).map(|place| {
+                    let place = sensors + place;
+                    [complex(&of_modes, k, frequency, place), damped(place)]
+                });
+                let pushed: Vec<[Complex; 2]> = pushed.collect();
+                for sensor in 0..sensors {
                     let [re, im] = complex(&of_modes, k, frequency, sensor);
-                    let mut pull = [w * w * re + w * damping * im, w * w * im - w * damping * re];
-                    for (j, ball) in self.balls.iter().enumerate() {
-                        // i w c F_j H_sj phi_kj; the pair as race against ball has the other sign
-                        let [re, im] = complex(&of_pairs, j, frequency, sensor);
-                        pull[0] += w * ball[k] * im;
-                        pull[1] -= w * ball[k] * re;
-                    }
-                    for place in 0..pushing {
-                        let [re, im] = complex(&of_modes, k, frequency, sensors + place);
+                    let pull = [w * w * re + w * damping * im, w * w * im - w * damping * re];
+                    let dampers = damped(sensor);
+                    for (place, [moved, damped]) in pushed.iter().enumerate() {
                         let entry = &mut lost[sensor * entries + frequency * pushing + place];
-                        entry[0] += pull[0] * re - pull[1] * im;
-                        entry[1] += pull[0] * im + pull[1] * re;
+                        let (inertia, damper) = (times(pull, *moved), times(dampers, *damped));
+                        entry[0] += inertia[0] - damper[0];
+                        entry[1] += inertia[1] - damper[1];
                     }
                 }
             }
@@ -307,6 +316,10 @@ impl<'a> Loaded<'a> {
         }
         by_count
     }
+}
+
+fn times(a: Complex, b: Complex) -> Complex {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
 /// Of a row over the structure's modes with amplitudes that begin with these.

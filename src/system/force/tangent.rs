@@ -15,7 +15,8 @@
 //!
 //! Exact on circles. Left out, so that a method that solves with it needs an iteration more where they count: the centrifugal
 //! force's growth with s (1e4 1/s^2 beside 1e11 of a contact); on damage the profile's turning of the normals and the rate's
-//! part across them; of the static residual what one ball's force moves under the others; without the balls' inertia all but
+//! part across them; of the static residual what one ball's force moves under
+//! the others; without the balls' inertia all but
 //! both contacts in series along one normal.
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
@@ -52,16 +53,26 @@ impl CoupledSystem {
 
     /// Outer contact of a ball.
     fn add_outer(&mut self, j: usize, speed: f64, tangent: &mut Tangent) {
-        let Some((force, own)) = self.outer_contact(j) else {
+        let Some((force, own, overlap)) = self.outer_contact(j) else {
             return;
         };
-        // on a race that gives way by `own`
-        let share = 1.0 / (1.0 + own * force.tangent[0]);
-        let [rr, rt, tt] = force.tangent;
-        let (rr, rt, tt) = (rr * share, rt * share, tt - own * rt * rt * share);
-        let by_rate = force.by_rate * share;
-        let (modes, ball) = (self.modes, self.modes + 2 + j);
         let uneven = self.work.damage[j] != Damage::None || self.outer.is_wavy();
+        let [mut rr, rt, tt] = force.tangent;
+        // on a race that gives way by `own`, the rate r shrinks by 1 + own f', and the more the stiffer the contact becomes
+        let mut by_rate = force.by_rate;
+        if own > 0.0 && by_rate > 0.0 {
+            let rate = match uneven {
+                true => 0.0,
+                false => own * self.balls.get(j, |ball| &ball.rate) / overlap,
+            };
+            let shrinks = 1.0 + own * rr + 1.5 * rate * by_rate;
+            by_rate /= shrinks;
+            rr -= 0.5 * by_rate * rate * rr;
+        }
+        let share = 1.0 / (1.0 + own * rr);
+        let (rr, rt, tt) = (rr * share, rt * share, tt - own * rt * rt * share);
+        by_rate *= share;
+        let (modes, ball) = (self.modes, self.modes + 2 + j);
         if uneven {
             // the row across is still there from the force
             let mut term = tangent.add();
@@ -154,7 +165,7 @@ impl CoupledSystem {
         if self.balls.get(j, |ball| &ball.inner_force) <= 0.0 {
             return;
         }
-        let Some((outer, own)) = self.outer_contact(j) else {
+        let Some((outer, own, _)) = self.outer_contact(j) else {
             return;
         };
         let gap = self.balls.inner_gap(j);
@@ -177,8 +188,9 @@ impl CoupledSystem {
         }
     }
 
-    /// Force on the outer race with its derivatives, and how far the race gives way to it (m/N); none without contact.
-    fn outer_contact(&mut self, j: usize) -> Option<(RaceForce, f64)> {
+    /// Force on the outer race with its derivatives, how far the race gives way to it (m/N), and the displacement into the race (m);
+    /// none without contact.
+    fn outer_contact(&mut self, j: usize) -> Option<(RaceForce, f64, f64)> {
         if self.balls.get(j, |ball| &ball.outer_magnitude) <= 0.0 {
             return None;
         }
@@ -190,7 +202,7 @@ impl CoupledSystem {
             BallsInertia::QuasiStatic => 0.0,
         };
         let force = self.outer_force(j, gap - given);
-        (force.magnitude > 0.0).then_some((force, own))
+        (force.magnitude > 0.0).then_some((force, own, gap - given))
     }
 
     /// In `printed` the inner race is where the shaft is less the ring's mean, and the balls' frame accelerates with it.

@@ -11,8 +11,8 @@ pub(super) const MAX_SWEEPS: usize = 40;
 /// below any integration error.
 pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
 
-/// Relative change of a displacement over which the force on waves or damage is continued by its tangent; the error is its
-/// square.
+/// Relative change of a displacement and its rate over which the force on waves or damage is continued by its tangent; the error
+/// is its square.
 const SAME_PLACE: f64 = 1e-5;
 
 impl CoupledSystem {
@@ -21,11 +21,19 @@ impl CoupledSystem {
     ///
     /// `G` is soft beside the contacts (a few percent, and less from ball to ball), so each sweep gains nearly two digits; the
     /// start does not depend on the history.
+    ///
+    /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j`: they are
+    /// found in the same sweeps.
     #[inline(always)]
     pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
+        let damped = self.setup.contact_damping > 0.0;
         self.start_sweeps::<B>(cage);
         for _ in 0..MAX_SWEEPS {
             self.displace_race::<B>();
+            if damped {
+                self.rates_on_moving_race::<B>();
+                self.damping_factors::<B>();
+            }
             self.laws::<B>();
             for place in 0..self.work.uneven.len() {
                 self.uneven_law(self.work.uneven[place]);
@@ -51,7 +59,7 @@ impl CoupledSystem {
         }
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            let force = self.work.known[j].1;
+            let force = self.work.known[j].2;
             self.balls
                 .set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
             self.balls
@@ -84,11 +92,11 @@ impl CoupledSystem {
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
             self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
+            self.balls.set(j, |ball| &mut ball.law[1], 0.0);
             self.work.known[j].0 = f64::NAN;
         }
         if self.setup.contact_damping > 0.0 {
-            self.residual_rates::<B>(cage);
-            self.damping_factors::<B>();
+            self.rates_by_turning::<B>(cage);
         }
     }
 
@@ -144,15 +152,17 @@ impl CoupledSystem {
     fn uneven_law(&mut self, j: usize) {
         let (group, lane) = (j / LANES, j % LANES);
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
-        let known = self.work.known[j].0;
-        let near = (s - known).abs() <= SAME_PLACE * s.abs();
+        let rate = self.balls.groups[group].rate[lane];
+        let (known, known_rate, _) = self.work.known[j];
+        let near = (s - known).abs() <= SAME_PLACE * s.abs()
+            && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
         // also where none is known
         if !near {
-            self.work.known[j] = (s, self.outer_force(j, s));
+            self.work.known[j] = (s, rate, self.outer_force(j, s));
         }
-        let (at, force) = &self.work.known[j];
+        let (at, at_rate, force) = &self.work.known[j];
         let [law, tangent] = &mut self.balls.groups[group].law;
-        law[lane] = force.radial + force.tangent[0] * (s - at);
+        law[lane] = force.radial + force.tangent[0] * (s - at) + force.by_rate * (rate - at_rate);
         tangent[lane] = force.tangent[0];
     }
 
@@ -163,13 +173,16 @@ impl CoupledSystem {
     }
 
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
-    /// forces at the start of the sweeps. What changes with the forces in time, `G dF/dt`, is left out.
+    /// forces at the start of the sweeps; and what each ball's own force moves there.
     #[inline(always)]
-    fn residual_rates<const B: usize>(&mut self, cage: &RotationState) {
+    fn rates_by_turning<const B: usize>(&mut self, cage: &RotationState) {
         let Some(coupling) = &self.residual else {
             return;
         };
         let groups = first_mut::<B, _>(&mut self.balls.groups);
+        for group in &mut *groups {
+            group.approach = group.rate;
+        }
         for number in 0..groups.len() {
             let forces = groups[number].outer_radial;
             for (lane, force) in forces.into_iter().enumerate() {
@@ -179,10 +192,48 @@ impl CoupledSystem {
                 let moving = cage.speed * force;
                 let slopes = coupling.slope_column::<B>(number * LANES + lane);
                 for (group, slopes) in groups.iter_mut().zip(slopes) {
-                    let rate = &group.rate;
-                    group.rate = each(|l| rate[l] - slopes[l] * moving);
+                    let rate = &group.approach;
+                    group.approach = each(|l| rate[l] - slopes[l] * moving);
                 }
             }
+        }
+        for group in groups {
+            let (approach, own, tangent) = (&group.approach, &group.own, &group.law[1]);
+            group.rate = each(|l| approach[l] / (1.0 + own[l] * tangent[l]));
+        }
+    }
+
+    /// A Jacobi sweep of `r_i = v_i - sum G_ij f'_j r_j` with the laws of the last sweep.
+    #[inline(always)]
+    fn rates_on_moving_race<const B: usize>(&mut self) {
+        let Some(coupling) = &self.residual else {
+            return;
+        };
+        let groups = first_mut::<B, _>(&mut self.balls.groups);
+        for group in &mut *groups {
+            group.yielding = [0.0; LANES];
+        }
+        for number in 0..groups.len() {
+            let (rate, tangent) = (&groups[number].rate, &groups[number].law[1]);
+            let growing = each(|l| tangent[l] * rate[l]);
+            for (lane, growing) in growing.into_iter().enumerate() {
+                if growing == 0.0 {
+                    continue;
+                }
+                let column = coupling.column::<B>(number * LANES + lane);
+                for (group, column) in groups.iter_mut().zip(column) {
+                    let before = &group.yielding;
+                    group.yielding = each(|l| before[l] + column[l] * growing);
+                }
+            }
+        }
+        for group in groups {
+            let (before, own, tangent) = (&group.rate, &group.own, &group.law[1]);
+            let (approach, yielding) = (&group.approach, &group.yielding);
+            group.rate = each(|l| {
+                let share = own[l] * tangent[l];
+                (approach[l] - yielding[l] + share * before[l]) / (1.0 + share)
+            });
         }
     }
 
