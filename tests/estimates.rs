@@ -13,7 +13,7 @@
 
 use plummer::case::Case;
 use plummer::chart::Trace;
-use plummer::signal::band_limit;
+use plummer::signal::{band_limit, band_limit_edge_s};
 use plummer::stages::{ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched};
 use plummer::system::{BallsInertia, ModeSelection};
 use plummer::transient::Method;
@@ -85,8 +85,8 @@ fn draw(number: u64) -> Drawn {
     let balls = numbers.between(3.0, 41.0).floor();
     let band_hz = numbers.scale(1e3, 40e3).round();
     let seconds = [3e-3, 5e-3, 8e-3][(3.0 * numbers.next()) as usize];
-    // enough samples for the filter to the band
-    let seconds = f64::max(seconds, 26.0 / band_hz);
+    // the filter to the band takes 25 periods at both ends
+    let seconds = f64::max(seconds, 75.0 / band_hz);
     let hz = numbers.between(10.0, 60.0);
     let fault = numbers.chance(0.4);
     let depth = numbers.scale(1e-6, 10e-6);
@@ -163,6 +163,7 @@ fn signals(scene: &Scene, model: &RunModel, drawn: &Drawn) -> Result<Trace, Stri
 /// The reference and the time over which it is one, s.
 fn reference(scene: &Scene, drawn: &Drawn, target: f64) -> Result<(Trace, f64), String> {
     let mut step = FIRST_STEP;
+    let inside = inside(drawn)?;
     let by = |step| RunModel {
         modes: ModeSelection::All,
         residual: false,
@@ -173,16 +174,16 @@ fn reference(scene: &Scene, drawn: &Drawn, target: f64) -> Result<(Trace, f64), 
     let mut coarse = signals(scene, &by(step), drawn);
     let mut best: Result<(Trace, f64), String> = Err("no reference".to_owned());
     for halving in 0..MOST_HALVINGS {
-        let found = best.as_ref().is_ok_and(|(_, horizon)| *horizon > 0.0);
+        let found = best.as_ref().is_ok_and(|(_, horizon)| *horizon > inside[0]);
         if halving >= HALVINGS && found {
             break;
         }
         step *= 0.5;
         let fine = signals(scene, &by(step), drawn);
         if let (Ok(a), Ok(b)) = (&coarse, &fine) {
-            let horizon = agreement(a, b, drawn.seconds, 0.1 * target)?;
+            let horizon = agreement(a, b, inside, 0.1 * target)?;
             best = Ok((b.clone(), horizon));
-            if horizon >= drawn.seconds {
+            if horizon >= inside[1] {
                 break;
             }
         } else if let Err(error) = &fine {
@@ -193,18 +194,25 @@ fn reference(scene: &Scene, drawn: &Drawn, target: f64) -> Result<(Trace, f64), 
     best
 }
 
-/// How long two traces differ by less than `most` of the size since the start, s.
-fn agreement(a: &Trace, b: &Trace, seconds: f64, most: f64) -> Result<f64, String> {
-    let window = seconds / WINDOWS as f64;
+/// The time that does not depend on how the filter goes on beyond the ends, s.
+fn inside(drawn: &Drawn) -> Result<[f64; 2], String> {
+    let step = 1.0 / (SAMPLES * drawn.band_hz);
+    let edge = band_limit_edge_s(step, drawn.band_hz).map_err(|error| error.to_string())?;
+    Ok([edge, drawn.seconds - edge])
+}
+
+/// Until when two traces differ by less than `most` of the size since the start, s; the start where they never do.
+fn agreement(a: &Trace, b: &Trace, [start, stop]: [f64; 2], most: f64) -> Result<f64, String> {
+    let window = (stop - start) / WINDOWS as f64;
     for number in 1..=WINDOWS {
-        let end = window * number as f64;
+        let end = start + window * number as f64;
         let error = a.error(b, end - window, end);
-        let whole = a.error(b, 0.0, end).map_err(|e| e.to_string())?;
+        let whole = a.error(b, start, end).map_err(|e| e.to_string())?;
         if error.is_ok_and(|error| error > most) || whole > most {
             return Ok(end - window);
         }
     }
-    Ok(seconds)
+    Ok(stop)
 }
 
 /// What a scene's row says.
@@ -223,12 +231,13 @@ fn row(number: u64) -> Result<Row, String> {
     let choice = ModelChoice::of_case(&case, asked, &scene).map_err(|error| error.to_string())?;
     let estimate = choice.estimated_error.ok_or("no estimate")?;
     let (truth, horizon) = reference(&scene, &drawn, case.target())?;
-    if horizon <= 0.0 {
+    let [start, stop] = inside(&drawn)?;
+    if horizon <= start {
         return Err("the references agree at no time".to_owned());
     }
     let error = |model: &RunModel| {
         let signals = signals(&scene, model, &drawn)?;
-        let error = signals.error(&truth, 0.0, horizon);
+        let error = signals.error(&truth, start, horizon);
         error.map_err(|error| error.to_string())
     };
     let whole = error(&choice.model)?;
@@ -239,7 +248,7 @@ fn row(number: u64) -> Result<Row, String> {
     });
     let balls = scene.equilibrium.balls.iter();
     let pressed = { balls }.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    let smooth = pressed && !drawn.fault && horizon >= drawn.seconds;
+    let smooth = pressed && !drawn.fault && horizon >= stop;
     let part = |what: &str| choice.parts.iter().find(|part| part.what == what);
     let chosen = |what: &str| part(what).map_or("", |part| &part.chosen);
     let [modes, balls, method] =
@@ -251,7 +260,7 @@ fn row(number: u64) -> Result<Row, String> {
         "| {number} | {} | {} | {:.1} | {} {} | {} | {} | {} | {estimate:.1e} | {whole:.1e} | {} | {} |",
         drawn.text,
         if smooth { "smooth" } else { "other" },
-        horizon * 1e3,
+        (horizon - start) * 1e3,
         chosen("modes").split(' ').next().unwrap_or_default(),
         chosen("balls").split(' ').next().unwrap_or_default(),
         number_of(modes),

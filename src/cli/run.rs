@@ -5,6 +5,7 @@ use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::case::Case;
+use crate::report::significant;
 use crate::shell_word::shell_word;
 use crate::stages::{
     CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
@@ -37,10 +38,13 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
 /// # Errors
 /// [`CliError`] when the input is wrong or there is nothing to start from.
 pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
-    let choice = explain_run(case, progress)?;
+    let (choice, told) = explain_run(case, progress)?;
+    let lines = std::iter::once(choice.table().plain()).chain(warnings(&told));
+    let mut result = choice_json(&choice);
+    result["warnings"] = serde_json::json!(told);
     Ok(Outcome {
-        summary: choice.table().plain(),
-        result: choice_json(&choice),
+        summary: lines.collect::<Vec<_>>().join("\n"),
+        result,
         written: Vec::new(),
         verdict: Verdict::Good,
     })
@@ -176,7 +180,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     let mut lines = vec![result.bearing_table().plain()];
     lines.push(format!(
         "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
-        crate::report::significant(result.simulation.simulated_s, 4),
+        significant(result.simulation.simulated_s, 4),
         result.simulation.stepping_s,
         result.simulation.statistics.steps,
         result.simulation.step_s(),
@@ -190,6 +194,14 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         },
         result.simulation.realtime_factor(),
     ));
+    lines.push(match result.choice.estimated_error {
+        Some(error) => format!(
+            "estimated error of the signals in the band: {} (target {})",
+            significant(error, 2),
+            significant(result.choice.target, 2)
+        ),
+        None => "the error of the signals is not estimated".to_owned(),
+    });
     for window in &result.windows {
         lines.push(format!(
             "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",

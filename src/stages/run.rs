@@ -48,15 +48,20 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
     compute_kept_run(case, watch, &mut InMemory)
 }
 
-/// The model that a case's run would take, without running it.
+/// The model that a case's run would take, without running it, and warnings about the case and it, a sentence each.
 ///
 /// # Errors
 /// As [`compute_run`].
-pub fn explain_run(case: &Case, watch: &impl Watch) -> Result<ModelChoice, StageError> {
+pub fn explain_run(
+    case: &Case,
+    watch: &impl Watch,
+) -> Result<(ModelChoice, Vec<String>), StageError> {
     let scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
-    ModelChoice::of_case(case, asked, &scene)
+    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    let warnings = [scene.doubts, choice.warnings()].concat();
+    Ok((choice, warnings))
 }
 
 /// Carries the command out with its signals where `keeper` wants them, from where it says.
@@ -91,7 +96,7 @@ pub fn compute_kept_run<K: Keeper>(
     let told = |done| watch.fraction(done);
     let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
     let mut result = RunResult {
-        warnings: [scene.doubts.clone(), choice.warnings(case.target())].concat(),
+        warnings: [scene.doubts.clone(), choice.warnings()].concat(),
         scene,
         statics,
         choice,

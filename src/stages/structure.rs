@@ -9,11 +9,15 @@ use crate::case::{self, Case, Interface};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
-use crate::reduction::BasisChoice;
+use crate::reduction::{BasisChoice, BasisSize};
 use crate::system::{Sensor, Structure, StructureModes};
 
 /// Frequencies up to so many times the band take part in a run: contact shakes ring and housing above the band too.
 pub(super) const MODELLED: f64 = 3.0;
+
+/// Part of the target that the frequencies of a housing condensed for a run may be off: a phase adds up over the periods that
+/// a vibration lasts, 30 at 1 % of damping.
+const RUN_SHARE: f64 = 0.01;
 
 /// The linear model of a case.
 #[derive(Debug, Clone)]
@@ -26,6 +30,9 @@ pub struct StructureStage {
     pub tie: Option<RingTie>,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
+    /// How much too high the condensed housing makes the lowest frequencies, estimated, relative; empty where no run asks for it
+    /// and of a superelement.
+    pub condensation: Vec<f64>,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,
     /// All its modes.
@@ -60,6 +67,10 @@ impl StructureStage {
         let asked_basis = basis_choice(case);
         let choice = BasisChoice {
             band_hz: MODELLED * asked_basis.band_hz,
+            size: match (asked_basis.size, &case.transient) {
+                (BasisSize::Auto(target), Some(_)) => BasisSize::Auto(RUN_SHARE * target),
+                (size, _) => size,
+            },
             ..asked_basis
         };
         let Some(stage) = CondensedStage::with_basis(case, choice, watch)? else {
@@ -83,6 +94,15 @@ impl StructureStage {
         for sensor in &case.sensors {
             rows.push(Place::of_sensor(&stage, sensor)?.reduced(&stage.condensed));
         }
+        let condensation = match &case.transient {
+            Some(_) => {
+                let attached = stage.boundary.attached();
+                let errors = stage.condensed.estimate(attached, choice.band_hz)?;
+                let errors = errors.modes.iter().map(|mode| mode.relative_error.min(1.0));
+                errors.collect()
+            }
+            None => Vec::new(),
+        };
         let CondensedStage {
             housing,
             boundary,
@@ -96,7 +116,11 @@ impl StructureStage {
         let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
         add_sensors(&mut structure, &case.sensors, rows)?;
         let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
-        Self::solved(structure, around, watch).map(Some)
+        let solved = Self::solved(structure, around, watch)?;
+        Ok(Some(Self {
+            condensation,
+            ..solved
+        }))
     }
 
     fn solved(
@@ -111,6 +135,7 @@ impl StructureStage {
             imported: None,
             tie: None,
             fixed_interface_modes: 0,
+            condensation: Vec::new(),
             structure,
         };
         match around {

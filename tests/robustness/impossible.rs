@@ -108,7 +108,7 @@ fn bearings_in_doubt_are_said() {
 #[test]
 fn pressures_beyond_the_rating_are_said_and_impossible_ones_refused() {
     let stiff = "ring.supports=[{from_deg=0,to_deg=360,spring={x=1e9,y=1e9}}]";
-    let words = ["half-axis of 5.3", "4240 MPa"];
+    let words = ["half-axis of 5.3", "4240 MPa", "accuracy.target is 0.010"];
     let set = [stiff, "shaft.mass=40", SHORT];
     warned("doubtful-load", "run", BEARING, &set, &words);
     let set = [stiff, "shaft.mass=300", SHORT];

@@ -23,7 +23,7 @@
 use super::super::{Scene, StageError};
 use super::mode_errors::{participations, radial_forces};
 use crate::linalg::DenseMatrix;
-use crate::system::{Formulation, LoadedShapes};
+use crate::system::{Equilibrium, Formulation, LoadedShapes};
 use std::f64::consts::{SQRT_2, TAU};
 use std::ops::Range;
 
@@ -45,6 +45,8 @@ pub(super) struct LoadedErrors {
     by_count: Vec<f64>,
     /// With all modes and balls without inertia.
     balls: f64,
+    /// Of the condensed housing: its modes' frequencies are too high.
+    condensed: f64,
 }
 
 /// A mode of the loaded system.
@@ -65,6 +67,7 @@ type Complex = [f64; 2];
 /// What is the same for both errors.
 struct Loaded<'a> {
     scene: &'a Scene,
+    rest: &'a Equilibrium,
     modes: Vec<Mode>,
     /// Participations of the structure's modes at the sensors and under the balls.
     sensors: Vec<Vec<f64>>,
@@ -72,21 +75,49 @@ struct Loaded<'a> {
 }
 
 impl LoadedErrors {
-    /// For a band up to `band_hz` and a run of `seconds`.
+    /// The larger of those at rest where the run begins and under its heaviest load.
+    ///
+    /// # Errors
+    /// As [`LoadedErrors::at`].
+    pub(super) fn of(
+        scene: &Scene,
+        heaviest: Option<&Equilibrium>,
+        band_hz: f64,
+        seconds: f64,
+    ) -> Result<Self, StageError> {
+        let mut most = Self::at(scene, &scene.equilibrium, band_hz, seconds)?;
+        if let Some(rest) = heaviest {
+            let other = Self::at(scene, rest, band_hz, seconds)?;
+            for (most, other) in most.by_count.iter_mut().zip(other.by_count) {
+                *most = most.max(other);
+            }
+            most.balls = most.balls.max(other.balls);
+            most.condensed = most.condensed.max(other.condensed);
+        }
+        Ok(most)
+    }
+
+    /// For a band up to `band_hz` and a run of `seconds` about an equilibrium.
     ///
     /// # Errors
     /// [`StageError::System`] for a scene that has no loaded modes.
-    pub(super) fn of(scene: &Scene, band_hz: f64, seconds: f64) -> Result<Self, StageError> {
+    fn at(
+        scene: &Scene,
+        rest: &Equilibrium,
+        band_hz: f64,
+        seconds: f64,
+    ) -> Result<Self, StageError> {
         let count = scene.stage.modes.count();
         // the printed equations take all modes, and balls with inertia
         if scene.setup.formulation == Formulation::Printed {
             return Ok(Self {
                 by_count: vec![0.0; count + 1],
                 balls: 0.0,
+                condensed: 0.0,
             });
         }
-        let loaded = Loaded::of(scene, seconds)?;
-        let mut by_count = loaded.responses(band_hz);
+        let loaded = Loaded::of(scene, rest, seconds)?;
+        let (mut by_count, condensed) = loaded.responses(band_hz);
         let mut left = vec![0.0; loaded.modes.len()];
         for number in (0..count).rev() {
             for (left, mode) in left.iter_mut().zip(&loaded.modes) {
@@ -100,11 +131,24 @@ impl LoadedErrors {
             let amplitudes = mode.amplitudes[count + 2..].iter();
             mass * amplitudes.map(|a| a * a).sum::<f64>()
         };
-        let left: Vec<f64> = loaded.modes.iter().map(of_balls).collect();
+        let of_balls: Vec<f64> = loaded.modes.iter().map(of_balls).collect();
+        let too_high = &scene.stage.condensation;
+        let of_housing = |mode: &Mode| -> f64 {
+            let pairs = mode.amplitudes[..count].iter().zip(too_high);
+            pairs.map(|(a, error)| 2.0 * error * a * a).sum()
+        };
+        let of_housing: Vec<f64> = loaded.modes.iter().map(of_housing).collect();
+        let drift = |left: &[f64]| loaded.drift(left, band_hz, seconds);
         Ok(Self {
             by_count,
-            balls: loaded.drift(&left, band_hz, seconds),
+            balls: drift(&of_balls),
+            condensed: drift(&of_housing).hypot(condensed),
         })
+    }
+
+    /// Of the condensed housing with all modes.
+    pub(super) fn condensed(&self) -> f64 {
+        self.condensed
     }
 
     /// With so many of the lowest modes and the static residual of the others.
@@ -119,8 +163,8 @@ impl LoadedErrors {
 }
 
 impl<'a> Loaded<'a> {
-    fn of(scene: &'a Scene, seconds: f64) -> Result<Self, StageError> {
-        let (stage, setup, rest) = (&scene.stage, &scene.setup, &scene.equilibrium);
+    fn of(scene: &'a Scene, rest: &'a Equilibrium, seconds: f64) -> Result<Self, StageError> {
+        let (stage, setup) = (&scene.stage, &scene.setup);
         let shapes = LoadedShapes::at(&stage.structure, &stage.modes, setup, rest)?;
         let sensors = stage.structure.sensors().iter();
         let sensors: Vec<_> = sensors
@@ -129,6 +173,7 @@ impl<'a> Loaded<'a> {
         let balls = radial_forces(scene, rest.balls.iter().map(|ball| ball.angle));
         let mut loaded = Self {
             scene,
+            rest,
             modes: Vec::with_capacity(shapes.amplitudes.len()),
             sensors,
             balls,
@@ -165,7 +210,7 @@ impl<'a> Loaded<'a> {
         let of_modes = structure.iter().zip(amplitudes);
         let of_modes = of_modes.map(|(square, a)| scene.damping.coefficient(*square) * a * a);
         let [x, y] = [0, 1].map(|axis| amplitudes[structure.len() + axis]);
-        let rest = scene.equilibrium.balls.iter().zip(&self.balls).enumerate();
+        let rest = self.rest.balls.iter().zip(&self.balls).enumerate();
         let of_contacts = rest.map(|(number, (ball, race))| {
             let s = amplitudes[structure.len() + 2 + number];
             let (sin, cos) = ball.angle.sin_cos();
@@ -201,8 +246,9 @@ impl<'a> Loaded<'a> {
         most
     }
 
-    /// Relative errors of the first order of the response at the worst sensor for every number of kept modes.
-    fn responses(&self, band_hz: f64) -> Vec<f64> {
+    /// Relative errors of the first order of the response at the worst sensor for every number of kept modes; then with all of
+    /// them, of frequencies that the condensed housing has too high, which lacks twice that share of a mode's inertia.
+    fn responses(&self, band_hz: f64) -> (Vec<f64>, f64) {
         let count = self.scene.stage.modes.count();
         let spacing = TAU * band_hz / FREQUENCIES as f64;
         let sensors = self.sensors.len();
@@ -228,7 +274,7 @@ impl<'a> Loaded<'a> {
         let shapes =
             DenseMatrix::from_fn(count, self.modes.len(), |k, i| self.modes[i].amplitudes[k]);
         let of_modes = shapes * &right;
-        let balls = self.scene.equilibrium.balls.iter().zip(&self.balls);
+        let balls = self.rest.balls.iter().zip(&self.balls);
         let dampers: Vec<f64> = balls
             .clone()
             .map(|(ball, _)| self.scene.setup.contact_damping * ball.outer)
@@ -243,7 +289,7 @@ impl<'a> Loaded<'a> {
         };
         let entries = FREQUENCIES * pushing;
         let mut lost = vec![[0.0; 2]; sensors * entries];
-        let mut whole = lost.clone();
+        let (mut whole, mut too_high) = (lost.clone(), lost.clone());
         for sensor in 0..sensors {
             for frequency in 0..FREQUENCIES {
                 for place in 0..pushing {
@@ -284,6 +330,8 @@ impl<'a> Loaded<'a> {
         for k in (0..count).rev() {
             let square = self.scene.stage.modes.squared_frequencies[k];
             let damping = self.scene.damping.coefficient(square);
+            let condensed = self.scene.stage.condensation.get(k);
+            let condensed = 2.0 * condensed.copied().unwrap_or(0.0);
             for frequency in 0..FREQUENCIES {
                 let w = at(frequency);
                 // A / w_k but for the i: the signs of both pairs, race against ball, take each other out
@@ -305,16 +353,21 @@ impl<'a> Loaded<'a> {
                     let pull = [w * w * re + w * damping * im, w * w * im - w * damping * re];
                     let dampers = damped(sensor);
                     for (place, [moved, damped]) in pushed.iter().enumerate() {
-                        let entry = &mut lost[sensor * entries + frequency * pushing + place];
+                        let place_of = sensor * entries + frequency * pushing + place;
+                        let entry = &mut lost[place_of];
                         let (inertia, damper) = (times(pull, *moved), times(dampers, *damped));
                         entry[0] += inertia[0] - damper[0];
                         entry[1] += inertia[1] - damper[1];
+                        let entry = &mut too_high[place_of];
+                        let moved = times([re, im], *moved);
+                        entry[0] += condensed * w * w * moved[0];
+                        entry[1] += condensed * w * w * moved[1];
                     }
                 }
             }
             by_count[k] = relative(&lost);
         }
-        by_count
+        (by_count, relative(&too_high))
     }
 }
 
@@ -336,7 +389,7 @@ mod tests {
     fn smooth(keys: &[&str], band_hz: f64, seconds: f64) -> LoadedErrors {
         let case = Case::example("scenes/smooth", keys);
         let scene = Scene::build(&case, &Unwatched).unwrap();
-        LoadedErrors::of(&scene, band_hz, seconds).unwrap()
+        LoadedErrors::of(&scene, None, band_hz, seconds).unwrap()
     }
 
     /// Runs with and without the balls' mass differ by 5.2 % over 0.1 s at undamped contacts, most in the mode at 720 Hz.

@@ -3,6 +3,7 @@
 //! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
 
 mod balls;
+mod heaviest;
 mod loaded_errors;
 mod mode_errors;
 mod pilot;
@@ -13,7 +14,7 @@ mod travel;
 use super::{RunModel, Scene, StageError};
 use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
-use crate::system::{BallsInertia, Formulation, ModeSelection};
+use crate::system::{BallsInertia, Equilibrium, Formulation, ModeSelection};
 use crate::transient::Method;
 use loaded_errors::LoadedErrors;
 use mode_errors::{ModeErrors, undamped_ball_hz};
@@ -27,8 +28,9 @@ const MODES_SHARE: f64 = 0.2;
 /// estimate in scenes with play or damage (`cargo test --test estimates`).
 const IMPACTS_GROWTH: f64 = 6.0;
 
-/// The part that is a superelement from a file.
+/// The parts that are a superelement from a file and a housing condensed for the run.
 const SUPERELEMENT: &str = "superelement";
+const CONDENSATION: &str = "condensation";
 
 /// Modes closer than this belong together: one of two alone would give the ring a direction.
 const PAIR: f64 = 1e-3;
@@ -45,10 +47,14 @@ const IMPACT: f64 = 10.0;
 pub struct ModelChoice {
     /// The model.
     pub model: RunModel,
-    /// What was chosen or given, in the order modes, balls, method, largest step, and a superelement from a file.
+    /// What was chosen or given, in the order modes, balls, method, largest step, and a superelement or a condensed housing.
     pub parts: Vec<ChosenPart>,
     /// Root of the sum of the parts' squared errors, relative, in the band; `None` if a part has no estimate.
     pub estimated_error: Option<f64>,
+    /// How many times the linear estimate of modes and steps it takes, as balls strike.
+    pub growth: f64,
+    /// `accuracy.target`.
+    pub target: f64,
 }
 
 /// One part of a model.
@@ -65,22 +71,36 @@ pub struct ChosenPart {
 }
 
 impl ModelChoice {
-    /// What of the model errs by more than the target and was not the program's to choose, in sentences.
-    pub fn warnings(&self, target: f64) -> Vec<String> {
-        let parts = self.parts.iter().filter(|part| part.what == SUPERELEMENT);
+    /// That the model errs by more than the target, strikes of the balls apart, with its largest part and what helps, in a sentence.
+    pub fn warnings(&self) -> Vec<String> {
+        let target = self.target;
+        let beyond = |error: &f64| *error > self.growth * target;
+        let Some(together) = self.estimated_error.filter(beyond) else {
+            return Vec::new();
+        };
+        let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
-        parts
-            .filter(|(_, error)| *error > target)
-            .map(|(part, error)| {
-                format!(
-                    "the superelement's {} make an estimated error of {} where the target is {} ({}): condense it with more, up to three times the band at least, by `condense.fixed_interface_modes`, or run from the mesh",
-                    part.chosen,
-                    significant(error, 2),
-                    significant(target, 2),
-                    part.why
-                )
-            })
-            .collect()
+        let Some((part, error)) = parts.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+            return Vec::new();
+        };
+        let help = match part.what {
+            SUPERELEMENT | CONDENSATION => {
+                "condense with more vectors by condense.fixed_interface_modes: the error falls with the square of their highest frequency"
+            }
+            "modes" => "raise transient.modes",
+            "balls" => "set bearing.balls_inertia = \"dynamic\"",
+            _ => {
+                "a smaller accuracy.target shortens the steps; an error near 1 says that such a motion cannot be predicted for so long"
+            }
+        };
+        vec![format!(
+            "the estimated error is {} where accuracy.target is {}, most of it of the {} ({}; {}): {help}",
+            significant(together, 2),
+            significant(target, 2),
+            part.what,
+            part.chosen,
+            significant(error, 2),
+        )]
     }
 
     /// The model of a case: what it asks for, and the program's choice where it leaves one.
@@ -97,7 +117,9 @@ impl ModelChoice {
         let source = asked.method == case::Method::NewmarkExplicit;
         // the source's method steps all ring displacements, and its equations need them
         let whole = source || scene.setup.formulation == Formulation::Printed;
-        let loaded = LoadedErrors::of(scene, band_hz, asked.end - asked.start)?;
+        let heaviest = heaviest::heaviest(asked, scene)?;
+        let rest = heaviest.as_ref().map(|(_, rest)| rest);
+        let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
         let errors = ModeErrors::of(scene, band_hz, &loaded);
         let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
         let (balls_inertia, balls_part) = balls::chosen(case, scene, band_hz, target, &loaded);
@@ -110,31 +132,48 @@ impl ModelChoice {
         };
         let (method, mut method_part) = stepping::method(asked, &model, target);
         model.method = method;
-        let (step, step_part) = stepping::step(asked, &model, scene)?;
+        let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
         model.step = step;
-        if let Some(measured) = pilot::measured(asked, &model, scene, band_hz) {
-            method_part.estimated_error = Some(measured);
+        match pilot::measured(asked, &model, scene, band_hz) {
+            Ok(Some(measured)) => method_part.estimated_error = Some(measured),
+            Ok(None) => {}
+            Err(why) => {
+                method_part.estimated_error = None;
+                method_part.why +=
+                    &format!("; its error could not be measured before the run: {why}");
+            }
         }
-        let growth = growth(scene);
+        let growth = growth(scene, rest);
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
-        parts.extend(superelement(scene, band_hz));
         for part in &mut parts {
-            part.estimated_error = part.estimated_error.map(|error| growth * error);
+            if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
+                part.estimated_error = Some(growth * error);
+                part.why += &format!(
+                    "; {} times the linear estimate, as balls strike",
+                    significant(growth, 2)
+                );
+            }
         }
+        // what the structure itself lacks was compared with runs as it is, dents included
+        parts.extend(superelement(scene, band_hz));
+        parts.extend(condensed(scene, &loaded));
         let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
         let sum: Option<f64> = squares.sum();
         Ok(Self {
             model,
             estimated_error: sum.map(f64::sqrt),
+            growth,
+            target,
             parts,
         })
     }
 }
 
-/// What errors grow to in a run.
-fn growth(scene: &Scene) -> f64 {
+/// What errors grow to in a run that begins at rest and meets a heavier load.
+fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     let setup = &scene.setup;
-    let balls = &mut scene.equilibrium.balls.iter();
+    let rests = heaviest.into_iter().chain([&scene.equilibrium]);
+    let mut balls = rests.flat_map(|rest| &rest.balls);
     let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
     match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
         true => 1.0,
@@ -161,6 +200,21 @@ fn superelement(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     })
 }
 
+/// What the condensed housing makes of the loaded system's frequencies.
+fn condensed(scene: &Scene, loaded: &LoadedErrors) -> Option<ChosenPart> {
+    scene.stage.housing.as_ref()?;
+    let errors = scene.stage.condensation.iter().copied();
+    Some(ChosenPart {
+        what: CONDENSATION,
+        chosen: format!("{} vectors", scene.stage.fixed_interface_modes),
+        why: format!(
+            "of the housing's interior; frequencies up to three times the band are at most {} too high",
+            significant(errors.fold(0.0, f64::max), 2)
+        ),
+        estimated_error: Some(loaded.condensed()),
+    })
+}
+
 /// Modes of ring and housing, and what leaving the others out costs.
 fn modes(
     asked: &case::Transient,
@@ -182,7 +236,7 @@ fn modes(
             let share = MODES_SHARE * target;
             let fewest = with_pairs(scene, errors.fewest(share, asked.residual));
             let mut why = format!(
-                "the fewest with an estimate of at most {} of the target in the band up to {} kHz",
+                "the fewest with a linear estimate of at most {} of the target in the band up to {} kHz",
                 significant(MODES_SHARE, 2),
                 significant(band_hz / 1e3, 4)
             );

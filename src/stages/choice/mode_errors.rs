@@ -215,7 +215,7 @@ mod tests {
     use crate::stages::Unwatched;
 
     fn errors(scene: &Scene) -> ModeErrors {
-        let loaded = LoadedErrors::of(scene, 40e3, 5e-3).unwrap();
+        let loaded = LoadedErrors::of(scene, None, 40e3, 5e-3).unwrap();
         ModeErrors::of(scene, 40e3, &loaded)
     }
 

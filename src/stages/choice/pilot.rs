@@ -1,15 +1,18 @@
-//! The error of the steps, measured on a short stretch before the run.
+//! The error of steps and modes, measured on a short stretch before the run.
 //!
-//! The stretch begins at rest at the highest speed, a ball just before the first defect. It is stepped as the run will be and with a
-//! tenth of the tolerance in half the steps; with an error that falls as `tolerance^p` the two differ by `1 - 10^-p` of it.
+//! The stretch begins at rest at the highest speed, a ball just before the first defect. A second one, three times as long, begins
+//! where the loads begin to change fastest, or near the end of that change. Both are stepped as the run will be, and with four
+//! times the modes and a tenth of the tolerance in half the steps; with an error that falls as `tolerance^p` the two differ by
+//! `1 - 10^-p` of it.
 
 use super::super::{RunEnd, RunModel, Scene, Simulation, Span};
+use super::heaviest::fastest_change;
 use super::stepping::ADAMS_ORDER;
 use crate::bearing::Race;
 use crate::case;
 use crate::series::TimeSeries;
 use crate::signal::{band_limit, relative_difference};
-use crate::system::{Equilibrium, StaticCondition};
+use crate::system::{Equilibrium, ModeSelection, StaticCondition};
 use crate::transient::Method;
 
 /// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.
@@ -20,57 +23,92 @@ const LEAST_PERIODS: f64 = 30.0;
 const FINER: f64 = 0.1;
 const SHORTER: f64 = 0.5;
 
+/// How many times as long the stretch of a change of load is.
+const AFTER: f64 = 3.0;
+
+/// How many times the modes the second one has.
+const MORE: usize = 4;
+
 /// Instants among which the highest speed is looked for.
 const INSTANTS: u32 = 64;
 
-/// Relative error of the steps in the band, the worst sensor's; `None` for a method without a tolerance, or where the stretch
-/// cannot be stepped or is silent.
+/// Relative error of steps and modes in the band, the worst sensor's in both stretches; `None` for a method without a tolerance.
+///
+/// # Errors
+/// Why a stretch says nothing.
 pub(super) fn measured(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
     band_hz: f64,
-) -> Option<f64> {
+) -> Result<Option<f64>, String> {
     let Method::ExponentialAdams {
         tolerance: Some(tolerance),
     } = model.method
     else {
-        return None;
+        return Ok(None);
     };
     let whole = asked.end - asked.start;
-    let span = Span {
-        duration: LEAST_S.max(LEAST_PERIODS / band_hz).min(whole),
-        output_hz: asked.output_hz,
-    };
-    let begin = begin(asked, scene, whole - span.duration);
-    let condition = StaticCondition::at(&scene.setup, begin);
-    let rest = Equilibrium::find(&scene.stage.structure, &scene.setup, condition).ok()?;
-    let signals = |model: &RunModel| -> Option<Vec<TimeSeries>> {
-        let system = scene.system(model).ok()?;
-        let state = system.state_at(begin, &rest, &scene.stage.modes);
-        let run = Simulation::from_state(system, state, model, span, |_| ()).ok()?;
-        let complete = matches!(run.end, RunEnd::Complete);
-        let sensors = 0..run.record.sensors.len();
-        let signals = sensors.map(|sensor| {
-            let signal = run.signal(sensor).ok()?;
-            // a band that the sampling or the length of the stretch does not let out is not cut
-            Some(band_limit(&signal, band_hz).unwrap_or(signal))
-        });
-        signals.collect::<Option<_>>().filter(|_| complete)
-    };
+    let duration = LEAST_S.max(LEAST_PERIODS / band_hz).min(whole);
     let finer = RunModel {
         method: Method::ExponentialAdams {
             tolerance: Some(FINER * tolerance),
         },
         step: SHORTER * model.step,
+        modes: match model.modes {
+            ModeSelection::Count(count) => {
+                ModeSelection::Count((MORE * count).min(scene.stage.modes.count()))
+            }
+            all => all,
+        },
         ..*model
     };
-    let (run, finer) = (signals(model)?, signals(&finer)?);
-    let errors = run.iter().zip(&finer);
-    let errors = errors.map(|(run, finer)| relative_difference(run, finer).ok());
-    let most = errors.collect::<Option<Vec<f64>>>()?;
-    let most = most.into_iter().reduce(f64::max)?;
-    Some(most / (1.0 - FINER.powf(ADAMS_ORDER)))
+    let spare = whole - duration;
+    let mut most = 0.0_f64;
+    let change = fastest_change(asked, scene).map(|[from, to]| {
+        let begin = from.max(to - duration).min(asked.start + spare);
+        (begin, (AFTER * duration).min(asked.end - begin))
+    });
+    let first = (begin(asked, scene, spare), duration);
+    for (begin, duration) in [Some(first), change].into_iter().flatten() {
+        let span = Span {
+            duration,
+            output_hz: asked.output_hz,
+        };
+        let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
+        let (run, finer) = (signals(model)?, signals(&finer)?);
+        for (run, finer) in run.iter().zip(&finer) {
+            most = most.max(relative_difference(run, finer).map_err(|error| error.to_string())?);
+        }
+    }
+    Ok(Some(most / (1.0 - FINER.powf(ADAMS_ORDER))))
+}
+
+/// The sensors' signals in the band over a stretch that begins at rest.
+fn stretch(
+    scene: &Scene,
+    model: &RunModel,
+    span: Span,
+    begin: f64,
+    band_hz: f64,
+) -> Result<Vec<TimeSeries>, String> {
+    let condition = StaticCondition::at(&scene.setup, begin);
+    let rest = Equilibrium::find(&scene.stage.structure, &scene.setup, condition);
+    let rest = rest.map_err(|error| error.to_string())?;
+    let system = scene.system(model).map_err(|error| error.to_string())?;
+    let state = system.state_at(begin, &rest, &scene.stage.modes);
+    let run = Simulation::from_state(system, state, model, span, |_| ());
+    let run = run.map_err(|error| error.to_string())?;
+    if let RunEnd::BlewUp(error) = &run.end {
+        return Err(error.to_string());
+    }
+    let sensors = 0..run.record.sensors.len();
+    let signals = sensors.map(|sensor| {
+        let signal = run.signal(sensor).map_err(|error| error.to_string())?;
+        // a band that the sampling or the length of the stretch does not let out is not cut
+        Ok(band_limit(&signal, band_hz).unwrap_or(signal))
+    });
+    signals.collect()
 }
 
 /// The instant of the highest speed among those of the run that leave the stretch, and from there the time to the next impact.
@@ -126,7 +164,7 @@ mod tests {
             ..choice.model
         };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
-        (measured(asked, &model, &scene, 40e3), begin)
+        (measured(asked, &model, &scene, 40e3).unwrap(), begin)
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::super::{RunModel, Scene, StageError};
 use super::{ChosenPart, IMPACT, dynamic, travel};
 use crate::case::{self, StepLength};
 use crate::report::significant;
-use crate::system::{CoupledSystem, ModeSelection};
+use crate::system::{CoupledSystem, Equilibrium, ModeSelection};
 use crate::transient::Method;
 
 /// Tolerance of exponential-adams for a target of one percent, and the error that it makes: on the dented bearing of
@@ -106,6 +106,7 @@ pub(super) fn step(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
+    heaviest: Option<&(f64, Equilibrium)>,
 ) -> Result<(f64, ChosenPart), StageError> {
     let system = scene.system(model)?;
     let interval = 1.0 / asked.output_hz;
@@ -131,7 +132,7 @@ pub(super) fn step(
             "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
         ),
     };
-    let (step, why) = match (asked.step, stable_step(model, scene, system)) {
+    let (step, why) = match (asked.step, stable_step(model, scene, heaviest, system)) {
         (StepLength::Auto, Some(stable)) if stable < step => (
             stable,
             "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
@@ -155,14 +156,23 @@ pub(super) fn step(
 }
 
 /// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers
-/// to the largest force, and would let them. None for other methods.
-fn stable_step(model: &RunModel, scene: &Scene, mut system: CoupledSystem) -> Option<f64> {
+/// to the largest force, and would let them; the shorter of those at the start and under the heaviest load. None for other methods.
+fn stable_step(
+    model: &RunModel,
+    scene: &Scene,
+    heaviest: Option<&(f64, Equilibrium)>,
+    mut system: CoupledSystem,
+) -> Option<f64> {
     let Method::ExponentialAdams { tolerance: Some(_) } = model.method else {
         return None;
     };
-    let rest = scene.at_rest(&system);
-    let limit = model.method.step_limit(&mut system, &rest)?;
-    Some(STABLE * limit.step_s)
+    let heaviest = heaviest.map(|(t, rest)| system.state_at(*t, rest, &scene.stage.modes));
+    let states = [Some(scene.at_rest(&system)), heaviest]
+        .into_iter()
+        .flatten();
+    let limits = states.filter_map(|rest| model.method.step_limit(&mut system, &rest));
+    let shortest = limits.map(|limit| limit.step_s).reduce(f64::min)?;
+    Some(STABLE * shortest)
 }
 
 /// Step that resolves the fastest motion on the contacts, with `k' = 3/2 k^(2/3) F^(1/3)`: that of a ball between both,

@@ -15,6 +15,7 @@ use super::super::inner::InnerGap;
 use super::super::race::RaceForce;
 use super::with_residual::{MAX_SWEEPS, SWEEP_TOLERANCE};
 use crate::bearing::RotationState;
+use crate::lanes::LANES;
 
 /// Force out of balance in units of the forces, at which a ball stands: far below any integration error.
 const BALANCE: f64 = 1e-12;
@@ -104,7 +105,13 @@ impl CoupledSystem {
                 largest = largest.max(balance.outer.radial.abs());
             }
             if change <= SWEEP_TOLERANCE * largest {
-                break;
+                return;
+            }
+        }
+        if self.residual.is_some() {
+            // the balls did not settle
+            for group in &mut self.balls.groups {
+                group.outer_radial = [f64::NAN; LANES];
             }
         }
     }

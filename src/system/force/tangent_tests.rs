@@ -43,7 +43,7 @@ pub(in super::super) fn structure() -> Structure {
 }
 
 /// Seven balls, preloaded, turning at 30 Hz.
-fn preloaded() -> BearingSetup {
+pub(super) fn preloaded() -> BearingSetup {
     let geometry = BearingGeometry::new(BearingDimensions {
         balls: 7,
         ball_radius: 1e-3,
@@ -84,7 +84,7 @@ fn preloaded() -> BearingSetup {
 }
 
 /// A dent in a race with ball 0 `aside` (rad) of its middle, carrying load.
-fn dented(race: Race, aside: f64) -> BearingSetup {
+pub(super) fn dented(race: Race, aside: f64) -> BearingSetup {
     let sound = preloaded();
     let shape = DentShape {
         angle: FIRST + aside,
@@ -194,7 +194,7 @@ fn check(what: &str, asked: Asked, bound: f64) -> usize {
     terms
 }
 
-fn damped(setup: BearingSetup) -> BearingSetup {
+pub(super) fn damped(setup: BearingSetup) -> BearingSetup {
     BearingSetup {
         contact_damping: 2.0,
         ..setup
@@ -281,14 +281,15 @@ fn off_circles_it_is_near_the_derivative() {
 
 #[test]
 fn with_what_is_left_out_it_is_near_the_derivative() {
-    // the residual of 62 modes moves others' contacts by half a percent of their own overlap; its part of the rates is left out
+    // the residual of 62 modes moves others' contacts by half a percent of their own overlap; its part of the rates, from ball to ball
+    // and by turning, is left out
     let residual = |setup| Asked {
         residual: true,
         modes: ModeSelection::Count(10),
         ..Asked::of(setup)
     };
     check("residual", residual(preloaded()), 0.02);
-    check("residual, damped", residual(damped(preloaded())), 0.1);
+    check("residual, damped", residual(damped(preloaded())), 0.15);
     let light = |setup| BearingSetup {
         balls_inertia: BallsInertia::QuasiStatic,
         ..setup

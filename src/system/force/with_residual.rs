@@ -4,8 +4,11 @@ use super::super::coupled::CoupledSystem;
 use crate::bearing::RotationState;
 use crate::lanes::{LANES, Lanes, each, first_mut, positive};
 
-/// Sweeps over the balls that share the residual flexibility, far more than it takes.
-pub(super) const MAX_SWEEPS: usize = 40;
+/// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
+const SWEEPS: usize = 12;
+
+/// Sweeps over the balls in turns, far more than it takes.
+pub(super) const MAX_SWEEPS: usize = 1000;
 
 /// Relative change of a contact force at which the sweeps end: the forces are then right to about a percent of it, 1e-8, far
 /// below any integration error.
@@ -28,7 +31,8 @@ impl CoupledSystem {
     pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
         let damped = self.setup.contact_damping > 0.0;
         self.start_sweeps::<B>(cage);
-        for _ in 0..MAX_SWEEPS {
+        let mut done = false;
+        for _ in 0..SWEEPS {
             self.displace_race::<B>();
             if damped {
                 self.rates_on_moving_race::<B>();
@@ -50,8 +54,12 @@ impl CoupledSystem {
                 group.outer_radial = after;
             }
             if most(&change) <= SWEEP_TOLERANCE * most(&largest) {
+                done = true;
                 break;
             }
+        }
+        if !done {
+            self.outer_forces_in_turns::<B>(damped);
         }
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             group.outer_magnitude = group.outer_radial;
@@ -65,6 +73,72 @@ impl CoupledSystem {
             self.balls
                 .set(j, |ball| &mut ball.outer_tangential, force.tangential);
         }
+    }
+
+    /// The same ball by ball, each with the newest forces and rates of the others, which converges however soft the residual is
+    /// (`1 / f' + G` is positive definite); not a number where it does not.
+    #[inline(never)]
+    fn outer_forces_in_turns<const B: usize>(&mut self, damped: bool) {
+        let near = (0..self.balls.count).filter(|&j| self.is_near(j));
+        let near: Vec<usize> = near.collect();
+        for &j in &near {
+            self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
+            self.balls.set(j, |ball| &mut ball.law[1], 0.0);
+            self.work.known[j].0 = f64::NAN;
+        }
+        for _ in 0..MAX_SWEEPS {
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for &j in &near {
+                let [before, after] = self.next_force(j, &near, damped);
+                change = change.max((after - before).abs());
+                largest = largest.max(after);
+            }
+            if change <= SWEEP_TOLERANCE * largest {
+                self.displace_race::<B>();
+                return;
+            }
+        }
+        for &j in &near {
+            self.balls.set(j, |ball| &mut ball.outer_radial, f64::NAN);
+        }
+    }
+
+    /// Newton's step in the force of ball `j` with those of the others, and its rate: the force before and after.
+    fn next_force(&mut self, j: usize, near: &[usize], damped: bool) -> [f64; 2] {
+        let (mut displaced, mut yielding) = (0.0, 0.0);
+        let Some(coupling) = &self.residual else {
+            return [0.0; 2];
+        };
+        let own = coupling.between(j, j);
+        for &k in near.iter().filter(|&&k| k != j) {
+            let (other, lane) = (&self.balls.groups[k / LANES], k % LANES);
+            let flexibility = coupling.between(j, k);
+            displaced += flexibility * other.outer_radial[lane];
+            yielding += flexibility * other.law[1][lane] * other.rate[lane];
+        }
+        let plain = self.outer.plain();
+        let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
+        let before = group.outer_radial[lane];
+        group.displaced[lane] = displaced + own * before;
+        if damped {
+            let rate = (group.approach[lane] - yielding) / (1.0 + own * group.law[1][lane]);
+            group.rate[lane] = rate;
+            group.damping[lane] = f64::max(1.0 + plain.damping * rate, 0.0);
+        }
+        if self.work.uneven.contains(&j) {
+            self.uneven_law(j);
+        } else {
+            let overlap = f64::max(group.gap[lane] - group.displaced[lane], 0.0);
+            let root = plain.stiffness * group.damping[lane] * overlap.sqrt();
+            (group.law[0][lane], group.law[1][lane]) = (root * overlap, 1.5 * root);
+        }
+        let group = &mut self.balls.groups[j / LANES];
+        let [law, tangent] = group.law.map(|law| law[lane]);
+        let after = before + (law - before) / (1.0 + own * tangent);
+        // what is not a number stays
+        let after = if after < 0.0 { 0.0 } else { after };
+        group.outer_radial[lane] = after;
+        [before, after]
     }
 
     /// Forces on a race that gives way by each ball's own share alone, of balls on waves and damage none; and the rates.
@@ -258,3 +332,7 @@ impl CoupledSystem {
 fn most(x: &Lanes) -> f64 {
     f64::max(f64::max(x[0], x[1]), f64::max(x[2], x[3]))
 }
+
+#[cfg(test)]
+#[path = "with_residual_tests.rs"]
+mod tests;
