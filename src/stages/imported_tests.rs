@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{
-    CondensedStage, ImportedHousing, StructureStage, Unwatched, compute_modes, compute_run,
-    superelement_record,
+    CondensedStage, ImportedHousing, ModelChoice, Scene, StructureStage, Unwatched, compute_modes,
+    compute_run, superelement_record,
 };
 use crate::case::{Case, Source};
 use crate::exchange::{
@@ -379,4 +379,29 @@ fn modes_of_an_interface_are_not_taken_for_its_coordinates() {
         "expected the ring's own coordinates, found 24 modes of an interface of 24 coordinates (array \
          \"interface_modes\"): condense without condense.interface_modes"
     );
+}
+
+/// What a file's vectors leave out is part of a run's estimate, and a warning beyond the target.
+#[test]
+fn a_run_says_what_its_superelement_leaves_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.npz");
+    for (vectors, warned) in [("2", true), ("{ up_to_hz = 250e3 }", false)] {
+        let basis = format!("{ON_RING}[condense]\nfixed_interface_modes = {vectors}\n");
+        write_superelement_npz(&path, &record_of(&original(PLANE, 24, &basis))).unwrap();
+        let case = imported(&path, 24, REST, ON_RING);
+        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let asked = case.transient.as_ref().unwrap();
+        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let part = choice.parts.last().unwrap();
+        let imported = scene.stage.imported.as_ref().unwrap();
+        let highest = imported.record.modal_hz.iter().copied().fold(0.0, f64::max);
+        let expected = (20e3 / highest).powi(2).min(1.0);
+        assert_eq!(part.what, "superelement");
+        assert!((part.estimated_error.unwrap() / expected - 1.0).abs() < 1e-12);
+        let warnings = choice.warnings();
+        println!("{vectors}: {expected:e}, {warnings:?}");
+        assert_eq!(!warnings.is_empty(), warned, "{warnings:?}");
+        assert_eq!(expected > choice.target, warned);
+    }
 }

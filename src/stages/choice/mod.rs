@@ -74,15 +74,16 @@ impl ModelChoice {
     /// That the model errs by more than the target, strikes of the balls apart, with its largest part and what helps, in a sentence.
     pub fn warnings(&self) -> Vec<String> {
         let target = self.target;
-        let beyond = |error: &f64| *error > self.growth * target;
-        let Some(together) = self.estimated_error.filter(beyond) else {
-            return Vec::new();
-        };
         let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
-        let Some((part, error)) = parts.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+        let largest = parts.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let (Some(together), Some((part, error))) = (self.estimated_error, largest) else {
             return Vec::new();
         };
+        let of_structure = [SUPERELEMENT, CONDENSATION].contains(&part.what);
+        if together <= self.growth * target && !(of_structure && error > target) {
+            return Vec::new();
+        }
         let help = match part.what {
             SUPERELEMENT | CONDENSATION => {
                 "condense with more vectors by condense.fixed_interface_modes: the error falls with the square of their highest frequency"
@@ -305,3 +306,6 @@ fn hertz(angular: f64) -> f64 {
 fn dynamic(model: &RunModel) -> bool {
     model.balls_inertia == BallsInertia::Dynamic
 }
+
+#[cfg(test)]
+mod tests;
