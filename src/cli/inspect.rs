@@ -55,17 +55,21 @@ pub fn inspect(
 pub(super) fn verdict(found: &Inspection) -> Verdict {
     let overlapping = found.overlapping.iter();
     let overlapping: Vec<String> = overlapping.map(|overlap| overlap.sentence()).collect();
-    match (found.invalid.first(), &found.doubled) {
-        (None, None) if overlapping.is_empty() => Verdict::Good,
-        (None, None) => Verdict::Bad {
+    match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
+        (None, None, None) if overlapping.is_empty() => Verdict::Good,
+        (None, None, None) => Verdict::Bad {
             what: overlapping.join("; "),
             help: Some("cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are".to_owned()),
         },
-        (None, Some(doubled)) => Verdict::Bad {
+        (None, None, Some(mixed)) => Verdict::Bad {
+            what: mixed.sentence(),
+            help: Some("set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order".to_owned()),
+        },
+        (None, Some(doubled), _) => Verdict::Bad {
             what: doubled.sentence(),
             help: Some("keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again".to_owned()),
         },
-        (Some(first), _) => Verdict::Bad {
+        (Some(first), ..) => Verdict::Bad {
             what: format!(
                 "{} elements are inverted, folded or without size (the first is element {})",
                 found.invalid_elements, first.tag
@@ -142,6 +146,9 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     }
     if let Some(doubled) = &found.doubled {
         line("DOUBLED", doubled.sentence());
+    }
+    if let Some(mixed) = &found.mixed_orders {
+        line("MIXED ORDERS", mixed.sentence());
     }
     for overlap in &found.overlapping {
         line("OVERLAP", overlap.sentence());

@@ -3,6 +3,7 @@
 //! Source of the node order: gmsh reference manual, section "Node ordering".
 
 use super::ElementKind;
+use std::sync::LazyLock;
 
 /// A face of an element kind: an element of one dimension less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +15,9 @@ pub struct Face {
     /// element runs counter-clockwise round it.
     pub nodes: &'static [usize],
 }
+
+/// An edge in local nodes: two corners, and the node between them in second order.
+pub(crate) type Edge = ([usize; 2], Option<usize>);
 
 macro_rules! faces {
     ($($kind:ident $nodes:expr),* $(,)?) => {
@@ -81,6 +85,31 @@ impl ElementKind {
             Self::Wedge6 => WEDGE6,
             Self::Wedge15 => WEDGE15,
         }
+    }
+
+    /// Edges, each once.
+    pub(crate) fn edges(self) -> &'static [Edge] {
+        static TABLE: LazyLock<Vec<Vec<Edge>>> =
+            LazyLock::new(|| ElementKind::all().map(ElementKind::find_edges).collect());
+        &TABLE[self as usize]
+    }
+
+    fn find_edges(self) -> Vec<Edge> {
+        if self.dimension() < 2 {
+            let middle = (self.order() == 2).then_some(2);
+            return vec![([0, 1], middle); self.dimension()];
+        }
+        let mut edges = Vec::new();
+        for face in self.faces() {
+            for (ends, middle) in face.kind.find_edges() {
+                let ends = ends.map(|local| face.nodes[local]);
+                // a solid has each edge in two faces, once in each direction
+                if self.dimension() == 2 || ends[0] < ends[1] {
+                    edges.push((ends, middle.map(|local| face.nodes[local])));
+                }
+            }
+        }
+        edges
     }
 
     /// Number of corner nodes; they come first.
@@ -155,6 +184,21 @@ mod tests {
                     assert_eq!(ends, expected, "{kind:?}, face {:?}", face.nodes);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn an_element_has_each_edge_once() {
+        for kind in ElementKind::all().filter(|kind| kind.order() == 2) {
+            let sorted = |mut ends: [usize; 2]| {
+                ends.sort_unstable();
+                ends
+            };
+            let mut found = kind.edges().to_vec();
+            found.sort_unstable_by_key(|edge| edge.1);
+            let found: Vec<_> = found.into_iter().map(|edge| sorted(edge.0)).collect();
+            let expected: Vec<_> = edges(kind).iter().map(|&ends| sorted(ends)).collect();
+            assert_eq!(found, expected, "{kind:?}");
         }
     }
 

@@ -1,6 +1,6 @@
 //! What can be wrong between a mesh and what is asked of it.
 
-use super::{Doubled, Overlap, RingFrame};
+use super::{Doubled, MixedOrders, Overlap, RingFrame};
 use crate::element::ElementError;
 use crate::mesh::MeshError;
 use thiserror::Error;
@@ -61,6 +61,45 @@ pub enum ModelError {
         path: String,
         /// Which elements.
         doubled: Box<Doubled>,
+    },
+    /// Elements of two orders on one edge.
+    #[error(
+        "{path}: {}; the body would come apart between the corners: expected all its elements in one order; set Mesh.ElementOrder in gmsh and mesh again, or tie bodies with nodes of their own by a link",
+        mixed.sentence()
+    )]
+    MixedOrders {
+        /// The mesh file.
+        path: String,
+        /// Which edges.
+        mixed: Box<MixedOrders>,
+    },
+    /// A group of curves or faces of another order than the elements beneath it.
+    #[error(
+        "group \"{group}\" in {path}: {} of its edges lack the middle node of the elements there, the first is that of element {} of the group on element {} at ({:.6}, {:.6}, {:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; set Mesh.ElementOrder in gmsh and mesh again",
+        mixed.edges, mixed.tags[0], mixed.tags[1], mixed.place[0], mixed.place[1], mixed.place[2]
+    )]
+    GroupOrder {
+        /// The mesh file.
+        path: String,
+        /// The group.
+        group: String,
+        /// What the group is used for.
+        purpose: &'static str,
+        /// Which edges; the first tag is that of the group's element.
+        mixed: Box<MixedOrders>,
+    },
+    /// A link between nodes and themselves.
+    #[error(
+        "{path}: a link joins \"{}\" to \"{}\", and all {nodes} nodes of the one are nodes of the other: it joins them to themselves; expected two surfaces with nodes of their own; give the faces of each body a group of its own, or leave the link out",
+        groups[0], groups[1]
+    )]
+    LinkToItself {
+        /// The mesh file.
+        path: String,
+        /// The groups of the link, the one first whose nodes are all in the other.
+        groups: [String; 2],
+        /// Number of these nodes.
+        nodes: usize,
     },
     /// Bodies that fill one space.
     #[error(

@@ -97,6 +97,8 @@ pub struct HousingModel {
     pub(crate) point_masses: Vec<PointMass>,
     overlaps: Vec<Overlap>,
     touching: Vec<Touching>,
+    /// Nodes that the groups of each link have in common.
+    pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
     pub(crate) path: String,
     pub(crate) node_tags: Vec<u64>,
@@ -158,6 +160,7 @@ impl HousingModel {
             point_masses: masses,
             overlaps,
             touching: Vec::new(),
+            common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
         };
@@ -184,8 +187,11 @@ impl HousingModel {
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
             linked[node] = true;
         }
+        self.bodies().touching(|node| linked[node])
+    }
+
+    fn bodies(&self) -> Bodies<'_> {
         Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
-            .touching(|node| linked[node])
     }
 
     /// Parts that lie in one another; none unless the description allows it.
@@ -259,10 +265,10 @@ impl HousingModel {
             .collect()
     }
 
-    /// A group of which at least one node is on the housing.
+    /// A group of which at least one node is on the housing, with the middle nodes that the housing has there.
     ///
     /// # Errors
-    /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`].
+    /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`], [`ModelError::GroupOrder`].
     pub fn group_on_housing<'m>(
         &self,
         mesh: &'m Mesh,
@@ -270,14 +276,22 @@ impl HousingModel {
         purpose: &'static str,
     ) -> Result<&'m PhysicalGroup, ModelError> {
         let group = mesh.group(name)?;
-        if group.nodes.iter().any(|&node| self.used[node]) {
-            Ok(group)
-        } else {
-            Err(ModelError::NotOnHousing {
-                path: self.path.clone(),
-                group: name.to_owned(),
+        let (path, name) = (self.path.clone(), name.to_owned());
+        if !group.nodes.iter().any(|&node| self.used[node]) {
+            return Err(ModelError::NotOnHousing {
+                path,
+                group: name,
                 purpose,
-            })
+            });
+        }
+        match self.bodies().without_middle_nodes(mesh, group) {
+            None => Ok(group),
+            Some(mixed) => Err(ModelError::GroupOrder {
+                path,
+                group: name,
+                purpose,
+                mixed: Box::new(mixed),
+            }),
         }
     }
 }
@@ -285,7 +299,8 @@ impl HousingModel {
 /// Parts that lie in one another as far as the rule allows it.
 ///
 /// # Errors
-/// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::Overlap`] for the first overlap that is not
+/// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::MixedOrders`] for elements of two orders on one
+/// edge, [`ModelError::Overlap`] for the first overlap that is not
 /// allowed.
 fn accepted_overlaps(
     mesh: &Mesh,
@@ -300,6 +315,12 @@ fn accepted_overlaps(
         return Err(ModelError::Doubled {
             path: path(),
             doubled,
+        });
+    }
+    if let Some(mixed) = bodies.mixed_orders().map(Box::new) {
+        return Err(ModelError::MixedOrders {
+            path: path(),
+            mixed,
         });
     }
     let overlaps = bodies.overlaps();

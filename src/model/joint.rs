@@ -1,12 +1,16 @@
 //! The two sides of a link: which faces and nodes of two groups are connected.
 
 use super::ModelError;
-use super::surface::Surface;
+use super::surface::{Foot, Surface};
 use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
 
 /// Distance up to which faces of two bodies count as lying on each other, in sizes of the face: the sagitta of an arc
 /// of 60 degrees over its chord.
 const TOUCH: f64 = 0.134;
+
+/// Distance from the faces of a body that lie on the other side, in sizes of the face, from which on the others are looked
+/// at too: those that reach over the edge of the other side.
+const BESIDE: f64 = 1e-6;
 
 /// An element of a side: a curve, a face or a point.
 #[derive(Debug, Clone)]
@@ -26,6 +30,8 @@ pub(super) struct Side {
     /// Nodes of the faces, sorted, each once.
     pub nodes: Vec<usize>,
     pub faces: Vec<SideFace>,
+    /// The whole boundary of a body, `faces` and the others; empty for other groups.
+    pub boundary: Vec<SideFace>,
 }
 
 impl Side {
@@ -93,6 +99,22 @@ impl Side {
             dimension: faces.first().map_or(0, |face| face.kind.dimension()),
             nodes,
             faces,
+            boundary: Vec::new(),
+        }
+    }
+
+    /// The search for the point of this side that is nearest to another one.
+    pub fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
+        let [touching, whole] =
+            [&self.faces, &self.boundary].map(|faces| Surface::new(mesh, faces));
+        move |point| {
+            let foot = touching.nearest(point)?;
+            if foot.distance <= BESIDE * foot.size {
+                return Some(foot);
+            }
+            // as near on both: a face that belongs to the joint
+            let nearer = |other: &Foot| other.distance < 0.5 * foot.distance;
+            whole.nearest(point).filter(nearer).or(Some(foot))
         }
     }
 
@@ -116,7 +138,10 @@ impl Side {
             face.nodes.iter().all(on_other)
         };
         let faces = self.faces.iter().filter(touches).cloned().collect();
-        Self::of_faces(&self.name, faces)
+        Self {
+            boundary: self.faces.clone(),
+            ..Self::of_faces(&self.name, faces)
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::housing::{HousingModel, NodalMatrix, NodalSource};
 use super::joint::Side;
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
-use super::surface::{Foot, Surface};
+use super::surface::Foot;
 use super::{ModelError, elements::dimension_name};
 use crate::linalg::{SparseMatrix, TripletBuilder};
 use crate::mesh::Mesh;
@@ -30,6 +30,7 @@ impl HousingModel {
         let first = self.group_on_housing(mesh, first, "the link")?;
         let second = self.group_on_housing(mesh, second, "the link")?;
         let sides = Side::both(mesh, [first, second], &self.used, &self.path)?;
+        self.common_nodes.push(self.common(&sides)?);
         match link.connection {
             Connection::Spring(stiffness, share) => {
                 let source = NodalSource::Link(index);
@@ -51,6 +52,27 @@ impl HousingModel {
                 }
                 self.check_chains(&sides)
             }
+        }
+    }
+
+    /// Number of nodes that both sides have, which no link joins to themselves.
+    ///
+    /// # Errors
+    /// [`ModelError::LinkToItself`] if one side has no others.
+    fn common(&self, [first, second]: &[Side; 2]) -> Result<usize, ModelError> {
+        let (least, other) = match first.nodes.len() <= second.nodes.len() {
+            true => (first, second),
+            false => (second, first),
+        };
+        let in_other = |node: &&usize| other.nodes.binary_search(node).is_ok();
+        let common = least.nodes.iter().filter(in_other).count();
+        match common < least.nodes.len() {
+            true => Ok(common),
+            false => Err(ModelError::LinkToItself {
+                path: self.path.clone(),
+                groups: [least.name.clone(), other.name.clone()],
+                nodes: common,
+            }),
         }
     }
 
@@ -84,12 +106,12 @@ impl HousingModel {
                 .map(|&node| Share::of_node(node))
                 .collect(),
         };
-        let surface = Surface::new(mesh, &other.faces);
+        let nearest = other.search(mesh);
         for share in shares {
             let feet: Vec<Foot> = share
                 .nodes
                 .iter()
-                .filter_map(|&node| surface.nearest(mesh.nodes[node]))
+                .filter_map(|&node| nearest(mesh.nodes[node]))
                 .collect();
             self.springs
                 .push(self.relative_springs(&share, &feet, stiffness, source));
@@ -136,14 +158,15 @@ impl HousingModel {
     /// # Errors
     /// [`ModelError::TieGap`] if some of them are not near it.
     fn feet(&self, mesh: &Mesh, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
-        let surface = Surface::new(mesh, &to.faces);
+        let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
         let (mut far, mut worst) = (0, (0.0, 0));
         for &node in &side.nodes {
             if to.nodes.binary_search(&node).is_ok() {
                 continue; // shared by both: the meshes are one here
             }
-            let Some(foot) = surface.nearest(mesh.nodes[node]) else {
+            let foot = nearest(mesh.nodes[node]).filter(|foot| !foot.nodes.contains(&node));
+            let Some(foot) = foot else {
                 continue;
             };
             if foot.distance > LARGEST_GAP * foot.size {
@@ -240,13 +263,17 @@ impl HousingModel {
 }
 
 /// The side with more nodes an area (or length) first: its nodes are tied to the other, for a coarse surface tied at its
-/// few nodes to a fine one leaves that free between them.
+/// few nodes to a fine one leaves that free between them. Two bodies have one joint, and the side with more nodes there is
+/// first: faces of a body that reach over the edge of the joint are no part of its side.
 fn finer_first<'s>(mesh: &Mesh, [a, b]: &'s [Side; 2]) -> Result<[&'s Side; 2], ModelError> {
-    let density = |side: &Side| -> Result<f64, ModelError> {
-        Ok(side.nodes.len() as f64 / side.spread(mesh)?.1)
+    let [of_a, of_b] = [a.spread(mesh)?.1, b.spread(mesh)?.1];
+    let [nodes_a, nodes_b] = [a.nodes.len() as f64, b.nodes.len() as f64];
+    let bodies = !a.boundary.is_empty() && !b.boundary.is_empty();
+    let b_first = match bodies {
+        true => (nodes_b, of_b) > (nodes_a, of_a),
+        false => nodes_b / of_b > nodes_a / of_a,
     };
-    let b_is_finer = density(b)? > density(a)?;
-    Ok(if b_is_finer { [b, a] } else { [a, b] })
+    Ok(if b_first { [b, a] } else { [a, b] })
 }
 
 impl Side {

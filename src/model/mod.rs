@@ -5,6 +5,7 @@ mod attach;
 mod domain;
 mod elements;
 mod error;
+mod flat;
 mod frame;
 mod housing;
 mod interface;
@@ -23,11 +24,12 @@ mod tie;
 pub use elements::{HousingElement, HousingElements};
 pub(crate) use elements::{continuum_kind, element_kind};
 pub use error::ModelError;
+pub use flat::FlatLayer;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use interface::NodeInterface;
-pub use overlap::{Bodies, Doubled, Overlap, OverlapRule, Touching};
+pub use overlap::{Bodies, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
 pub use partition::HousingPartition;
 pub use ring::{
     RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,

@@ -8,6 +8,7 @@ use super::elements::continuum_kind;
 use crate::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
 use crate::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;
+use std::collections::BTreeSet;
 
 /// Nodes with the symmetric matrix of shares between them [nodes x nodes]; the entries of all blocks of a
 /// group add up to 1.
@@ -46,7 +47,7 @@ pub(super) fn shares(
 }
 
 /// Shares of elements given by kind, nodes and tag, and their length, area or volume together; points share equally
-/// and have none.
+/// and have none. What is listed twice counts once.
 ///
 /// # Errors
 /// [`ModelError::Element`] for an element without length, area or volume.
@@ -56,7 +57,13 @@ pub(super) fn spread<'a>(
 ) -> Result<(Vec<Share>, f64), ModelError> {
     let mut found = Vec::new();
     let mut total = 0.0;
+    let mut seen = BTreeSet::new();
     for (kind, nodes, tag) in elements {
+        let mut corners = nodes[..kind.corners()].to_vec();
+        corners.sort_unstable();
+        if !seen.insert(corners) {
+            continue; // a group is a set
+        }
         let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
         let matrix = match Spread::of(kind) {
             Some(Spread::Surface(kind)) => surface_matrix(kind, &coordinates),

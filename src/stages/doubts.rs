@@ -66,7 +66,21 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         };
         format!("{}; {help}", touching.sentence())
     });
-    overlaps.chain(touching).collect()
+    let links = model.links.iter().zip(&model.common_nodes);
+    let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
+        let [a, b] = &link.between;
+        format!(
+            "the groups \"{a}\" and \"{b}\" of a link share {common} of their nodes, which move as one without it; give the faces of each body a group of its own if that is not meant"
+        )
+    });
+    let flat = model.flat_layers().map(|flat| {
+        let [x, y, z] = flat.place;
+        format!(
+            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; give shorter edges along the held face, elements of second order, or housing.linear = \"plain\"",
+            flat.faces, flat.flatness, flat.tag
+        )
+    });
+    overlaps.chain(touching).chain(shared).chain(flat).collect()
 }
 
 /// How the ring sits in the housing.

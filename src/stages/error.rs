@@ -243,6 +243,16 @@ pub enum StageError {
         /// Distance of the nearest node, m.
         distance: f64,
     },
+    /// A sensor that cannot move.
+    #[error(
+        "sensor \"{name}\" stands where the support \"{support}\" holds the housing in its direction, so that it measures zero: expected a place that moves; give another place or direction, or another support"
+    )]
+    SensorHeld {
+        /// Name of the sensor.
+        name: String,
+        /// Group of the support.
+        support: String,
+    },
     /// A sensor on a group without a housing.
     #[error(
         "sensor \"{name}\" stands on {place}, but the case has no housing: use ring_deg for a place on the ring"

@@ -2,7 +2,7 @@
 
 use crate::element::continuum::{measure, quality, surface_weights};
 use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::model::{Bodies, Doubled, Overlap, Touching, continuum_kind, surface_kind};
+use crate::model::{Bodies, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
 use crate::units::LengthUnit;
 use serde::Serialize;
 use std::path::Path;
@@ -57,6 +57,8 @@ pub struct Inspection {
     pub invalid: Vec<ElementShape>,
     /// Elements of the highest dimension on the corners of another one.
     pub doubled: Option<Doubled>,
+    /// Edges on which elements of the highest dimension do not have the same middle node.
+    pub mixed_orders: Option<MixedOrders>,
     /// Groups of the highest dimension that lie in one another.
     pub overlapping: Vec<Overlap>,
     /// Groups of the highest dimension whose faces lie on each other without common nodes.
@@ -86,6 +88,7 @@ impl Inspection {
             invalid_elements: 0,
             invalid: Vec::new(),
             doubled: bodies.doubled(),
+            mixed_orders: bodies.mixed_orders(),
             overlapping: bodies.overlaps(),
             touching: bodies.touching(|_| false),
             inventory,

@@ -10,6 +10,9 @@ use crate::reduction::CraigBampton;
 /// Farthest that a node may be from a point, relative to the housing's size.
 const TOLERANCE: f64 = 0.02;
 
+/// Share of a direction that is round-off.
+const NOTHING: f64 = 1e-12;
+
 /// A displacement component at a place: pairs (degree of freedom, factor).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Place {
@@ -55,7 +58,7 @@ impl Place {
     /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
     ///
     /// # Errors
-    /// [`StageError`] for a place that is not there and a direction out of the plane; each names `name`.
+    /// [`StageError`] for a place that is not there or cannot move, and a direction out of the plane; each names `name`.
     pub fn new(
         bodies: PlaceBodies<'_>,
         name: &str,
@@ -105,7 +108,9 @@ impl Place {
                 None => housing.model.displacement_row(node, direction),
             })
             .map(|(dof, factor)| (dof, share * factor));
-        Ok(Self::Housing(entries.collect()))
+        let entries: Vec<(usize, f64)> = entries.collect();
+        check_moves(housing, name, &entries)?;
+        Ok(Self::Housing(entries))
     }
 
     /// The row over the coordinates of a condensed housing \[order\], of which the interface is the ring if there is
@@ -194,6 +199,30 @@ fn in_plane(name: &str, direction: [f64; 3]) -> Result<[f64; 2], StageError> {
         Err(StageError::SensorDirection {
             name: name.to_owned(),
         })
+    }
+}
+
+/// Something in a place's row can move.
+fn check_moves(
+    housing: &HousingStage,
+    name: &str,
+    entries: &[(usize, f64)],
+) -> Result<(), StageError> {
+    let model = &housing.model;
+    let d = model.dimension();
+    let mut holder = None;
+    for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
+        match model.fixed[dof / d][dof % d] {
+            Some(support) => holder = Some(&model.supports[support].group),
+            None => return Ok(()),
+        }
+    }
+    match holder {
+        None => Ok(()),
+        Some(support) => Err(StageError::SensorHeld {
+            name: name.to_owned(),
+            support: support.clone(),
+        }),
     }
 }
 

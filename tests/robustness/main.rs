@@ -14,6 +14,7 @@ mod limits;
 mod mode_counts;
 mod mutations;
 mod neighbours;
+mod orders;
 #[path = "../program/mod.rs"]
 mod program;
 mod replaced;

@@ -1,8 +1,9 @@
 //! Elements that share a place without sharing nodes as neighbours do: the same element twice, bodies that lie in one
-//! another, and faces that lie on each other unconnected.
+//! another, faces that lie on each other unconnected, and edges with a middle node in one element alone.
 //!
 //! [`Bodies`] comes in, the elements of the highest dimension of a mesh. What comes out names parts, counts and places:
-//! [`Doubled`], [`Overlap`], [`Touching`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
+//! [`Doubled`], [`MixedOrders`], [`Overlap`],
+//! [`Touching`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
 //! O(n log n).
 //!
 //! # Limitations
@@ -13,6 +14,7 @@ mod boxes;
 mod doubled;
 mod facets;
 mod inside;
+mod orders;
 mod outline;
 #[cfg(test)]
 mod tests;
@@ -29,6 +31,7 @@ use boxes::Bounds;
 
 pub use doubled::Doubled;
 pub use inside::Overlap;
+pub use orders::MixedOrders;
 pub use touching::Touching;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
