@@ -97,6 +97,9 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
             outer.why
         );
     }
+    // a shaft that is as heavy itself is such a load
+    let heavy = [&short(0.6)[..], &["shaft.mass=4.5".to_owned()]].concat();
+    assert_eq!(faults(&window("healthy", &heavy)), [""; 0]);
     // without play no ball strikes
     set.push("bearing.radial_play=-1e-7".to_owned());
     assert_eq!(faults(&window("outer-dent", &set)), ["outer race"]);

@@ -204,7 +204,7 @@ pub enum Command {
         #[arg(long)]
         resume: bool,
         /// Seconds of wall time between checkpoints; longer where they would take more than 4 % of it
-        #[arg(long, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
+        #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
         checkpoint_every: f64,
     },
     /// A commented case file from a mesh: bore, bearing, parts and supports by its named groups
@@ -219,7 +219,7 @@ pub enum Command {
         #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
         length_unit: Option<LengthUnit>,
         /// Density in kg/m^3 for the mass (default: aluminium and steel)
-        #[arg(long, value_name = "RHO", value_parser = density)]
+        #[arg(long, allow_hyphen_values = true, value_name = "RHO", value_parser = density)]
         density: Option<f64>,
     },
     /// Eigenfrequencies of housing, ring, or both coupled; checks the expected ones
@@ -418,7 +418,7 @@ pub struct Options {
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
-    #[arg(long, global = true, value_name = "N", value_parser = number_of_threads)]
+    #[arg(long, global = true, allow_hyphen_values = true, value_name = "N", value_parser = number_of_threads)]
     pub threads: Option<NonZeroUsize>,
     /// No progress and no summary; errors only
     #[arg(long, global = true)]
@@ -542,6 +542,35 @@ mod tests {
         }
         for words in ["plummer --help", "plummer run --help", "plummer --version"] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 0, "{words}");
+        }
+    }
+
+    #[test]
+    fn values_that_begin_with_a_minus_are_values() {
+        for (words, said) in [
+            ("plummer analyze a.csv --speed -30Hz", "-30Hz"),
+            (
+                "plummer analyze a.csv --rate -5",
+                "expected a number above 0",
+            ),
+            (
+                "plummer inspect a.msh --density -1",
+                "expected a number of kg/m^3 above 0",
+            ),
+        ] {
+            match parse(words) {
+                Ok(Arguments {
+                    command: Command::Analyze(asked),
+                    ..
+                }) => {
+                    assert_eq!(asked.speed.unwrap().text, said);
+                }
+                Ok(_) => panic!("{words}"),
+                Err(error) => {
+                    let text = error.to_string();
+                    assert!(text.contains(said) && !text.contains("use '--"), "{text}");
+                }
+            }
         }
     }
 

@@ -61,6 +61,9 @@ pub enum CliError {
     /// Signals of the system cannot be caught.
     #[error("cannot catch interrupts: {0}")]
     Signals(#[source] io::Error),
+    /// The threads that compute cannot be started.
+    #[error("the threads that compute cannot be started: {0}")]
+    Threads(String),
     /// The folder for the results cannot be made.
     #[error("cannot make the folder {}: {source}", path.display())]
     Folder {
@@ -187,6 +190,7 @@ impl CliError {
             | Self::Export(_)
             | Self::Chart(_)
             | Self::Sweep(_)
+            | Self::Threads(_)
             | Self::Verification(_) => 1,
         }
     }
@@ -216,6 +220,10 @@ impl CliError {
             Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
             Self::BadAnswer { help, .. } | Self::WrongInput { help, .. } => help.clone(),
+            Self::Threads(_) => Some(
+                "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"
+                    .to_owned(),
+            ),
             Self::Write { .. }
             | Self::StandardOutput(_)
             | Self::ResumeAnew

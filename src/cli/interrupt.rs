@@ -4,7 +4,7 @@
 use crate::stages::StopRequest;
 use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
-use std::io;
+use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -30,6 +30,16 @@ pub(super) fn stop_request() -> io::Result<StopRequest> {
 /// # Errors
 /// When the system does not let signals be caught.
 pub(super) fn fail_at_limits() -> io::Result<()> {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        // matrices say so by a panic, whose backtrace would need memory too
+        let text = panic.payload_as_str().unwrap_or_default();
+        if text.contains("AllocError") {
+            let _ = io::stderr().write_all(b"error: the memory does not suffice for a matrix\nhelp: raise its limit (ulimit -v), or use fewer --threads\n");
+            signal_hook::low_level::exit(1);
+        }
+        usual(panic);
+    }));
     let always = Arc::new(AtomicBool::new(true));
     flag::register_conditional_shutdown(SIGABRT, 1, Arc::clone(&always))?;
     flag::register(SIGXFSZ, always)?;

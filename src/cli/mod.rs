@@ -30,6 +30,7 @@ mod sweep;
 mod verify;
 
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -98,11 +99,13 @@ fn on_arguments() -> ExitCode {
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
     let options = &arguments.options;
-    if let Some(threads) = options.threads {
-        // a pool that is already there stays: results do not depend on the number of threads
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.get())
-            .build_global();
+    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    // a pool that is already there stays: results do not depend on the number of threads
+    if let Err(error) = pool.build_global()
+        && let Some(source) = std::error::Error::source(&error)
+    {
+        return Err(CliError::Threads(source.to_string()));
     }
     let outcome = match &arguments.command {
         Command::Completions { shell } => return shell::completions(*shell, to),

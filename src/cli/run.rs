@@ -4,7 +4,7 @@ use super::earlier_results::{ARRAYS, digests};
 use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
-use crate::case::Case;
+use crate::case::{Case, Method};
 use crate::report::significant;
 use crate::shell_word::shell_word;
 use crate::stages::{
@@ -90,7 +90,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
         summary: summary(&result),
         result: json,
         written: [arrays, vec![json_path], files.paths].concat(),
-        verdict: verdict(&result),
+        verdict: verdict(&result, case.transient.as_ref().map(|asked| asked.method)),
     })
 }
 
@@ -133,14 +133,14 @@ fn again(case: &Case, arguments: &Arguments) -> String {
     line + " --resume"
 }
 
-fn verdict<R: Recording>(result: &RunResult<R>) -> Verdict {
+fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<Method>) -> Verdict {
     match &result.simulation.end {
         RunEnd::Complete => Verdict::Good,
         RunEnd::BlewUp(blow_up) => Verdict::Bad {
             what: blow_up.to_string(),
             help: Some(format!(
                 "{}; {} instants computed until then are in signals.npz",
-                smaller_steps(blow_up),
+                smaller_steps(blow_up, asked),
                 result.simulation.record.rows()
             )),
         },
@@ -148,10 +148,16 @@ fn verdict<R: Recording>(result: &RunResult<R>) -> Verdict {
 }
 
 /// What to try after a blow-up.
-fn smaller_steps(blow_up: &BlowUp) -> String {
+fn smaller_steps(blow_up: &BlowUp, asked: Option<Method>) -> String {
     if blow_up.method.chooses_its_steps() {
-        return "a smaller --set transient.tolerance says whether the steps are the cause"
-            .to_owned();
+        // a method that the program chose has a tolerance of its own
+        let method = match asked {
+            Some(Method::Auto) => format!("--set transient.method={} and ", blow_up.method.name()),
+            _ => String::new(),
+        };
+        return format!(
+            "{method}a smaller --set transient.tolerance, 1e-6 or below, says whether the steps are the cause"
+        );
     }
     let by_itself = "or leave it to the program with --set transient.step=auto";
     if let Some(resonance) = blow_up.resonance {

@@ -83,6 +83,18 @@ pub enum SweepError {
         /// What is not the same now.
         changes: Vec<String>,
     },
+    /// A point's folder holds the result of another one.
+    #[error("{} is not the result of point {number}: expected {}, found {}", file.display(), sets(expected), sets(found))]
+    OtherPoint {
+        /// The result.
+        file: PathBuf,
+        /// The point, from 1.
+        number: usize,
+        /// Arguments of the point.
+        expected: Vec<String>,
+        /// Arguments of the result.
+        found: Vec<String>,
+    },
     /// A mesh of the case cannot be read, or the report's contents do not fit together.
     #[error(transparent)]
     Stage(Box<StageError>),
@@ -97,6 +109,13 @@ pub enum SweepError {
         /// The system's reason.
         source: io::Error,
     },
+}
+
+fn sets(set: &[String]) -> String {
+    set.iter()
+        .map(|set| format!("--set {set}"))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 impl From<StageError> for SweepError {
@@ -138,6 +157,10 @@ impl SweepError {
             Self::Changed { .. } => Some(
                 "go on with what it was begun with, or begin anew with --force".to_owned(),
             ),
+            Self::OtherPoint { file, .. } => Some(format!(
+                "remove the folder {} and compute the point again with --resume",
+                file.parent().unwrap_or(file).display()
+            )),
             Self::Stage(error) => error.help(),
             Self::Plan { .. } | Self::Npz(_) | Self::Io { .. } => None,
         }

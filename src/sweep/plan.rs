@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::{Axis, SweepError};
-use crate::case::{Case, Purpose};
+use crate::case::{Case, Purpose, Source};
+use crate::files;
 use crate::stages::RunIdentity;
 
 /// Most points of a sweep: each has a folder.
@@ -157,6 +158,46 @@ impl Plan {
         })?;
         case.ready_for(self.command.purpose())?;
         Ok(case)
+    }
+
+    /// Whether a result is of a point's case: of its arguments and, while the case file is as it was planned, of its values.
+    ///
+    /// # Errors
+    /// [`SweepError::OtherPoint`].
+    pub(super) fn belongs(
+        &self,
+        point: &SweepPoint,
+        file: &Path,
+        result: &serde_json::Value,
+    ) -> Result<(), SweepError> {
+        let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
+        let text = files::read(&self.case)
+            .ok()
+            .and_then(|bytes| String::from_utf8(bytes).ok());
+        let text = text.filter(|text| self.identity.is_of_text(text));
+        let source = text.map(|text| Source {
+            path: self.case.clone(),
+            text,
+            set: point.set.clone(),
+        });
+        let expected = source.and_then(|source| source.digest().ok());
+        let same_values = match (expected, result["case_digest"].as_str()) {
+            (Some(expected), Some(found)) => expected == found,
+            _ => true,
+        };
+        let other = set.as_ref().is_some_and(|set| *set != point.set);
+        if same_values && !other {
+            return Ok(());
+        }
+        Err(SweepError::OtherPoint {
+            file: file.to_owned(),
+            number: point.number,
+            expected: point.set.clone(),
+            found: match other {
+                true => set.unwrap_or_default(),
+                false => vec!["the same keys of another case".to_owned()],
+            },
+        })
     }
 
     /// The folder of a point in that of the sweep.

@@ -3,7 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Output, OutputValue, Plan, PointRecord, PointState, SweepPoint, outputs_of};
+use serde_json::Value;
+
+use super::{
+    Output, OutputValue, Plan, PointRecord, PointState, SweepError, SweepPoint, outputs_of,
+};
 use crate::report::{Cell, Column, Table};
 
 /// One point with what became of it.
@@ -48,28 +52,33 @@ pub(super) struct NamedColumn {
 
 impl SweepResult {
     /// Reads what the points of a plan left below the folder of the sweep.
-    #[must_use]
-    pub fn collect(plan: Plan, sweep: &Path) -> Self {
+    ///
+    /// # Errors
+    /// [`SweepError::OtherPoint`] for a result of other values than its point has.
+    pub fn collect(plan: Plan, sweep: &Path) -> Result<Self, SweepError> {
         let points = plan.points().map(|point| {
             let folder = plan.folder(sweep, point.number);
             let file = folder.join(format!("{}.json", plan.command.name()));
-            let result = fs::read(file).ok();
-            let result = result.and_then(|text| serde_json::from_slice(&text).ok());
+            let result = fs::read(&file).ok();
+            let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());
+            if let Some(result) = &result {
+                plan.belongs(&point, &file, result)?;
+            }
             let record = PointRecord::read(&folder);
             let state = PointRecord::state(record.as_ref(), result.is_some());
             let outputs = match &result {
                 Some(result) if state.has_result() => outputs_of(plan.command, result),
                 _ => Vec::new(),
             };
-            PointResult {
+            Ok(PointResult {
                 point,
                 state,
                 record,
                 outputs,
-            }
+            })
         });
-        let points = points.collect();
-        Self { plan, points }
+        let points = points.collect::<Result<_, SweepError>>()?;
+        Ok(Self { plan, points })
     }
 
     /// Number of points in a state.
@@ -222,7 +231,31 @@ pub(super) mod tests {
             "missed",
         );
         write(3, 2, None, "<script>alert(1)</script>");
-        SweepResult::collect(plan, folder.path())
+        SweepResult::collect(plan, folder.path()).unwrap()
+    }
+
+    #[test]
+    fn the_result_of_another_point_is_refused() {
+        let case = Case::example("tadina2011/beam", &[]);
+        let axes = vec![Axis::parse("ring.nodes=36,72").unwrap()];
+        let plan = Plan::new(&case, SweptCommand::Modes, axes).unwrap();
+        let point = plan.point(1);
+        let source = crate::case::Source {
+            set: point.set.clone(),
+            ..case.source.clone()
+        };
+        let belongs = |set: &[String], digest: &str| {
+            let result = serde_json::json!({ "set": set, "case_digest": digest });
+            plan.belongs(&point, Path::new("1/modes.json"), &result)
+                .map_err(|error| error.to_string())
+        };
+        let digest = source.digest().unwrap();
+        belongs(&point.set, &digest).unwrap();
+        // of a point with other values, and of another case with the same arguments
+        let other = belongs(&plan.point(2).set, &digest).unwrap_err();
+        assert!(other.contains("expected --set ring.nodes=36"), "{other}");
+        assert!(other.contains("found --set ring.nodes=72"), "{other}");
+        belongs(&point.set, &case.source.digest().unwrap()).unwrap_err();
     }
 
     #[test]

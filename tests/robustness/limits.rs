@@ -69,3 +69,15 @@ fn steps_beyond_measure_are_refused() {
         );
     }
 }
+
+#[test]
+fn threads_that_cannot_be_started_are_an_error() {
+    // each thread has a stack of 2 MB
+    let output = limited("threads", "-v 200000", "--threads 500");
+    assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("error: the threads that compute cannot be started"),
+        "{}",
+        errors(&output)
+    );
+}

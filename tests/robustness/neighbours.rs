@@ -208,3 +208,48 @@ fn links_in_a_folder_for_results_lead_nowhere() {
     );
     assert!(!folder.join("out/signals.npz").is_symlink());
 }
+
+/// Every format is made of the mesh that the results name, whether it is read again or assembled anew.
+#[test]
+fn results_of_another_mesh_are_not_exported() {
+    let folder = scratch("other-mesh");
+    let of = |name: &str| {
+        Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("meshes")
+            .join(name)
+    };
+    fs::copy(of("pedestal.msh"), folder.join("a.msh")).unwrap();
+    fs::write(
+        folder.join(CASE),
+        "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\nparts = [{ group = \"housing\", material = \"steel\" }]\n[modes]\ncount = 8\n",
+    )
+    .unwrap();
+    let output = plummer(&folder, &words("modes case.toml --quiet --out out"));
+    assert!(output.status.success(), "{}", errors(&output));
+    let mut mesh = fs::OpenOptions::new()
+        .append(true)
+        .open(folder.join("a.msh"))
+        .unwrap();
+    std::io::Write::write_all(&mut mesh, b"$Comments\nother\n$EndComments\n").unwrap();
+    for format in ["mtx", "npz", "vtu", "uff"] {
+        let line = format!("export out --to {format} --quiet");
+        refused(
+            &folder,
+            &line,
+            "a.msh is not the file that out/modes.json speaks of",
+        );
+    }
+}
+
+#[test]
+fn a_sweep_does_not_take_another_points_result() {
+    let folder = folder("other-point");
+    let line = "sweep case.toml --command modes --vary ring.nodes=24,25 --quiet --out out";
+    let output = plummer(&folder, &words(line));
+    assert!(output.status.success(), "{}", errors(&output));
+    let point = |number: usize| folder.join(format!("out/sweep/{number}/modes.json"));
+    fs::copy(point(1), point(2)).unwrap();
+    let said =
+        "is not the result of point 2: expected --set ring.nodes=25, found --set ring.nodes=24";
+    refused(&folder, "sweep out --merge --force", said);
+}

@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 
 use super::super::{
     BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect,
-    Formulation, RaceName, Section, Slip,
+    Formulation, MeasuredDefect, RaceName, Section, Slip,
 };
-use super::range::{above, above_zero, below, known_isotropic, not_empty, ratio, zero_or_more};
+use super::range::{
+    above, above_zero, below, degrees, known_isotropic, not_empty, ratio, zero_or_more,
+};
 use super::rule::{BrokenRule, Rule};
 
 pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
@@ -23,6 +25,7 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     ball(case, bearing)?;
     races(case, bearing)?;
     room(bearing)?;
+    degrees("bearing.first_ball_deg", bearing.first_ball_deg)?;
     zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
     if bearing.balls_inertia == Some(BallsInertia::QuasiStatic) {
         let other = "bearing.balls_inertia = \"quasi-static\"";
@@ -49,6 +52,7 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
             let (found, expected) = (0, "at least 1");
             return Err(Rule::Count { found, expected }.at(at("order")));
         }
+        degrees(at("phase_deg"), wave.phase_deg)?;
         zero_or_more(at("amplitude"), wave.amplitude)?;
         let limit = 0.1 * bearing.ball_radius;
         let what = "a tenth of the ball's radius";
@@ -187,6 +191,10 @@ pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
     let mut with_flat = Vec::new();
     for (index, defect) in bearing.defects.iter().enumerate() {
         let at = |key: &str| format!("bearing.defects[{index}].{key}");
+        let (Defect::Dent(DentDefect { angle_deg, .. })
+        | Defect::Measured(MeasuredDefect { angle_deg, .. })
+        | Defect::Flat(FlatDefect { angle_deg, .. })) = defect;
+        degrees(at("angle_deg"), *angle_deg)?;
         match defect {
             Defect::Dent(dent) => dent_rules(bearing, dent, at)?,
             // what is in the file is checked when it is read

@@ -101,6 +101,12 @@ pub(super) fn cycles(key: impl Into<String>, found: f64) -> Result<(), BrokenRul
     )
 }
 
+/// Beyond, an angle has lost digits or is a number of something else.
+pub(super) fn degrees(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
+    let expected = "an angle from -36000 to 36000 degrees";
+    within(found.abs() <= 36_000.0, key, found, expected)
+}
+
 pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
     within(
         found > -1.0 && found < 0.5,

@@ -6,8 +6,8 @@ use super::super::{
     RadiusRule, Ring, RingSupport, Spring,
 };
 use super::range::{
-    above, above_zero, density, direction, each_once, known_isotropic, known_material, loss_factor,
-    modulus, not_empty, poisson, share, zero_or_more,
+    above, above_zero, degrees, density, direction, each_once, known_isotropic, known_material,
+    loss_factor, modulus, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::material::MaterialError;
@@ -186,6 +186,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
 }
 
 fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), BrokenRule> {
+    degrees(format!("{key}.from_deg"), support.from_deg)?;
     let to = format!("{key}.to_deg");
     above(&to, support.to_deg, "`from_deg`", support.from_deg)?;
     let sector = support.to_deg - support.from_deg;

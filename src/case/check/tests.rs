@@ -608,3 +608,22 @@ fn materials_and_directions_beyond_all_numbers() {
         assert!(broken.is_err(), "{length}");
     }
 }
+
+#[test]
+fn angles_beyond_a_hundred_turns_are_refused() {
+    let expected = "found 1000000000000, expected an angle from -36000 to 36000 degrees";
+    for (set, key) in [
+        ("bearing.first_ball_deg=1e12", "bearing.first_ball_deg"),
+        (
+            "bearing.defects=[{on='outer',angle_deg=1e12,length=1e-3,depth=1e-5}]",
+            "bearing.defects[0].angle_deg",
+        ),
+        (
+            "sensors=[{name='a',direction=[0,1,0],ring_deg=1e12}]",
+            "sensors[0].ring_deg",
+        ),
+    ] {
+        breaks(FULL, &[set], key, expected);
+    }
+    holds(FULL, &["bearing.first_ball_deg=-36000"]);
+}

@@ -5,8 +5,8 @@ use super::super::{
     Method, ModeExtent, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, cycles, direction, each_once, fraction, known_sensor, not_empty,
-    ratio, share, zero_or_more, zero_to_one,
+    above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor,
+    not_empty, ratio, share, zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::exchange::is_array_name;
@@ -115,6 +115,9 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
         };
         if !present {
             return Err(Rule::Needs { other }.at(at(key)));
+        }
+        if let SensorSpot::RingDeg(angle) = sensor.spot {
+            degrees(at("ring_deg"), angle)?;
         }
     }
     let names = case.sensors.iter().map(|sensor| sensor.name.as_str());
@@ -226,6 +229,9 @@ pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
     not_empty("frf.from", frf.from.len(), "at least one force")?;
     for (index, push) in frf.from.iter().enumerate() {
         direction(format!("frf.from[{index}].direction"), push.direction)?;
+        if let SensorSpot::RingDeg(angle) = push.spot {
+            degrees(format!("frf.from[{index}].ring_deg"), angle)?;
+        }
     }
     let names = frf.from.iter().map(|push| push.name.as_str());
     each_once(names, |index| format!("frf.from[{index}].name"))?;

@@ -19,64 +19,70 @@ pub struct AnalyzeArguments {
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
     /// Sampling rate in Hz, in the place of what the file says
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
     /// Case file whose bearing it is (without --speed the shaft turns as it says), or a bearing of the catalogue: 6205 (plummer
     /// init --list-bearings); a file of that name goes first
     #[arg(long, value_name = "CASE.toml|NAME")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
-    #[arg(long, value_name = "N", requires_all = ["pitch_diameter", "ball_diameter"], conflicts_with = "bearing")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", requires_all = ["pitch_diameter", "ball_diameter"], conflicts_with = "bearing")]
     pub balls: Option<u32>,
     /// Diameter of the circle of the balls' centres, in the unit of --ball-diameter
-    #[arg(long, value_name = "D", value_parser = positive, requires = "balls")]
+    #[arg(long, allow_hyphen_values = true, value_name = "D", value_parser = positive, requires = "balls")]
     pub pitch_diameter: Option<f64>,
     /// Diameter of a ball
-    #[arg(long, value_name = "D", value_parser = positive, requires = "balls")]
+    #[arg(long, allow_hyphen_values = true, value_name = "D", value_parser = positive, requires = "balls")]
     pub ball_diameter: Option<f64>,
     /// Contact angle in degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
+    #[arg(
+        long,
+        allow_hyphen_values = true,
+        value_name = "DEG",
+        default_value_t = 0.0,
+        requires = "balls"
+    )]
     pub contact_angle: f64,
     /// Events per revolution of the shaft: outer=3.58,inner=5.42,ball=4.71,cage=0.398 or some of them; BPFO, BPFI and FTF are other
     /// names of outer, inner and cage. BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
-    #[arg(long, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
+    #[arg(long, allow_hyphen_values = true, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
     pub orders: Option<GivenOrders>,
     /// Shaft speed: 29.95, 29.95Hz, 1797rpm or "1797 1/min" (without a unit in Hz), or over time with straight lines between,
     /// T in s: 0:600rpm,8:3000rpm
-    #[arg(long, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse)]
+    #[arg(long, allow_hyphen_values = true, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse)]
     pub speed: Option<GivenSpeed>,
     /// Stretch of time in s; can be repeated (default: the case's windows, or the whole signal)
-    #[arg(long, value_name = "FROM:TO", value_parser = window)]
+    #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO", value_parser = window)]
     pub window: Vec<TimeWindow>,
     /// Corner of the high-pass before the envelope in Hz (default: the case's; else 5000, or an eighth of the sampling rate if
     /// that is lower)
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub high_pass: Option<f64>,
     /// Band before the envelope in Hz, in the place of --high-pass: where the housing rings; or `kurtogram`: the most impulsive
     /// band of each window, and the high-pass where noise may be as impulsive
-    #[arg(long, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
+    #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
     pub band: Option<EnvelopeBand>,
     /// Show the spectrum of the whitened signal's squared envelope; verdicts look at both anyway
     #[arg(long)]
     pub whiten: bool,
     /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
-    #[arg(long, value_name = "PART")]
+    #[arg(long, allow_hyphen_values = true, value_name = "PART")]
     pub geometry_error: Option<f64>,
     /// Earlier signal of the same machine, by the same sensor at the same place and gain: what grew since. Its channel is that of the same
     /// name, else its only one
     #[arg(long, value_name = "DIR|FILE")]
     pub baseline: Option<PathBuf>,
     /// Shaft speed in the baseline, as --speed (default: what its file or its run says; else --speed)
-    #[arg(long, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse, requires = "baseline")]
+    #[arg(long, allow_hyphen_values = true, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse, requires = "baseline")]
     pub baseline_speed: Option<GivenSpeed>,
     /// Channel of the baseline (default: the one of the same name, else the only one)
     #[arg(long, value_name = "NAME", requires = "baseline")]
     pub baseline_channel: Option<String>,
     /// Sampling rate of the baseline in Hz (default: what its file says, else --rate)
-    #[arg(long, value_name = "HZ", value_parser = positive, requires = "baseline")]
+    #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive, requires = "baseline")]
     pub baseline_rate: Option<f64>,
     /// Stretch of the baseline in s (default: that of the input's window if one is given and the baseline holds it; else all of it)
-    #[arg(long, value_name = "FROM:TO", value_parser = window, requires = "baseline")]
+    #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO", value_parser = window, requires = "baseline")]
     pub baseline_window: Option<TimeWindow>,
 }
 

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use super::{CliError, ExportError};
 use crate::case::Case;
 use crate::cli::earlier_results::{Wanted, case_of_results};
-use crate::cli::{Options, Progress};
+use crate::cli::{Options, Progress, ResultsError};
 use crate::exchange::{ModeShapes, read_modes_npz};
 use crate::mesh::Mesh;
-use crate::stages::{StageError, compute_mode_shapes};
+use crate::stages::{MeshDigest, StageError, compute_mode_shapes, mesh_digests};
+use serde_json::Value;
 
 /// Farthest that a point of the results may be from its node, relative to the mesh's largest coordinate. Coordinates are
 /// written with every bit; a mesh read in another unit or made again is off by far more.
@@ -42,6 +43,7 @@ impl Source {
             return Err(ExportError::SetForResults { folder }.into());
         }
         let case = case_of_results(from, MODES, &[])?;
+        same_meshes(&case, &from.join("modes.json"))?;
         Ok(Self {
             case,
             folder: Some(folder),
@@ -85,6 +87,28 @@ impl Source {
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))
+    }
+}
+
+/// Whether the files that a case rests on are those that its result speaks of.
+fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
+    let text = std::fs::read(result).unwrap_or_default();
+    let json: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let then: Vec<MeshDigest> = serde_json::from_value(json["meshes"].clone()).unwrap_or_default();
+    let now = mesh_digests(case)?;
+    match then
+        .iter()
+        .zip(now)
+        .find(|(then, now)| then.sha256 != now.sha256)
+    {
+        None => Ok(()),
+        Some((then, now)) => Err(ResultsError::OtherFile {
+            path: result.to_owned(),
+            arrays: now.path,
+            expected: then.sha256.clone(),
+            found: now.sha256,
+        }
+        .into()),
     }
 }
 

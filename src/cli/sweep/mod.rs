@@ -136,7 +136,7 @@ fn task(
             ),
         });
     }
-    let result = SweepResult::collect(plan, &points);
+    let result = SweepResult::collect(plan, &points)?;
     let mut lines = Vec::new();
     for point in result
         .points
@@ -221,7 +221,7 @@ fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outco
     let started = std::time::Instant::now();
     progress.stage("write");
     let case = Case::load(&plan.case, &plan.set)?;
-    let result = SweepResult::collect(plan, &folder.path().join(POINTS));
+    let result = SweepResult::collect(plan, &folder.path().join(POINTS))?;
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
     let npz = folder.path().join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(SweepError::from)?;

@@ -9,6 +9,9 @@ pub(super) const STEP_TOLERANCE: f64 = 0.1;
 /// How far an instant may be from that of equal steps, in steps: half a sample.
 const DRIFT_TOLERANCE: f64 = 0.5;
 
+/// How far a stated rate may be from that of the instants, relative: what rounded instants leave of it.
+const SAME_RATE: f64 = 1e-3;
+
 /// What a file says of time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Clock {
@@ -53,6 +56,27 @@ impl Clock {
             Self::Unknown => return None,
         };
         (step_s > 0.0).then(|| 1.0 / step_s)
+    }
+
+    /// Refuses a rate, an array's name and its value in Hz, that instants contradict.
+    pub(super) fn agrees(
+        &self,
+        path: &Path,
+        stated: Option<(&str, f64)>,
+    ) -> Result<(), MeasuredError> {
+        match (self.rate_hz(), stated) {
+            (Some(found_hz), Some((name, rate_hz)))
+                if (found_hz / rate_hz - 1.0).abs() > SAME_RATE =>
+            {
+                Err(MeasuredError::TwoRates {
+                    path: path.to_owned(),
+                    name: name.to_owned(),
+                    rate_hz,
+                    found_hz,
+                })
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -82,6 +82,18 @@ pub enum MeasuredError {
         /// The file.
         path: PathBuf,
     },
+    /// Instants and a sampling rate that contradict each other.
+    #[error("{}: expected one sampling rate, found {rate_hz} Hz in \"{name}\" and {found_hz} Hz by the time", path.display())]
+    TwoRates {
+        /// The file.
+        path: PathBuf,
+        /// The array that has the rate.
+        name: String,
+        /// That rate, Hz.
+        rate_hz: f64,
+        /// The rate of the instants, Hz.
+        found_hz: f64,
+    },
     /// Steps that are not equal.
     #[error("{}: row {row}: expected equal time steps of {expected_s} s (the median, within {} %), found a step of {found_s} s", path.display(), 100.0 * STEP_TOLERANCE)]
     Uneven {
@@ -174,6 +186,9 @@ impl MeasuredError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::NoTime { .. } => Some("give the sampling rate with --rate HZ".to_owned()),
+            Self::TwoRates { .. } => Some(
+                "--rate HZ takes the place of both; or leave the wrong one out of the file".to_owned(),
+            ),
             Self::Choose { .. } => Some("name it with --channel NAME (repeatable)".to_owned()),
             Self::NoChannel { wanted, known, .. } => {
                 let nearest = known

@@ -17,23 +17,11 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     let names = archive.names();
     let time = names.iter().find(|name| time_unit(name).is_some());
     let rate = names.iter().find(|name| RATES.contains(&name.as_str()));
-    let clock = match (time, rate) {
-        (Some(name), _) => {
-            let unit = time_unit(name).unwrap_or(1.0);
-            let mut times = archive.real(name)?.values;
-            times.iter_mut().for_each(|time| *time *= unit);
-            Clock::Times {
-                times,
-                first_row: 0,
-            }
-        }
-        (None, Some(name)) => {
+    let stated = match rate {
+        Some(name) => {
             let values = archive.real(name)?.values;
             match values.as_slice() {
-                &[rate] if rate > 0.0 && rate.is_finite() => Clock::Even {
-                    start_s: 0.0,
-                    step_s: 1.0 / rate,
-                },
+                &[rate] if rate > 0.0 && rate.is_finite() => Some((name.as_str(), rate)),
                 found => {
                     return Err(MeasuredError::Array {
                         path: path.to_owned(),
@@ -47,8 +35,27 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
                 }
             }
         }
+        None => None,
+    };
+    let clock = match (time, stated) {
+        (Some(name), _) => {
+            let unit = time_unit(name).unwrap_or(1.0);
+            let mut times = archive.real(name)?.values;
+            times.iter_mut().for_each(|time| *time *= unit);
+            Clock::Times {
+                times,
+                first_row: 0,
+            }
+        }
+        (None, Some((_, rate))) => Clock::Even {
+            start_s: 0.0,
+            step_s: 1.0 / rate,
+        },
         (None, None) => Clock::Unknown,
     };
+    if request.rate_hz.is_none() {
+        clock.agrees(path, stated)?;
+    }
     let speeds = speeds(&mut archive, &names);
     let speed_hz = one_speed(speeds.iter().map(|(_, hz)| *hz));
     let is_speed = |name: &String| speeds.iter().any(|(speed, _)| speed == name);

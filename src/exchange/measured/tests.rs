@@ -249,6 +249,25 @@ fn archives_are_read_with_a_time_or_a_rate() {
 }
 
 #[test]
+fn a_time_and_a_rate_that_contradict_each_other_are_refused() {
+    let (_kept, path) = archive("both.npz", |npz| {
+        let times: Vec<f64> = (0..64).map(|k| f64::from(k) / 1000.0).collect();
+        put(npz, "time", &[64], &times);
+        put(npz, "fs", &[1], &[2000.0]);
+        put(npz, "x", &[64], &samples(64));
+    });
+    let error = read_signals(&path, &request(&[], None))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("found 2000 Hz in \"fs\" and 1000"),
+        "{error}"
+    );
+    let found = only(read_signals(&path, &request(&[], Some(2000.0))).unwrap());
+    assert_eq!(found.series.rate_hz(), 2000.0);
+}
+
+#[test]
 fn archives_may_state_the_speed() {
     let values = samples(50);
     let found = |speeds: &[(&str, &[f64])], channels: &[&str]| {

@@ -40,17 +40,21 @@ const LARGEST_COUPLING: f64 = 1e-4;
 impl EigenProblem {
     /// The `count` lowest pairs: the first by one search, which knows rigid motions, those beyond slice by slice.
     pub(super) fn lowest_in_slices(&self, count: usize) -> Result<EigenPairs, LinalgError> {
-        let mut first = self.lowest_at_once(FIRST)?;
-        let counted = first.count_check.counted;
-        if counted > FIRST {
-            first = self.lowest_at_once(counted)?;
-        }
+        // a first search that ends in a crowd takes more, until it ends behind it
+        let mut asked = FIRST;
+        let first = loop {
+            let first = self.lowest_at_once(asked)?;
+            let counted = first.count_check.counted;
+            if counted == first.values.len() {
+                break first;
+            }
+            asked = counted.max(asked + 1 + asked / 8);
+            if asked > count {
+                return Err(LinalgError::NoGap { asked: count });
+            }
+        };
         let check = first.count_check;
         let start = (check.below, check.counted);
-        let known = first.values.len();
-        if check.counted != known {
-            return Err(LinalgError::NoGap { asked: known });
-        }
         let (slices, end) = self.slices(start, count, None)?;
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;

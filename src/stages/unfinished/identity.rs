@@ -39,6 +39,11 @@ impl RunIdentity {
         })
     }
 
+    /// Whether the case file's text is this one.
+    pub(crate) fn is_of_text(&self, text: &str) -> bool {
+        self.case_sha256 == files::hex(Sha256::new_with_prefix(text))
+    }
+
     /// What is not the same now, in words.
     #[must_use]
     pub fn changes(&self, now: &Self) -> Vec<String> {

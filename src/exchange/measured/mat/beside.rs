@@ -13,7 +13,9 @@ use super::array::{Array, Shape};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Taken<'a> {
     /// At instants of this array, which has its unit's seconds.
-    Times(&'a Array, f64),
+    ///
+    /// Last, a sampling rate of the same struct, with its name and in Hz.
+    Times(&'a Array, f64, Option<(&'a str, f64)>),
     /// So often, Hz.
     Rate(f64),
     /// Nothing says.
@@ -60,7 +62,11 @@ pub(super) fn taken<'a>(
         {
             match (is_time(time), time.shape) {
                 (Some(unit), Shape::Vector(length)) if length == count => {
-                    return Ok(Taken::Times(time, unit));
+                    let stated = match request.rate_hz {
+                        Some(_) => None,
+                        None => rate(arrays, scope, path)?,
+                    };
+                    return Ok(Taken::Times(time, unit, stated));
                 }
                 (Some(_), Shape::Vector(length)) => {
                     other_length.get_or_insert(length);
@@ -69,7 +75,7 @@ pub(super) fn taken<'a>(
             }
         }
         if request.rate_hz.is_none()
-            && let Some(rate) = rate(arrays, scope, path)?
+            && let Some((_, rate)) = rate(arrays, scope, path)?
         {
             return Ok(Taken::Rate(rate));
         }
@@ -85,8 +91,12 @@ pub(super) fn taken<'a>(
     }
 }
 
-/// The sampling rate among the numbers of a struct, Hz.
-fn rate(arrays: &[Array], scope: &str, path: &Path) -> Result<Option<f64>, MeasuredError> {
+/// The sampling rate among the numbers of a struct, with its name and in Hz.
+fn rate<'a>(
+    arrays: &'a [Array],
+    scope: &'a str,
+    path: &Path,
+) -> Result<Option<(&'a str, f64)>, MeasuredError> {
     let mut rates = numbers(arrays, scope).filter(|(array, _)| is_rate(array.scope_and_name().1));
     let Some((array, rate)) = rates.next() else {
         return Ok(None);
@@ -105,7 +115,7 @@ fn rate(arrays: &[Array], scope: &str, path: &Path) -> Result<Option<f64>, Measu
             "one sampling rate",
             format!("{rate} and, in \"{}\", {value}", other.path),
         )),
-        None => Ok(Some(rate)),
+        None => Ok(Some((&array.path, rate))),
     }
 }
 

@@ -65,16 +65,18 @@ pub(super) fn channels(
         let taken = taken(&file.arrays, array, place.count, path, request)?;
         let own = match (taken, &clock) {
             // signals beside each other have one time
-            (Taken::Times(times, _), Some((path, clock))) if *path == times.path => {
+            (Taken::Times(times, ..), Some((path, clock))) if *path == times.path => {
                 Rc::clone(clock)
             }
-            (Taken::Times(times, unit), _) => {
+            (Taken::Times(times, unit, stated), _) => {
                 let mut times = file.values(&mut opened, times, (0, 1, place.count))?;
                 times.iter_mut().for_each(|time| *time *= unit);
-                Rc::new(Clock::Times {
+                let own = Clock::Times {
                     times,
                     first_row: 0,
-                })
+                };
+                own.agrees(path, stated)?;
+                Rc::new(own)
             }
             (Taken::Rate(rate), _) => Rc::new(Clock::Even {
                 start_s: 0.0,
@@ -82,7 +84,7 @@ pub(super) fn channels(
             }),
             (Taken::Unknown, _) => Rc::new(Clock::Unknown),
         };
-        if let Taken::Times(times, _) = taken {
+        if let Taken::Times(times, ..) = taken {
             clock = Some((&times.path, Rc::clone(&own)));
         }
         found.push(Channel {
