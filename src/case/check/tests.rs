@@ -611,7 +611,7 @@ fn materials_and_directions_beyond_all_numbers() {
 
 #[test]
 fn angles_beyond_a_hundred_turns_are_refused() {
-    let expected = "found 1000000000000, expected an angle from -36000 to 36000 degrees";
+    let expected = "found 1e12, expected an angle from -36000 to 36000 degrees";
     for (set, key) in [
         ("bearing.first_ball_deg=1e12", "bearing.first_ball_deg"),
         (

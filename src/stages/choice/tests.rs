@@ -39,6 +39,7 @@ fn a_condensed_housing_is_part_of_the_estimate() {
         "bearing.radial_play=-2e-6",
         "bearing.defects=[]",
         "transient.end=0.008",
+        "analysis.envelope=[]",
     ];
     let auto = choice("housings/pillow_block", &preload);
     let few = [&preload[..], &["condense.fixed_interface_modes=8"]].concat();
