@@ -33,7 +33,10 @@ pub(super) fn fail_at_limits() -> io::Result<()> {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         // matrices say so by a panic, whose backtrace would need memory too
-        let text = panic.payload_as_str().unwrap_or_default();
+        let payload = panic.payload();
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
+        let text = text.unwrap_or_default();
         if text.contains("AllocError") {
             let _ = io::stderr().write_all(b"error: the memory does not suffice for a matrix\nhelp: raise its limit (ulimit -v), or use fewer --threads\n");
             signal_hook::low_level::exit(1);
