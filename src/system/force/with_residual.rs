@@ -7,6 +7,9 @@ use crate::lanes::{LANES, Lanes, each, first_mut, positive};
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
 const SWEEPS: usize = 12;
 
+/// Those of them that find the rates: what one leaves is some percent of what it found.
+const RATE_SWEEPS: usize = 2;
+
 /// Sweeps over the balls in turns, far more than it takes.
 pub(super) const MAX_SWEEPS: usize = 1000;
 
@@ -26,15 +29,15 @@ impl CoupledSystem {
     /// start does not depend on the history.
     ///
     /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j`: they are
-    /// found in the same sweeps.
+    /// found in the first of the same sweeps.
     #[inline(always)]
     pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
         let damped = self.setup.contact_damping > 0.0;
         self.start_sweeps::<B>(cage);
         let mut done = false;
-        for _ in 0..SWEEPS {
+        for sweep in 0..SWEEPS {
             self.displace_race::<B>();
-            if damped {
+            if damped && sweep < RATE_SWEEPS {
                 self.rates_on_moving_race::<B>();
                 self.damping_factors::<B>();
             }
