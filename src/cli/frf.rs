@@ -6,7 +6,7 @@ use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
 use crate::exchange::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
 use crate::reduction::frf::FrfQuantity;
-use crate::stages::{FrfResult, StageError, compute_frf, frf_report};
+use crate::stages::{FrfResult, StageError, TransferPath, compute_frf, frf_report};
 use serde_json::{Value, json};
 
 /// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
@@ -78,6 +78,15 @@ fn summary(result: &FrfResult) -> String {
     )];
     lines.extend(warnings(&result.doubts));
     for path in &result.paths {
+        if path.is_closed() {
+            lines.push(format!(
+                "{} to {}: {}",
+                path.from,
+                path.to,
+                TransferPath::CLOSED
+            ));
+            continue;
+        }
         let modes: Vec<String> = path
             .shares
             .modes
@@ -140,6 +149,7 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
             json!({
                 "from": path.from,
                 "to": path.to,
+                "closed": path.is_closed(),
                 "re": values.iter().map(|h| h.re).collect::<Vec<_>>(),
                 "im": values.iter().map(|h| h.im).collect::<Vec<_>>(),
                 "full_re": full.iter().map(|h| h.re).collect::<Vec<_>>(),

@@ -117,7 +117,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if let Some(worst) = &found.worst {
         let [x, y, z] = worst.position.map(|at| significant(at, 5));
         let shape = format!(
-            "scaled Jacobian {} at element {} ({}), ({x}, {y}, {z}) {unit}",
+            "Jacobian ratio {} at element {} ({}), ({x}, {y}, {z}) {unit}",
             significant(worst.scaled_jacobian, 3),
             worst.tag,
             worst.kind.name()

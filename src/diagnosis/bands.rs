@@ -24,6 +24,9 @@ const LEAST_POWER: f64 = 0.01;
 const FINE_REVOLUTIONS: f64 = 256.0;
 const HIGHEST_FINE_ORDER: f64 = 6.0;
 
+/// Share of half the sampling rate below which a band begins.
+const LATEST_START: f64 = 0.9;
+
 /// What of an envelope a spectrum is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum EnvelopeKind {
@@ -53,8 +56,25 @@ pub(super) fn searched_band(
 ) -> [f64; 2] {
     let end_hz = 0.5 * signal.rate_hz();
     match asked_hz {
-        Some([from, to]) => [from.min(0.9 * end_hz), to.min(end_hz)],
+        Some([from, to]) => [from, to.min(end_hz)],
         None => [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz],
+    }
+}
+
+/// Refuses a band that is asked for where the signal ends.
+///
+/// # Errors
+/// [`DiagnosisError::NarrowBand`].
+pub(super) fn check_band(
+    asked_hz: Option<[f64; 2]>,
+    signal: &TimeSeries,
+) -> Result<(), DiagnosisError> {
+    let most_hz = LATEST_START * 0.5 * signal.rate_hz();
+    match asked_hz {
+        Some([from_hz, _]) if from_hz > most_hz => {
+            Err(DiagnosisError::NarrowBand { from_hz, most_hz })
+        }
+        _ => Ok(()),
     }
 }
 

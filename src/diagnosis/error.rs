@@ -17,6 +17,16 @@ pub enum DiagnosisError {
     /// Nothing to judge.
     #[error("expected an envelope at least, found none")]
     NoEnvelope,
+    /// A band at the end of what the signal has: nothing is left of it to judge.
+    #[error(
+        "expected a band that begins below {most_hz} Hz, nine tenths of half the sampling rate, found one from {from_hz} Hz on"
+    )]
+    NarrowBand {
+        /// Where the band begins, Hz.
+        from_hz: f64,
+        /// Where it may begin at most, Hz.
+        most_hz: f64,
+    },
     /// A sensor that is dead, or not connected.
     #[error(
         "from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel"

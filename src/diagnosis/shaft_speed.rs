@@ -39,6 +39,9 @@ const CERTAIN_BELOW: f64 = 1e-6;
 /// Orders of both races sum up to the number of balls within this part of it: printed orders are rounded.
 const WHOLE: f64 = 5e-3;
 
+/// Harmonics of one line among which the orders of two races are looked for.
+const HARMONICS_OF_ONE: u32 = 5;
+
 /// How well the shaft's speed is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum SpeedSource {
@@ -51,6 +54,9 @@ pub enum SpeedSource {
     /// As given, sharpened by the shaft's lines in the signal.
     #[serde(rename = "shaft lines")]
     Sharpened,
+    /// The same, and lines stand halfway between them: the shaft may turn half as fast.
+    #[serde(rename = "shaft lines, perhaps every second")]
+    EverySecond,
     /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
     #[serde(rename = "lines of both races")]
     Races,
@@ -64,6 +70,7 @@ impl SpeedSource {
             Self::Exact => "exact",
             Self::Given => "as given: the signal's lines do not confirm it",
             Self::Sharpened => "by the shaft's lines",
+            Self::EverySecond => "by the shaft's lines, of which it may be every second",
             Self::Races => "by the lines of both races",
         }
     }
@@ -134,23 +141,25 @@ fn sharpened(
     let Some(resolution) = spectra.first().map(|spectrum| spectrum.resolution) else {
         return Ok(None);
     };
-    let score = |order: f64| {
-        let teeth = (1..=MULTIPLES).flat_map(|k| {
-            let line = f64::from(k) * order;
-            spectra.iter().map(move |spectrum| {
-                let level = spectrum.bin(line).map(|bin| spectrum.level(bin));
-                level.unwrap_or(0.0)
-            })
+    let level = |line: f64| {
+        let levels = spectra.iter().map(move |spectrum| {
+            let level = spectrum.bin(line).map(|bin| spectrum.level(bin));
+            level.unwrap_or(0.0)
         });
+        levels.sum::<f64>()
+    };
+    // multiples of an order, or what lies halfway between them
+    let score = |order: f64, offset: f64| {
+        let teeth = (1..=MULTIPLES).map(|k| level((f64::from(k) - offset) * order));
         teeth.sum::<f64>()
     };
     let step = resolution / (f64::from(MULTIPLES) * PLACES);
-    let best = |centre: f64| {
+    let best = |centre: f64, offset: f64| {
         let steps = (LARGEST_ERROR * centre / step).ceil();
         let places = -(steps as i32)..=steps as i32;
         let fits = places.map(|place| {
             let order = centre * (1.0 + LARGEST_ERROR * f64::from(place) / steps);
-            (score(order), order)
+            (score(order, offset), order)
         });
         let fits: Vec<(f64, f64)> = fits.collect();
         let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
@@ -161,8 +170,8 @@ fn sharpened(
         });
         (most, low, high)
     };
-    let (most, low, high) = best(1.0);
-    let mut controls = Vec::new();
+    let (most, low, high) = best(1.0, 0.0);
+    let (mut controls, mut halfway) = (Vec::new(), Vec::new());
     let mut centre = CONTROLS[0];
     while centre < CONTROLS[1] {
         let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
@@ -170,21 +179,30 @@ fn sharpened(
             .iter()
             .any(|ratio| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR);
         if !related {
-            controls.push(best(centre).0);
+            controls.push(best(centre, 0.0).0);
+            halfway.push(best(centre, 0.5).0);
         }
         centre *= 1.0 + 0.5 * LARGEST_ERROR;
     }
-    let chance = ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0));
+    let chance = |controls, most| {
+        ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
+    };
+    let source = match chance(halfway, best(1.0, 0.5).0) < SEEN_BELOW {
+        true => SpeedSource::EverySecond,
+        false => SpeedSource::Sharpened,
+    };
     let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
     let factor = 0.5 * (low + high);
     // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
     let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
     Ok(
-        (chance < SEEN_BELOW && sharper && high - low < LARGEST_ERROR).then_some(ShaftSpeed {
-            factor,
-            error,
-            source: SpeedSource::Sharpened,
-        }),
+        (chance(controls, most) < SEEN_BELOW && sharper && high - low < LARGEST_ERROR).then_some(
+            ShaftSpeed {
+                factor,
+                error,
+                source,
+            },
+        ),
     )
 }
 
@@ -207,13 +225,27 @@ pub(super) fn speed_of_races(
         let seen = verdict.harmonics_seen >= LEAST_SHORT_HARMONICS;
         verdict.order.filter(|_| certain && seen)
     };
-    let sum = found(Fault::OuterRace)? + found(Fault::InnerRace)?;
+    let (outer, inner) = (found(Fault::OuterRace)?, found(Fault::InnerRace)?);
     let lines = &spectra.first()?.lines;
     let of_a_race = lines.resolution / f64::from(lines.harmonics);
+    if share_a_fundamental(outer, inner, 2.0 * of_a_race) {
+        return None;
+    }
     let error = std::f64::consts::SQRT_2 * of_a_race / balls.round();
     (error < UNSEEN_ERROR).then_some(ShaftSpeed {
-        factor: sum / balls.round(),
+        factor: (outer + inner) / balls.round(),
         error,
         source: SpeedSource::Races,
+    })
+}
+
+/// Whether two orders, each known to `error`, may be harmonics of one line: of one race where the shaft turns at a fraction of the given speed.
+pub(super) fn share_a_fundamental(outer: f64, inner: f64, error: f64) -> bool {
+    (1..=HARMONICS_OF_ONE).any(|k| {
+        let k = f64::from(k);
+        let fundamental = outer / k;
+        let nearest = (inner / fundamental).round();
+        nearest <= f64::from(HARMONICS_OF_ONE)
+            && (inner - nearest * fundamental).abs() <= error * (1.0 + nearest / k)
     })
 }

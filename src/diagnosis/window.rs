@@ -1,7 +1,7 @@
 //! What is said of a window of a signal.
 
 use super::angle_grid::AngleGrid;
-use super::bands::{Spectra, band_spectra, searched_band};
+use super::bands::{Spectra, band_spectra, check_band, searched_band};
 use super::comb::SHOWN_HARMONICS;
 use super::explain::{Found, Search};
 use super::findings::envelope_name;
@@ -57,6 +57,7 @@ impl Diagnosis {
                 to_s: window.to,
             });
         }
+        check_band(asked_hz, signal)?;
         let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
         let white = WhiteSpectrum::of(signal)?;
@@ -145,16 +146,25 @@ impl Diagnosis {
         faults.any(|verdict| verdict.false_alarm.is_some())
     }
 
-    /// Why it is no proof of health that nothing is indicated: no line shows that the given speed is right, and a wrong one hides faults.
+    /// Why a verdict is right at the given speed alone: no line shows that this speed is right. At a wrong one faults are hidden, and one part's
+    /// lines are another's.
     #[must_use]
     pub fn speed_doubt(&self) -> Option<String> {
-        let nothing = self.named().next().is_none() && self.unexplained.is_empty();
-        (nothing && self.is_judged() && self.speed_source == SpeedSource::Given).then(|| {
-            format!(
-                "no line of the signal confirms the speed of {:.2} Hz: a wrong one hides faults",
-                self.speed_hz
-            )
-        })
+        let consequence = match (self.named().next(), self.unexplained.as_slice()) {
+            (Some(_), _) => "at another the same lines are another part's",
+            (None, []) if self.is_judged() => "a wrong one hides faults",
+            _ => return None,
+        };
+        let speed = format!("{:.2}", self.speed_hz);
+        match self.speed_source {
+            SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
+            SpeedSource::Given => Some(format!(
+                "no line of the signal confirms the speed of {speed} Hz: {consequence}"
+            )),
+            SpeedSource::EverySecond => Some(format!(
+                "lines stand halfway between those of a shaft at {speed} Hz, so that it may turn half as fast: {consequence}"
+            )),
+        }
     }
 
     /// The verdict in a line.

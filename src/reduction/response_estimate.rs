@@ -22,6 +22,9 @@ const RESONANT: f64 = 4.0;
 /// Response beside the geometric mean of those at its two ends, below which there is no path but round-off.
 const NO_PATH: f64 = 1e-10;
 
+/// The same for all of a band: what condensing leaves of a path that symmetry closes.
+const CLOSED: f64 = 1e-7;
+
 /// Estimated errors of responses over frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseEstimate {
@@ -29,6 +32,8 @@ pub struct ResponseEstimate {
     pub frequencies_hz: Vec<f64>,
     /// At each frequency the largest `|H~ - H| / |H|` of the paths, H~ of the reduced model and H of the full one.
     pub relative_errors: Vec<f64>,
+    /// Paths that carry nothing, [sensor x load]: the largest response at their ends, m/N; 0 for the others.
+    closed: DenseMatrix,
     worst: Option<usize>,
     forces: DenseMatrix,
 }
@@ -63,6 +68,9 @@ impl ResponseEstimate {
             moving.chain(lossy).collect()
         };
         let loads = paths.loads.ncols();
+        let closed = DenseMatrix::from_fn(paths.sensors.nrows(), loads, |sensor, load| {
+            ends.closed(load, loads + sensor).unwrap_or(0.0)
+        });
         let mut worst = (0.0, None);
         let mut relative_errors = Vec::with_capacity(frequencies_hz.len());
         for (place, &hz) in frequencies_hz.iter().enumerate() {
@@ -70,6 +78,9 @@ impl ResponseEstimate {
             for load in 0..loads {
                 let pushed = residual(place, load);
                 for sensor in loads..ends.count() {
+                    if closed[(sensor - loads, load)] > 0.0 {
+                        continue;
+                    }
                     let pulled = residual(place, sensor);
                     let lacks = flexibility.missing((TAU * hz).powi(2), &pushed, &pulled);
                     let relative = lacks.norm() / ends.level(place, load, sensor);
@@ -94,6 +105,7 @@ impl ResponseEstimate {
         Ok(Self {
             frequencies_hz: frequencies_hz.to_vec(),
             relative_errors,
+            closed,
             worst: worst.1.map(|(place, _)| place),
             forces,
         })
@@ -103,6 +115,11 @@ impl ResponseEstimate {
     pub fn largest(&self) -> Option<(f64, f64)> {
         let worst = self.worst?;
         Some((self.frequencies_hz[worst], self.relative_errors[worst]))
+    }
+
+    /// The largest response at the ends of a path, sensor and load, that carries nothing; `None` for one that does.
+    pub fn closed(&self, path: (usize, usize)) -> Option<f64> {
+        Some(self.closed[path]).filter(|ends| *ends > 0.0)
     }
 
     /// The estimate at one of its frequencies.
@@ -213,6 +230,17 @@ impl Ends {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// The largest response at both ends of a path that carries nothing; `None` for one that does.
+    fn closed(&self, load: usize, sensor: usize) -> Option<f64> {
+        let (mut level, mut ends) = (0.0_f64, 0.0_f64);
+        for between in &self.receptance {
+            let both = between[(load, load)].norm() * between[(sensor, sensor)].norm();
+            level = level.max(between[(sensor, load)].norm());
+            ends = ends.max(both.sqrt());
+        }
+        (level <= CLOSED * ends).then_some(ends)
     }
 
     /// Amplitudes of the motions under forces at some ends, each turned to the phase in which most of it moves

@@ -1,9 +1,10 @@
 //! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
 
+use super::no_signs::no_signs;
 use super::{AskedBand, Kinematics, StageError, UsedBand, WindowChange};
-use crate::case::{Case, Load};
+use crate::case::Case;
 use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
-use crate::report::{Curve, Thinner, significant};
+use crate::report::{Curve, Thinner};
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
@@ -32,38 +33,8 @@ pub struct AnalysisSettings {
     pub whiten: bool,
     /// Windows, s.
     pub windows: Vec<TimeWindow>,
-    /// Why impacts at the outer race's order are no sign of damage in a simulated bearing.
-    pub entering_balls: Option<String>,
-}
-
-/// Load over the shaft's weight from which balls of a healthy bearing with play strike as those of a damaged one. The bearing of
-/// `examples/tadina2011` does so from three times its weight on.
-const STRIKING_LOAD: f64 = 2.0;
-/// m/s^2
-const STANDARD_GRAVITY: f64 = 9.80665;
-
-/// Balls that cross the play and enter a load of many weights, if those of a case do.
-fn entering_balls(case: &Case) -> Option<String> {
-    let (bearing, shaft) = (case.bearing.as_ref()?, case.shaft.as_ref()?);
-    let play = bearing.play();
-    let forces = |load: &Load| match load {
-        Load::Constant(force) => vec![*force],
-        Load::Profile(points) => points.iter().map(|point| point.force).collect(),
-    };
-    let largest = |load: &Load| {
-        let forces = forces(load).into_iter();
-        forces.fold(0.0_f64, |most, [x, y]| most.max(x.hypot(y)))
-    };
-    let [x, y] = shaft.gravity;
-    let load = shaft.mass * x.hypot(y) + shaft.loads.iter().map(largest).sum::<f64>();
-    let weights = load / (shaft.mass * STANDARD_GRAVITY);
-    (play > 0.0 && weights >= STRIKING_LOAD).then(|| {
-        format!(
-            "This cannot be told from damage: the load is up to {} times the shaft's weight, and balls that cross the play of {} um strike as they enter it, at this order too. Compare with a run without the damage (--baseline).",
-            significant(weights, 2),
-            significant(1e6 * play, 2)
-        )
-    })
+    /// Parts of a simulated bearing of which a signal may not indicate a fault, and why.
+    pub no_signs: Vec<(Fault, String)>,
 }
 
 impl AnalysisSettings {
@@ -81,7 +52,7 @@ impl AnalysisSettings {
                     to: window.to,
                 })
                 .collect(),
-            entering_balls: entering_balls(case),
+            no_signs: no_signs(case),
         }
     }
 }
@@ -180,8 +151,10 @@ pub fn analyse(
                 turns,
                 &orders,
             );
-            if let (Ok(diagnosis), Some(reason)) = (&mut diagnosis, &settings.entering_balls) {
-                diagnosis.doubt(Fault::OuterRace, reason);
+            if let Ok(diagnosis) = &mut diagnosis {
+                for (fault, reason) in &settings.no_signs {
+                    diagnosis.doubt(*fault, reason);
+                }
             }
             let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
             let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;

@@ -163,7 +163,7 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
         return Fact::new(name, hz(window.speed_hz));
     };
     let shown = match diagnosis.speed_source {
-        SpeedSource::Sharpened | SpeedSource::Races => {
+        SpeedSource::Sharpened | SpeedSource::EverySecond | SpeedSource::Races => {
             format!("; given: {}", hz(diagnosis.given_speed_hz))
         }
         SpeedSource::Exact | SpeedSource::Given => String::new(),

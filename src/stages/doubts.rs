@@ -1,9 +1,11 @@
 //! What of a model is accepted and may be meant otherwise, a sentence each: warnings of reports and results.
 
 use super::contact_limits::contact_doubts;
+use super::housing::description;
+use super::mesh_digest::read_mesh;
 use super::seat::Seat;
 use super::structure::layer;
-use super::{StageError, race_contacts};
+use super::{StageError, Unwatched, race_contacts};
 use crate::case::{self, Case};
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
@@ -47,6 +49,19 @@ pub fn doubts(
         found.extend(contact_doubts(setup, &contacts, equilibrium));
     }
     Ok(found)
+}
+
+/// The doubts about a case's housing and how the ring sits in it, of which nothing is computed.
+///
+/// # Errors
+/// [`StageError`] of mesh, model and ring.
+pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, StageError> {
+    let Some(housing) = case.meshed_housing() else {
+        return doubts(case, None, None);
+    };
+    let mesh = read_mesh(housing, &Unwatched)?;
+    let model = HousingModel::new(&mesh, description(case, housing)?)?;
+    doubts(case, Some((&mesh, &model)), None)
 }
 
 fn housing_doubts(model: &HousingModel) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The report of `plummer frf`.
 
 use super::StageError;
-use super::frf::{FrfHousing, FrfResult};
+use super::frf::{FrfHousing, FrfResult, TransferPath};
 use crate::case::Case;
 use crate::reduction::ResponseEstimate;
 use crate::reduction::frf::FrfQuantity;
@@ -96,6 +96,10 @@ fn model(result: &FrfResult) -> Section {
 
 fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
     let path = &result.paths[index];
+    let title = format!("From {} to {}", path.from, path.to);
+    if path.is_closed() {
+        return Ok(Section::new(title).paragraph(format!("This path {}.", TransferPath::CLOSED)));
+    }
     let (sensor, load) = path.place;
     let all = result.response.frequencies_hz();
     let accelerance = result
@@ -163,7 +167,7 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
             Cell::number(100.0 * share.alone, 3),
         ]);
     }
-    Ok(Section::new(format!("From {} to {}", path.from, path.to))
+    Ok(Section::new(title)
         .plot(magnitude)
         .plot(phase)
         .plot(parts)

@@ -11,7 +11,11 @@ use crate::exchange::{
 use crate::linalg::DenseMatrix;
 use crate::model::{Ring, RingFrame};
 use crate::reduction::{Check, Superelement, check_matrices};
+use crate::report::significant;
 use std::path::{Path, PathBuf};
+
+/// A frequency at the end of a band lies within it.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Farthest that a node may be from where the ring has it, relative to the ring's radius: six digits of a position that
 /// another program writes are better than this, another ring is not.
@@ -92,6 +96,25 @@ impl ImportedHousing {
                 bound: check.bound,
             })),
         }
+    }
+
+    /// What is to be said of results up to a frequency: nothing within the band that the file was condensed for. A file that does not
+    /// say its band is taken for good up to two thirds of its highest vector, the usual rule for a fixed interface (R. R. Craig, A. J. Kurdila,
+    /// *Fundamentals of Structural Dynamics*, 2006, chapter 17).
+    pub fn doubt(&self, top_hz: f64) -> Option<String> {
+        let highest = self.record.modal_hz.iter().copied().reduce(f64::max);
+        let (end, whose) = match self.record.band_hz {
+            Some(band) => (band, "the band that it was condensed for"),
+            None => (highest? / 1.5, "two thirds of its highest vector"),
+        };
+        (top_hz > end * (1.0 + ROUND_OFF)).then(|| {
+            format!(
+                "The superelement of {} is good up to {} Hz, {whose}; results go up to {} Hz. Above, frequencies are too high and modes are missing. Condense it with a higher accuracy.band_hz, or use the mesh.",
+                self.path.display(),
+                significant(end, 5),
+                significant(top_hz, 5)
+            )
+        })
     }
 
     /// Refuses structural damping, which a simulation over time cannot have.

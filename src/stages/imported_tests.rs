@@ -405,3 +405,29 @@ fn a_run_says_what_its_superelement_leaves_out() {
         assert_eq!(expected > choice.target, warned);
     }
 }
+
+#[test]
+fn results_above_the_band_of_a_superelement_are_doubted() {
+    let (_kept, path, record) = small();
+    let nodes = record.interface.len() / 3;
+    let doubts = |band_hz: Option<f64>| {
+        let record = SuperelementRecord {
+            band_hz,
+            ..record.clone()
+        };
+        write_superelement_npz(&path, &record).unwrap();
+        let case = imported(&path, nodes, REST, "");
+        compute_modes(&case, &Unwatched).unwrap().doubts.join(" ")
+    };
+    let told = "10.000 Hz, the band that it was condensed for";
+    assert!(doubts(Some(10.0)).contains(told), "{}", doubts(Some(10.0)));
+    assert!(!doubts(Some(1e9)).contains("superelement"));
+    // the twelve modes go up to 237 kHz
+    let highest = record
+        .modal_hz
+        .iter()
+        .fold(0.0, |most: f64, hz| most.max(*hz));
+    let told = doubts(None).contains("two thirds of its highest vector");
+    assert_eq!(told, highest < 1.5 * 237e3, "{highest}");
+    println!("{highest}");
+}

@@ -6,11 +6,15 @@ use super::{StageError, Unwatched};
 use crate::case::{Case, HousingSource, ModeExtent};
 use crate::mesh::{ElementKind, Mesh};
 use crate::modal::{MeshLevels, ModeSet};
+use crate::report::significant;
 use std::path::PathBuf;
 
 /// Relative difference of area or volume up to which two meshes are of one body: a circle of twelve straight edges lacks
 /// 4.5 % of its area.
 const SAME_BODY: f64 = 0.1;
+
+/// The same from which on it is told: frequencies differ by as much, and the usual target is a hundredth.
+const DOUBTED: f64 = 0.01;
 
 /// A mesh of a sequence.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +74,25 @@ impl MeshSequence {
             found.sizes(alike).check().map_err(StageError::Sequence)?;
         }
         Ok(Some(found))
+    }
+
+    /// Meshes whose size differs from that of the case's own by more than most curved boundaries cut off.
+    pub fn doubts(&self) -> Vec<String> {
+        let own = self.levels[0].measure;
+        let others = self.levels.iter().enumerate().skip(1);
+        let told = others.filter_map(|(index, level)| {
+            let more = level.measure / own - 1.0;
+            (more.abs() > DOUBTED).then(|| {
+                format!(
+                    "The body of modes.convergence.meshes[{}] ({}) is {} % {} than the case's own. Coarse meshes cut off curved faces; if that is not the cause, the meshes are of two bodies, and the estimated errors do not hold.",
+                    index - 1,
+                    level.mesh.display(),
+                    significant(100.0 * more.abs(), 2),
+                    if more > 0.0 { "larger" } else { "smaller" }
+                )
+            })
+        });
+        told.collect()
     }
 
     /// Whether a mesh has the kinds of elements that the case's own has: unlike ones have unlike errors at one size.
@@ -176,5 +199,30 @@ impl ModesOnMesh {
         let free_dof = modes.free_dof();
         let set = bodies.mode_set(&modes);
         Ok(Self { set, free_dof })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chords of a circle cut off 0.5 % where they are 36; a body that is 2 % longer is another one.
+    #[test]
+    fn bodies_of_another_size_are_told() {
+        let level = |measure: f64| Level {
+            mesh: PathBuf::from("other.msh"),
+            elements: 1,
+            kinds: Vec::new(),
+            measure,
+            element_size: 1.0,
+        };
+        let sequence = |other: f64| MeshSequence {
+            levels: vec![level(2.0), level(other)],
+            formal_order: 2.0,
+        };
+        assert!(sequence(1.99).doubts().is_empty());
+        let told = sequence(2.04).doubts().join(" ");
+        let expected = "The body of modes.convergence.meshes[0] (other.msh) is 2.0 % larger";
+        assert!(told.starts_with(expected), "{told}");
     }
 }

@@ -58,6 +58,7 @@ mod mode_set;
 mod mode_shapes;
 mod modes;
 mod modes_report;
+mod no_signs;
 mod places;
 mod recording;
 mod reduced_interface;
@@ -96,7 +97,7 @@ pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense}
 pub use condense_report::condense_report;
 pub use condensed::{Boundary, CondensedStage};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
-pub use doubts::doubts;
+pub use doubts::{doubts, doubts_of_case};
 pub use draft::{Draft, DraftError, DraftRequest, FoundCylinder, UnitFrom};
 pub use error::StageError;
 pub use free_system::FreeSystem;

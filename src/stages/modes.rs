@@ -144,6 +144,7 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
         result.comparisons.push(file.compare(&result)?);
     }
     if let Some(sequence) = sequence {
+        result.doubts.extend(sequence.doubts());
         result.convergence = mesh_convergence(case, &sequence, &result, watch)?;
     }
     Ok(result)
@@ -193,6 +194,16 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         .iter()
         .flat_map(|statics| &statics.equilibria)
         .next();
+    let imported = stage.imported.iter();
+    let top_hz = survey
+        .basis
+        .frequencies_hz
+        .iter()
+        .copied()
+        .fold(0.0, f64::max);
+    let beyond = imported.filter_map(|imported| imported.doubt(top_hz));
+    let mut doubts = doubts(case, housing, setup.as_ref().zip(at_rest))?;
+    doubts.extend(beyond);
     Ok(ModesResult {
         base,
         variants,
@@ -200,7 +211,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         housing: None,
         comparisons: Vec::new(),
         convergence: None,
-        doubts: doubts(case, housing, setup.as_ref().zip(at_rest))?,
+        doubts,
         structure: Some(stage),
         statics,
         loaded_pass,

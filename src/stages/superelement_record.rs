@@ -1,7 +1,7 @@
 //! A condensed housing as files carry it.
 
 use super::StageError;
-use super::condensed::CondensedStage;
+use super::condensed::{CondensedStage, basis_choice};
 use super::damping::viscous_matrix;
 use super::places::{Place, nodes_at};
 use crate::case::Case;
@@ -108,6 +108,7 @@ impl Coordinates<'_> {
             interface,
             interface_recovery,
             modal_hz: values.iter().map(|value| value.sqrt() / TAU).collect(),
+            band_hz: Some(basis_choice(case).band_hz),
             weight: Some(self.columns(weight(stage))),
             sensors,
             field: self.field(case)?,

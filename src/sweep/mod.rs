@@ -25,5 +25,5 @@ pub use outputs::{Output, OutputValue, outputs_of};
 pub use plan::{Plan, SweepPoint, SweptCommand};
 pub use record::{PointRecord, PointState};
 pub use report::sweep_report;
-pub use result::{PointResult, SweepResult};
+pub use result::{PointResult, PointWarning, SweepResult};
 pub use slurm::{SlurmScripts, slurm_scripts};

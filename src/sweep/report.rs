@@ -39,6 +39,9 @@ pub fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report 
     if missing > 0 {
         report = report.warning(format!("{missing} of {all} points are not computed."));
     }
+    for warning in result.warnings() {
+        report = report.warning(warning.sentence(all));
+    }
     report
         .assumption("Each point is computed by itself, in a process and a folder of its own: folders sweep/NUMBER beside this report hold its files.")
         .section(Section::new("All points").table(result.table()))

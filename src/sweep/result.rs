@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::Value;
 
 use super::{
@@ -21,6 +22,17 @@ pub struct PointResult {
     pub record: Option<PointRecord>,
     /// Its figures; none without a result.
     pub outputs: Vec<Output>,
+    /// The warnings of its result.
+    pub warnings: Vec<String>,
+}
+
+/// A warning of some points of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PointWarning {
+    /// What is said.
+    pub text: String,
+    /// Numbers of the points whose results say it.
+    pub points: Vec<usize>,
 }
 
 /// A sweep with what became of its points.
@@ -50,6 +62,26 @@ pub(super) struct NamedColumn {
     pub(super) values: Values,
 }
 
+impl PointWarning {
+    /// In words, of a sweep with so many points.
+    #[must_use]
+    pub fn sentence(&self, of: usize) -> String {
+        /// Numbers that are listed.
+        const LISTED: usize = 8;
+        let numbers = self.points.iter().take(LISTED);
+        let numbers: Vec<String> = numbers.map(usize::to_string).collect();
+        match self.points.len() {
+            1 => format!("point {}: {}", numbers.join(", "), self.text),
+            all if all == of => format!("all points: {}", self.text),
+            all if all > LISTED => format!(
+                "{all} of {of} points, the first {}: {}",
+                numbers[0], self.text
+            ),
+            _ => format!("points {}: {}", numbers.join(", "), self.text),
+        }
+    }
+}
+
 impl SweepResult {
     /// Reads what the points of a plan left below the folder of the sweep.
     ///
@@ -70,7 +102,12 @@ impl SweepResult {
                 Some(result) if state.has_result() => outputs_of(plan.command, result),
                 _ => Vec::new(),
             };
+            let told = result
+                .as_ref()
+                .and_then(|result| result["warnings"].as_array());
+            let told = told.into_iter().flatten().filter_map(Value::as_str);
             Ok(PointResult {
+                warnings: told.map(str::to_owned).collect(),
                 point,
                 state,
                 record,
@@ -92,6 +129,25 @@ impl SweepResult {
     pub fn not_done(&self) -> impl Iterator<Item = &PointResult> {
         let points = self.points.iter();
         points.filter(|point| point.state != PointState::Done)
+    }
+
+    /// What the points' results warn of, in the order in which it first occurs.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<PointWarning> {
+        let mut all: Vec<PointWarning> = Vec::new();
+        for point in &self.points {
+            for text in &point.warnings {
+                let number = point.point.number;
+                match all.iter_mut().find(|warning| warning.text == *text) {
+                    Some(warning) => warning.points.push(number),
+                    None => all.push(PointWarning {
+                        text: text.clone(),
+                        points: vec![number],
+                    }),
+                }
+            }
+        }
+        all
     }
 
     /// All columns but the points' numbers: axes, state, wall time, the points' figures in the order in which they first occur.
@@ -221,13 +277,17 @@ pub(super) mod tests {
         write(
             1,
             0,
-            Some(r#"{"mass_kg": 0.1, "frequencies_hz": [8200.5, 36000]}"#),
+            Some(
+                r#"{"mass_kg": 0.1, "frequencies_hz": [8200.5, 36000], "warnings": ["flat", "seat"]}"#,
+            ),
             "",
         );
         write(
             2,
             1,
-            Some(r#"{"mass_kg": null, "frequencies_hz": [8100, 35000, 41000]}"#),
+            Some(
+                r#"{"mass_kg": null, "frequencies_hz": [8100, 35000, 41000], "warnings": ["flat"]}"#,
+            ),
             "missed",
         );
         write(3, 2, None, "<script>alert(1)</script>");
@@ -266,6 +326,9 @@ pub(super) mod tests {
         assert_eq!(states, [Done, Bad, Failed, Missing]);
         assert_eq!(result.count(Bad), 1);
         assert_eq!(result.not_done().count(), 3);
+        let warnings = result.warnings();
+        let told: Vec<String> = warnings.iter().map(|one| one.sentence(4)).collect();
+        assert_eq!(told, ["points 1, 2: flat", "point 1: seat"]);
         assert_eq!(
             result.table().to_csv(),
             "point,ring.nodes,ring.element,state,wall_s [s],mass [kg],frequency.1 [Hz],frequency.2 [Hz],frequency.3 [Hz]\r\n\

@@ -14,10 +14,10 @@ use std::path::{Path, PathBuf};
 
 pub use error::ExportError;
 
-use super::results::common;
+use super::results::{common, warnings};
 use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::case::Case;
-use crate::stages::mesh_digests;
+use crate::stages::{doubts_of_case, mesh_digests};
 use record::WrittenFile;
 use source::Source;
 
@@ -60,11 +60,15 @@ pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcom
     };
     progress.finish();
     let Export { files, summary } = exported?;
+    let told = doubts_of_case(case)?;
+    let lines = warnings(&told).chain(std::iter::once(summary));
+    let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("export", case, &progress, wall_s, &meshes);
     map.insert("to".to_owned(), to.name().into());
     map.insert("results".to_owned(), serde_json::json!(source.folder()));
+    map.insert("warnings".to_owned(), serde_json::json!(told));
     let result = record::record(map, &files, &folder);
     // what stayed as it was is listed, not written
     let written = names.iter().map(|name| folder.path().join(name));

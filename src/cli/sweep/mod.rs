@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 pub use arguments::{Share, SweepArguments};
 
 use super::report_files::ReportFiles;
-use super::results::{common, stages_s};
+use super::results::{common, stages_s, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interrupt, write_atomic};
 use crate::case::Case;
 use crate::report::Document;
@@ -264,6 +264,7 @@ fn fields(result: &SweepResult) -> Map<String, Value> {
         "bad": count(PointState::Bad),
         "failed": count(PointState::Failed),
         "not_computed": count(PointState::Missing),
+        "warnings": result.warnings(),
         "points": result.points.iter().map(point).collect::<Vec<_>>(),
     });
     match fields {
@@ -274,10 +275,18 @@ fn fields(result: &SweepResult) -> Map<String, Value> {
 
 /// Points that are not done, and how many are.
 fn summary(result: &SweepResult) -> String {
-    /// Points that are listed here; the report has all.
+    /// Points and warnings that are listed here; the report has all.
     const LISTED: usize = 10;
     let done = result.count(PointState::Done);
-    let mut lines = vec![format!("{done} of {} points done", result.points.len())];
+    let all = result.points.len();
+    let told = result.warnings();
+    let sentences: Vec<String> = told.iter().map(|one| one.sentence(all)).collect();
+    let mut lines: Vec<String> = warnings(&sentences).take(LISTED).collect();
+    if told.len() > LISTED {
+        let more = told.len() - LISTED;
+        lines.push(format!("and {more} more warnings, see the report"));
+    }
+    lines.push(format!("{done} of {all} points done"));
     for point in result.not_done().take(LISTED) {
         let values = point.point.values.join(", ");
         let message = point

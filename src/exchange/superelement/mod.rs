@@ -54,6 +54,8 @@ pub struct SuperelementRecord {
     pub interface_recovery: Option<InterfaceRecovery>,
     /// `sqrt(k_jj / m_jj) / 2 pi` of the modes \[n - b\], Hz: with a fixed interface, their eigenfrequencies.
     pub modal_hz: Vec<f64>,
+    /// Top of the band that it was condensed for, Hz; `None` where the file does not say.
+    pub band_hz: Option<f64>,
     /// Mass times unit accelerations along the mesh's x, y, z \[n x 3\], kg for a displacement.
     pub weight: Option<DenseMatrix>,
     /// Points that are watched, names differ.
@@ -109,6 +111,7 @@ impl SuperelementRecord {
             interface,
             interface_recovery: None,
             modal_hz: Vec::new(),
+            band_hz: None,
             weight: None,
             sensors: Vec::new(),
             field: None,

@@ -43,6 +43,13 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
     if file.npz.has("modal_hz") {
         record.modal_hz = file.list("modal_hz")?;
     }
+    if file.npz.has("band_hz") {
+        record.band_hz = file
+            .list("band_hz")?
+            .first()
+            .copied()
+            .filter(|hz| *hz > 0.0);
+    }
     record.interface_recovery = file.interface_recovery(record.interface.len())?;
     record.sensors = file.sensors(order)?;
     record.field = file.field(order)?;

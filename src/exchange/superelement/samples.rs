@@ -39,6 +39,7 @@ pub(crate) fn record() -> SuperelementRecord {
         interface: vec![label(0), label(2)],
         interface_recovery: None,
         modal_hz: vec![2e3 / TAU, 3e3 / TAU],
+        band_hz: Some(250.0),
         weight: Some(dense(&[
             [1.5, 0.0, 0.25],
             [0.25, 0.0, 1.25],

@@ -101,6 +101,9 @@ impl EigenProblem {
     }
 
     /// Pairs one behind the other, of which each slice is orthogonal by itself.
+    ///
+    /// What a pair j has of another slice's pair i is taken out to first order, `x_i' (K - l_j M) x_j / (l_j - l_i)`: then the vectors are
+    /// orthogonal in mass and in stiffness.
     pub(super) fn joined(&self, parts: Vec<EigenPairs>) -> Result<EigenPairs, LinalgError> {
         let mut pairs = EigenPairs::one_behind_the_other(parts, self.order());
         let coupling = |vectors: &DenseMatrix| {
@@ -108,27 +111,32 @@ impl EigenProblem {
             let gram = times(vectors.transpose(), heavy.as_ref());
             gram - DenseMatrix::identity(vectors.ncols(), vectors.ncols())
         };
-        let first = coupling(&pairs.vectors);
-        let count = pairs.values.len();
-        if first.norm_max() > LARGEST_COUPLING {
+        let (values, count) = (&pairs.values, pairs.values.len());
+        let mass = coupling(&pairs.vectors);
+        if mass.norm_max() > LARGEST_COUPLING {
             return Err(LinalgError::missing(CountCheck {
                 above: None,
-                below: pairs.values.last().copied().unwrap_or(0.0),
+                below: values.last().copied().unwrap_or(0.0),
                 counted: count,
                 found: count - 1,
             }));
         }
-        // what a pair has of the lower ones is taken out of it, to first order; rigid motions stay as they are
-        let lower = DenseMatrix::from_fn(count, count, |row, column| {
-            if row < column {
-                first[(row, column)]
+        let stiff = self.stiffness_times(&pairs.vectors);
+        let stiff = times(pairs.vectors.transpose(), stiff.as_ref());
+        let foreign = DenseMatrix::from_fn(count, count, |i, j| {
+            let apart = values[j] - values[i];
+            if apart.abs() > SHORTEST * values[j].abs() {
+                (stiff[(i, j)] - values[j] * mass[(i, j)]) / apart
+            } else if i < j {
+                // too close to part the two: orthogonal in mass alone
+                -mass[(i, j)]
             } else {
                 0.0
             }
         });
-        pairs.vectors -= times(pairs.vectors.as_ref(), lower.as_ref());
+        pairs.vectors += times(pairs.vectors.as_ref(), foreign.as_ref());
         for (mode, residual) in pairs.residuals.iter_mut().enumerate() {
-            *residual += lower.col(mode).norm_l2();
+            *residual += foreign.col(mode).norm_l2();
         }
         pairs.orthogonality = coupling(&pairs.vectors).norm_max();
         Ok(pairs)

@@ -34,8 +34,8 @@ const PUSHING: usize = 8;
 /// Powers of 1/w of the excitation's amplitude.
 const SLOPES: usize = 3;
 
-/// How much larger than the first order a response's error is taken: runs of `examples/scenes/smooth` with 7 to 60 modes, as it is,
-/// with a preload of 10 um and with 100 times the mass, err by 0.6 to 3.2 times as much, and once by 4.4 times.
+/// How much larger than the first order a response's error is taken. Runs of `examples/scenes/smooth` with 13 to 60 modes and a preload of
+/// 10 um err by 0.5 to 0.9 times as much; forces of another slope than the assumed one may do more. `tests/estimates.rs` draws scenes for it.
 pub(super) const RESPONSE_SAFETY: f64 = 3.0;
 
 /// Estimated errors of a loaded system without some inertia, relative.
@@ -402,13 +402,17 @@ mod tests {
         assert!((5.0..=10.1).contains(&(long / short)), "{short} {long}");
     }
 
-    /// Runs of 7, 13, 24 and 60 modes in fine steps differ from all modes by 1.1e-1, 3.5e-2, 4.2e-3 and 2.3e-3 under the preload.
+    /// Runs of 13, 24 and 60 modes in fine steps differ from all modes by 7.2e-3, 2.7e-3 and 8.8e-4 over 4 ms under the preload.
     #[test]
     fn a_loaded_damper_needs_more_modes() {
-        let loaded = smooth(&["bearing.radial_play=-10e-6"], 40e3, 10e-3);
-        let plain = smooth(&[], 40e3, 10e-3);
-        for (modes, measured) in [(13, 3.5e-2), (24, 4.2e-3), (60, 2.3e-3)] {
+        let loaded = smooth(&["bearing.radial_play=-10e-6"], 40e3, 4e-3);
+        let plain = smooth(&[], 40e3, 4e-3);
+        for (modes, measured) in [(13, 7.2e-3), (24, 2.7e-3), (60, 8.8e-4)] {
             let ratio = loaded.with(modes) / measured;
+            println!(
+                "{modes}: {ratio:.2}, {:.2}",
+                loaded.with(modes) / plain.with(modes)
+            );
             // never below the error, and no more above it than the safety and the first order's own error
             assert!((1.0..6.0).contains(&ratio), "{modes}: {ratio}");
             assert!(loaded.with(modes) > 3.0 * plain.with(modes), "{modes}");

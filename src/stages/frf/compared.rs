@@ -24,7 +24,7 @@ pub struct ComparedResponse {
     pub reduced: Vec<c64>,
     /// The same of the full model.
     pub full: Vec<c64>,
-    /// Largest `|reduced - full| / |full|` of the paths.
+    /// Largest `|reduced - full| / |full|` of the paths; of one that carries nothing, relative to the response at its ends.
     pub difference: f64,
     /// Estimated error; none outside the band.
     pub estimated: Option<f64>,
@@ -110,7 +110,12 @@ pub(super) fn compare(
                 .map(|(row, &factor)| solution.displacements[(row, load)] * factor)
                 .sum();
             let found = own.receptance()[index][(sensor, load)];
-            at.difference = at.difference.max((found - full).norm() / full.norm());
+            let closed = reduced
+                .estimate
+                .as_ref()
+                .and_then(|all| all.closed(path.place));
+            let level = closed.unwrap_or(full.norm());
+            at.difference = at.difference.max((found - full).norm() / level);
             at.reduced.push(found);
             at.full.push(full);
         }

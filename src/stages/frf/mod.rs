@@ -40,6 +40,18 @@ pub struct TransferPath {
     pub carried: Vec<CarriedPart>,
 }
 
+impl TransferPath {
+    /// What is said of a path that carries nothing.
+    pub const CLOSED: &str =
+        "carries nothing: of its responses symmetry or separate bodies leave round-off alone";
+
+    /// Whether its responses are round-off beside those at its ends, so that no mode carries it.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.shares.modes.is_empty()
+    }
+}
+
 /// Result of the command.
 #[derive(Debug, Clone)]
 pub struct FrfResult {
@@ -106,8 +118,12 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         FrfHousing::Mesh(stage) => Some((&stage.housing.mesh, &stage.housing.model)),
         FrfHousing::File(_) => None,
     };
+    let mut doubts = super::doubts(case, of_mesh, None)?;
+    if let FrfHousing::File(file) = &reduced.housing {
+        doubts.extend(file.0.doubt(reduced.band_hz[1]));
+    }
     Ok(FrfResult {
-        doubts: super::doubts(case, of_mesh, None)?,
+        doubts,
         band_hz: reduced.band_hz,
         target: case.target(),
         housing: reduced.housing,

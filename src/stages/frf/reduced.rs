@@ -189,7 +189,12 @@ impl<'c> ReducedPaths<'c> {
         for (sensor, (to, ..)) in to.iter().enumerate() {
             for (load, (from, ..)) in from.iter().enumerate() {
                 let (band_hz, hz) = (self.band_hz, &self.frequencies_hz);
-                let shares = self.superposition.shares(sensor, load, band_hz, hz)?;
+                let mut shares = self.superposition.shares(sensor, load, band_hz, hz)?;
+                let closed = |all: &ResponseEstimate| all.closed((sensor, load)).is_some();
+                if self.estimate.as_ref().is_some_and(closed) {
+                    // shares of round-off
+                    shares.modes.clear();
+                }
                 let parts = self.superposition.contributions(sensor, load, hz)?;
                 let carried = shares.modes.iter().take(CARRIED).map(|share| CarriedPart {
                     frequency_hz: share.frequency_hz,

@@ -54,6 +54,20 @@ fn auto_reaches_the_target_and_no_more_than_it_needs() {
     }
 }
 
+/// A force downwards at the foot of a housing that is the same left and right moves its top in x by round-off alone.
+#[test]
+fn a_path_that_symmetry_closes_is_told_and_no_error() {
+    let even = "housing.mesh=\"ring_6_9_24.msh\"";
+    let sideways = "sensors.0.direction=[1,0,0]";
+    let found = result(&accuracy("1e-2"), &[even, sideways]);
+    let closed: Vec<bool> = found.paths.iter().map(TransferPath::is_closed).collect();
+    assert_eq!(closed, [true, false]);
+    assert!(found.passes(), "{:?}", found.largest_difference());
+    // of a mesh that is not even both carry something
+    let uneven = result(&accuracy("1e-2"), &[sideways]);
+    assert!(!uneven.paths.iter().any(TransferPath::is_closed));
+}
+
 #[test]
 fn estimates_are_those_of_the_full_model() {
     let sizes = ["8", "12", "20"].map(|size| format!("condense.fixed_interface_modes={size}"));
