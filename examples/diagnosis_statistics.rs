@@ -269,7 +269,7 @@ fn named(
         shown_band: Some(AskedBand::HighPass(5e3)),
         whiten: false,
         windows: vec![WINDOW],
-        entering_balls: None,
+        no_signs: Vec::new(),
     };
     let read = |window: TimeWindow, margin_s: f64| {
         let span = signal.span();

@@ -105,6 +105,11 @@ impl EigenProblem {
     /// What a pair j has of another slice's pair i is taken out to first order, `x_i' (K - l_j M) x_j / (l_j - l_i)`: then the vectors are
     /// orthogonal in mass and in stiffness.
     pub(super) fn joined(&self, parts: Vec<EigenPairs>) -> Result<EigenPairs, LinalgError> {
+        let slices: Vec<usize> = parts
+            .iter()
+            .enumerate()
+            .flat_map(|(slice, part)| part.values.iter().map(move |_| slice))
+            .collect();
         let mut pairs = EigenPairs::one_behind_the_other(parts, self.order());
         let coupling = |vectors: &DenseMatrix| {
             let heavy = self.mass_times(vectors);
@@ -125,10 +130,10 @@ impl EigenProblem {
         let stiff = times(pairs.vectors.transpose(), stiff.as_ref());
         let foreign = DenseMatrix::from_fn(count, count, |i, j| {
             let apart = values[j] - values[i];
-            if apart.abs() > SHORTEST * values[j].abs() {
+            if slices[i] != slices[j] && apart.abs() > SHORTEST * values[j].abs() {
                 (stiff[(i, j)] - values[j] * mass[(i, j)]) / apart
             } else if i < j {
-                // too close to part the two: orthogonal in mass alone
+                // of one slice, or too close to part the two: orthogonal in mass alone
                 -mass[(i, j)]
             } else {
                 0.0
