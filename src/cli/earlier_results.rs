@@ -68,6 +68,12 @@ pub enum ResultsError {
         /// The case file.
         case: PathBuf,
     },
+    /// `--set` gives the case other values than the results were computed with.
+    #[error("{} is the result of other values than --set gives", path.display())]
+    SetChanges {
+        /// The result file.
+        path: PathBuf,
+    },
     /// A file that was replaced or damaged since.
     #[error("{} is not the file that {} speaks of: expected SHA-256 {expected}, found {found}", arrays.display(), path.display())]
     OtherFile {
@@ -99,6 +105,10 @@ impl ResultsError {
             }
             Self::CaseChanged { .. } => {
                 "compute the results again with --force, or give the case file its old values; [analysis] may change"
+                    .to_owned()
+            }
+            Self::SetChanges { .. } => {
+                "of results, --set changes [analysis] alone; compute others with these values"
                     .to_owned()
             }
             Self::Damaged { .. } | Self::OtherFile { .. } => {
@@ -192,5 +202,9 @@ pub(super) fn case_of_results(
         return Ok(case);
     }
     let all: Vec<String> = own.into_iter().chain(set.iter().cloned()).collect();
-    Ok(Case::load(&file, &all)?)
+    let looked_at = Case::load(&file, &all)?;
+    if looked_at.source.digest().ok() != case.source.digest().ok() {
+        return Err(ResultsError::SetChanges { path }.into());
+    }
+    Ok(looked_at)
 }

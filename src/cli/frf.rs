@@ -60,7 +60,7 @@ fn verdict(result: &FrfResult) -> Verdict {
             misses.join(", ")
         ),
         help: Some(
-            "leave condense.fixed_interface_modes at \"auto\", which chooses the basis by this estimate, or raise it; close to zeros of a response small differences are large".to_owned(),
+            "close to zeros of a response, and on paths that carry little, small differences are large: ask for the other paths alone, narrow frf.band_hz, or raise condense.fixed_interface_modes".to_owned(),
         ),
     }
 }

@@ -73,6 +73,14 @@ pub fn main() -> ExitCode {
 }
 
 fn on_arguments() -> ExitCode {
+    if let Some(word) = std::env::args_os().find(|word| word.to_str().is_none()) {
+        let word = word.to_string_lossy();
+        let _ = writeln!(
+            io::stderr(),
+            "error: argument \"{word}\": expected text in UTF-8, found other bytes\nhelp: rename the file or its folder"
+        );
+        return ExitCode::from(2);
+    }
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {

@@ -202,9 +202,10 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     ));
     lines.push(match result.choice.estimated_error {
         Some(error) => format!(
-            "estimated error of the signals in the band: {} (target {})",
+            "estimated error of the signals in the band, while nearby solutions stay together: {} (target {}{})",
             significant(error, 2),
-            significant(result.choice.target, 2)
+            significant(result.choice.target, 2),
+            if error > result.choice.target { ", missed" } else { "" }
         ),
         None => "the error of the signals is not estimated".to_owned(),
     });

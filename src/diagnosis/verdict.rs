@@ -361,7 +361,7 @@ pub(super) fn conclude(
         return (
             Conclusion::Named,
             reason(
-                "Balls that strike as they enter the load zone through the play do so at this order too: compare with an earlier signal.",
+                "In a bearing with play, balls that strike as they enter the load zone do so at this order too: compare with an earlier signal.",
             ),
         );
     }

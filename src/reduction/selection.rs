@@ -20,6 +20,8 @@ pub enum BasisSize {
     Count(usize),
     /// Fixed-interface modes up to a frequency, Hz.
     UpTo(f64),
+    /// The same, but no more than have so many numbers: modes times degrees of freedom of the interior.
+    AtMost(f64, usize),
     /// As few as keep the estimated relative error of the frequencies in the band below this.
     Auto(f64),
 }
@@ -48,7 +50,6 @@ pub fn choose_basis(
     choice: BasisChoice,
     attached: Option<Attached<'_>>,
 ) -> Result<InteriorBasis, ReductionError> {
-    let band = (TAU * choice.band_hz).powi(2);
     match choice.size {
         BasisSize::Count(count) => {
             let count = count.min(substructure.interior_dof());
@@ -62,20 +63,34 @@ pub fn choose_basis(
                 coupled_modes(substructure, basis, attached)
             })
         }
-        BasisSize::UpTo(hz) => {
-            let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0)?;
-            let basis = InteriorBasis::of_modes(substructure, &pairs, count);
-            with_residuals(substructure, &basis, attached, |spectrum, elastic| {
-                let end = spectrum.values.partition_point(|&value| value <= band);
-                if choice.enhanced {
-                    (elastic..end).collect()
-                } else {
-                    Vec::new()
-                }
-            })
+        BasisSize::UpTo(hz) => up_to(substructure, choice, hz, usize::MAX, attached),
+        BasisSize::AtMost(hz, numbers) => {
+            let most = (numbers / substructure.interior_dof().max(1)).max(1);
+            up_to(substructure, choice, hz, most, attached)
         }
         BasisSize::Auto(target) => smallest_basis(substructure, choice, target, attached),
     }
+}
+
+/// Fixed-interface modes up to a frequency (Hz) and a number.
+fn up_to(
+    substructure: &Substructure,
+    choice: BasisChoice,
+    hz: f64,
+    most: usize,
+    attached: Option<Attached<'_>>,
+) -> Result<InteriorBasis, ReductionError> {
+    let band = (TAU * choice.band_hz).powi(2);
+    let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0, most)?;
+    let basis = InteriorBasis::of_modes(substructure, &pairs, count);
+    with_residuals(substructure, &basis, attached, |spectrum, elastic| {
+        let end = spectrum.values.partition_point(|&value| value <= band);
+        if choice.enhanced {
+            (elastic..end).collect()
+        } else {
+            Vec::new()
+        }
+    })
 }
 
 /// A basis with residual vectors up to `count`; `modes_of` gives at least as many modes of the coupled structure beyond the
@@ -109,21 +124,27 @@ pub(super) fn modes(
     substructure.lowest_modes((count + 1).min(substructure.interior_dof()))
 }
 
-/// Modes of which at least one and `beyond` more are above an eigenvalue, and how many are not.
+/// Modes of which at least one and `beyond` more are above an eigenvalue, and how many are not; `most` of these at most.
 pub(super) fn modes_to(
     substructure: &Substructure,
     value: f64,
     beyond: usize,
+    most: usize,
 ) -> Result<(EigenPairs, usize), ReductionError> {
     let mut asked = FIRST_MODES + beyond;
     loop {
         let pairs = modes(substructure, asked)?;
         let below = pairs.values.partition_point(|&found| found <= value);
+        if below > most {
+            return Ok((pairs, most));
+        }
         if below + beyond < pairs.values.len() || pairs.values.len() == substructure.interior_dof()
         {
             return Ok((pairs, below));
         }
         asked = (2 * asked).max(below + beyond);
+        // beyond the most one more says up to where they are complete
+        asked = asked.min(most.saturating_add(1 + beyond));
     }
 }
 

@@ -23,7 +23,12 @@ pub(super) fn smallest_basis(
     attached: Option<Attached<'_>>,
 ) -> Result<InteriorBasis, ReductionError> {
     let all = substructure.interior_dof();
-    let (mut pairs, in_band) = modes_to(substructure, (TAU * choice.band_hz).powi(2), BEYOND)?;
+    let (mut pairs, in_band) = modes_to(
+        substructure,
+        (TAU * choice.band_hz).powi(2),
+        BEYOND,
+        usize::MAX,
+    )?;
     let mut reached = f64::INFINITY;
     let mut least = in_band;
     for _ in 0..ENLARGEMENTS {

@@ -96,6 +96,7 @@ fn what(result: &CondenseResult) -> Section {
         ),
         BasisSize::Count(count) => format!("{count}, as asked"),
         BasisSize::UpTo(hz) => format!("modes up to {hz:.0} Hz, as asked"),
+        BasisSize::AtMost(hz, _) => format!("modes up to {hz:.0} Hz, fewer of a large housing"),
     };
     let mut facts = vec![
         Fact::new("Interface", interface),

@@ -13,6 +13,10 @@ use std::path::PathBuf;
 /// Modes sought on another mesh beyond those of the case, least and as a part: their order may differ.
 const MORE: [usize; 2] = [4, 4];
 
+/// Farthest that an estimated frequency may be from that of the finest mesh, relative: beyond, the meshes are too coarse for an
+/// extrapolation.
+const FARTHEST: f64 = 0.5;
+
 /// By how much the ends of a band are moved on another mesh.
 const BAND_MARGIN: f64 = 0.1;
 
@@ -195,10 +199,14 @@ fn on_meshes(
     let on = |level: &usize| Some((*level, found[*level].frequencies_hz[mode]?));
     let alike = order.iter().filter(|level| sequence.is_alike(**level));
     let (levels, values): (Vec<usize>, Vec<f64>) = alike.filter_map(on).unzip();
-    let limit = match levels.len() {
+    let mut limit = match levels.len() {
         0 | 1 => None,
         _ => Some(richardson(&sequence.sizes(levels), &values).map_err(StageError::Sequence)?),
     };
+    if let Some(limit) = &mut limit {
+        let far = |estimate: &f64| (limit.finest - estimate).abs() > FARTHEST * limit.finest;
+        limit.estimate = limit.estimate.filter(|estimate| !far(estimate));
+    }
     let own = found[0].frequencies_hz[mode];
     let estimate = limit.as_ref().and_then(|limit| limit.estimate);
     let error = own

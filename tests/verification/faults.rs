@@ -73,14 +73,19 @@ fn every_fault_has_its_own_order() {
     }
 }
 
-/// A dent on top of the outer race is passed by balls that nothing presses.
+/// A dent on top of the outer race is passed by balls that nothing presses. One start scatters by two: mean of three.
 #[test]
 fn a_dent_outside_the_loaded_zone_is_hardly_heard() {
-    let loaded = run("outer-dent", &[]);
-    let unloaded = run("outer-dent", &["bearing.defects[0].angle_deg=90"]);
-    // found 40 and 7.5 m/s^2; 3.9 without a dent
-    let (heard, hardly) = (loaded.windows[0].rms, unloaded.windows[0].rms);
-    assert!(heard > 4.0 * hardly, "{heard} and {hardly} m/s^2");
+    let rms = |angle_deg: u32| {
+        let angle = format!("bearing.defects[0].angle_deg={angle_deg}");
+        let starts = [270, 290, 310].map(|deg| format!("bearing.first_ball_deg={deg}"));
+        let of = |start: &String| run("outer-dent", &[&angle, start]).windows[0].rms;
+        starts.iter().map(of).sum::<f64>() / 3.0
+    };
+    let (heard, hardly) = (rms(270), rms(90));
+    println!("{heard} and {hardly} m/s^2");
+    // found 44 and 9 m/s^2 with any number of vectors; 3.9 without a dent
+    assert!(heard > 3.0 * hardly, "{heard} and {hardly} m/s^2");
 }
 
 /// A dent in the inner race is heard while it passes the load. Not so the paper's: it is deeper than the play, so that the

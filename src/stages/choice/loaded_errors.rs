@@ -45,8 +45,6 @@ pub(super) struct LoadedErrors {
     by_count: Vec<f64>,
     /// With all modes and balls without inertia.
     balls: f64,
-    /// Of the condensed housing: its modes' frequencies are too high.
-    condensed: f64,
 }
 
 /// A mode of the loaded system.
@@ -92,7 +90,6 @@ impl LoadedErrors {
                 *most = most.max(other);
             }
             most.balls = most.balls.max(other.balls);
-            most.condensed = most.condensed.max(other.condensed);
         }
         Ok(most)
     }
@@ -113,11 +110,10 @@ impl LoadedErrors {
             return Ok(Self {
                 by_count: vec![0.0; count + 1],
                 balls: 0.0,
-                condensed: 0.0,
             });
         }
         let loaded = Loaded::of(scene, rest, seconds)?;
-        let (mut by_count, condensed) = loaded.responses(band_hz);
+        let mut by_count = loaded.responses(band_hz);
         let mut left = vec![0.0; loaded.modes.len()];
         for number in (0..count).rev() {
             for (left, mode) in left.iter_mut().zip(&loaded.modes) {
@@ -132,23 +128,10 @@ impl LoadedErrors {
             mass * amplitudes.map(|a| a * a).sum::<f64>()
         };
         let of_balls: Vec<f64> = loaded.modes.iter().map(of_balls).collect();
-        let too_high = &scene.stage.condensation;
-        let of_housing = |mode: &Mode| -> f64 {
-            let pairs = mode.amplitudes[..count].iter().zip(too_high);
-            pairs.map(|(a, error)| 2.0 * error * a * a).sum()
-        };
-        let of_housing: Vec<f64> = loaded.modes.iter().map(of_housing).collect();
-        let drift = |left: &[f64]| loaded.drift(left, band_hz, seconds);
         Ok(Self {
             by_count,
-            balls: drift(&of_balls),
-            condensed: drift(&of_housing).hypot(condensed),
+            balls: loaded.drift(&of_balls, band_hz, seconds),
         })
-    }
-
-    /// Of the condensed housing with all modes.
-    pub(super) fn condensed(&self) -> f64 {
-        self.condensed
     }
 
     /// With so many of the lowest modes and the static residual of the others.
@@ -246,9 +229,8 @@ impl<'a> Loaded<'a> {
         most
     }
 
-    /// Relative errors of the first order of the response at the worst sensor for every number of kept modes; then with all of
-    /// them, of frequencies that the condensed housing has too high, which lacks twice that share of a mode's inertia.
-    fn responses(&self, band_hz: f64) -> (Vec<f64>, f64) {
+    /// Relative errors of the first order of the response at the worst sensor for every number of kept modes.
+    fn responses(&self, band_hz: f64) -> Vec<f64> {
         let count = self.scene.stage.modes.count();
         let spacing = TAU * band_hz / FREQUENCIES as f64;
         let sensors = self.sensors.len();
@@ -289,7 +271,7 @@ impl<'a> Loaded<'a> {
         };
         let entries = FREQUENCIES * pushing;
         let mut lost = vec![[0.0; 2]; sensors * entries];
-        let (mut whole, mut too_high) = (lost.clone(), lost.clone());
+        let mut whole = lost.clone();
         for sensor in 0..sensors {
             for frequency in 0..FREQUENCIES {
                 for place in 0..pushing {
@@ -330,8 +312,6 @@ impl<'a> Loaded<'a> {
         for k in (0..count).rev() {
             let square = self.scene.stage.modes.squared_frequencies[k];
             let damping = self.scene.damping.coefficient(square);
-            let condensed = self.scene.stage.condensation.get(k);
-            let condensed = 2.0 * condensed.copied().unwrap_or(0.0);
             for frequency in 0..FREQUENCIES {
                 let w = at(frequency);
                 // A / w_k but for the i: the signs of both pairs, race against ball, take each other out
@@ -358,16 +338,12 @@ impl<'a> Loaded<'a> {
                         let (inertia, damper) = (times(pull, *moved), times(dampers, *damped));
                         entry[0] += inertia[0] - damper[0];
                         entry[1] += inertia[1] - damper[1];
-                        let entry = &mut too_high[place_of];
-                        let moved = times([re, im], *moved);
-                        entry[0] += condensed * w * w * moved[0];
-                        entry[1] += condensed * w * w * moved[1];
                     }
                 }
             }
             by_count[k] = relative(&lost);
         }
-        (by_count, relative(&too_high))
+        by_count
     }
 }
 

@@ -11,6 +11,7 @@ mod stepping;
 mod table;
 mod travel;
 
+use super::structure::left_out;
 use super::{RunModel, Scene, StageError};
 use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
@@ -80,13 +81,12 @@ impl ModelChoice {
         let (Some(together), Some((part, error))) = (self.estimated_error, largest) else {
             return Vec::new();
         };
-        let of_structure = [SUPERELEMENT, CONDENSATION].contains(&part.what);
-        if together <= self.growth * target && !(of_structure && error > target) {
+        if together <= self.growth * target {
             return Vec::new();
         }
         let help = match part.what {
             SUPERELEMENT | CONDENSATION => {
-                "condense with more vectors by condense.fixed_interface_modes: the error falls with the square of their highest frequency"
+                "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency"
             }
             "modes" => "raise transient.modes",
             "balls" => "set bearing.balls_inertia = \"dynamic\"",
@@ -146,6 +146,8 @@ impl ModelChoice {
         }
         let growth = growth(scene, rest);
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
+        parts.extend(superelement(scene, band_hz));
+        parts.extend(condensed(scene, band_hz));
         for part in &mut parts {
             if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
                 part.estimated_error = Some(growth * error);
@@ -155,9 +157,6 @@ impl ModelChoice {
                 );
             }
         }
-        // what the structure itself lacks was compared with runs as it is, dents included
-        parts.extend(superelement(scene, band_hz));
-        parts.extend(condensed(scene, &loaded));
         let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
         let sum: Option<f64> = squares.sum();
         Ok(Self {
@@ -170,49 +169,52 @@ impl ModelChoice {
     }
 }
 
+/// Share of the largest contact force at rest that every contact has where the balls stay pressed: with a preload of 10 nm, some lose it.
+const PRESSED: f64 = 0.1;
+
 /// What errors grow to in a run that begins at rest and meets a heavier load.
 fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     let setup = &scene.setup;
     let rests = heaviest.into_iter().chain([&scene.equilibrium]);
-    let mut balls = rests.flat_map(|rest| &rest.balls);
-    let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
+    let forces = rests.flat_map(|rest| &rest.balls);
+    let forces = forces.flat_map(|ball| [ball.inner, ball.outer]);
+    let ends = [f64::INFINITY, 0.0];
+    let [least, most] = forces.fold(ends, |[least, most], force| {
+        [least.min(force), most.max(force)]
+    });
+    let pressed = least > PRESSED * most;
     match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
         true => 1.0,
         false => IMPACTS_GROWTH,
     }
 }
 
-/// What a superelement from a file lacks: a vector of its interior at f_i that was left out would change a motion of frequency f by
-/// `(f / f_i)^2`. The highest vector that it has and the band's highest frequency give the estimate. On the end shield of
-/// `examples/housings` it is 0.19 and 0.016 for 21 and 102 vectors where runs of 2.5 ms differ by 0.24 and 0.007.
+/// What a superelement from a file lacks, by [`left_out`].
 fn superelement(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     let imported = scene.stage.imported.as_ref()?;
-    let highest = imported.record.modal_hz.iter().copied();
-    let highest = highest.fold(0.0, f64::max);
-    let vectors = imported.record.modal_hz.len();
+    let highest = scene.stage.complete_hz;
     Some(ChosenPart {
         what: SUPERELEMENT,
-        chosen: format!("{vectors} vectors"),
+        chosen: format!("{} vectors", imported.record.modal_hz.len()),
         why: format!(
             "given; vectors above {} kHz were left out when it was condensed",
             significant(highest / 1e3, 4)
         ),
-        estimated_error: Some((band_hz / highest.max(f64::MIN_POSITIVE)).powi(2).min(1.0)),
+        estimated_error: Some(left_out(band_hz, highest)),
     })
 }
 
-/// What the condensed housing makes of the loaded system's frequencies.
-fn condensed(scene: &Scene, loaded: &LoadedErrors) -> Option<ChosenPart> {
+/// What the condensed housing lacks, by [`left_out`].
+fn condensed(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     scene.stage.housing.as_ref()?;
-    let errors = scene.stage.condensation.iter().copied();
     Some(ChosenPart {
         what: CONDENSATION,
         chosen: format!("{} vectors", scene.stage.fixed_interface_modes),
         why: format!(
-            "of the housing's interior; frequencies up to three times the band are at most {} too high",
-            significant(errors.fold(0.0, f64::max), 2)
+            "of the housing's interior; those above {} kHz are left out",
+            significant(scene.stage.complete_hz / 1e3, 3)
         ),
-        estimated_error: Some(loaded.condensed()),
+        estimated_error: Some(left_out(band_hz, scene.stage.complete_hz)),
     })
 }
 

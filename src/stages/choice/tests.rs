@@ -32,7 +32,7 @@ fn a_load_that_comes_later_is_looked_at() {
     assert!(late.growth > plain.growth);
 }
 
-/// A condensed housing that is as coarse as the target allows for one frequency errs by 2.3 % over a run of 8 ms.
+/// With a preload; the vectors of the second one are complete up to twice the band.
 #[test]
 fn a_condensed_housing_is_part_of_the_estimate() {
     let preload = [
@@ -46,6 +46,7 @@ fn a_condensed_housing_is_part_of_the_estimate() {
     let few = choice("housings/pillow_block", &few);
     let [auto, few] = [auto, few].map(|choice| part(&choice, CONDENSATION));
     println!("{auto} {few}");
-    assert!(auto < 1e-3, "{auto}");
-    assert!(few > 3e-3, "{few}");
+    // half of the target by the choice of the vectors
+    assert!((4e-3..5.5e-3).contains(&auto), "{auto}");
+    assert!(few > 0.1, "{few}");
 }

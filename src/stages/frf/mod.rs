@@ -41,11 +41,10 @@ pub struct TransferPath {
 }
 
 impl TransferPath {
-    /// What is said of a path that carries nothing.
-    pub const CLOSED: &str =
-        "carries nothing: of its responses symmetry or separate bodies leave round-off alone";
+    /// What is said of a path that carries next to nothing.
+    pub const CLOSED: &str = "carries less than 1e-7 of the responses at its ends, by symmetry or between bodies that hardly touch; no error is estimated there";
 
-    /// Whether its responses are round-off beside those at its ends, so that no mode carries it.
+    /// Whether its responses are so small beside those at its ends that no mode is said to carry it.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.shares.modes.is_empty()
