@@ -118,6 +118,11 @@ fn signals_are_not_read_beside_the_result_of_another_run() {
         &words(&format!("{analyze} --set analysis.whiten=true")),
     );
     assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+    refused(
+        &folder,
+        &format!("{analyze} --set bearing.balls=8"),
+        "out/run.json is the result of other values than --set gives",
+    );
     fs::copy(
         folder.join("other/signals.npz"),
         folder.join("out/signals.npz"),

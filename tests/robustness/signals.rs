@@ -130,3 +130,38 @@ fn words_against_the_file_are_said() {
         errors(&output)
     );
 }
+
+/// Above nine tenths of half the rate there is nothing left to judge.
+#[test]
+fn a_band_at_the_end_of_the_signal_has_no_verdict() {
+    let folder = scratch("narrow-band");
+    table(&folder, "a.csv", |_, noise| noise);
+    let with = |corner: f64| {
+        let more = format!("{BEARING} --high-pass {corner}");
+        let output = analyze(&folder, "a.csv", &more);
+        (output.status.code(), errors(&output))
+    };
+    let told = "expected a band that begins below 3600 Hz";
+    let (code, text) = with(3990.0);
+    assert!(code == Some(1) && text.contains(told), "{text}");
+    assert!(!with(2000.0).1.contains("expected a band"));
+}
+
+/// Results are UTF-8, and so are the names in them.
+#[cfg(unix)]
+#[test]
+fn names_in_other_bytes_are_wrong_input() {
+    use std::os::unix::ffi::OsStrExt;
+    let name = std::ffi::OsStr::from_bytes(b"\xff.toml");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_plummer"))
+        .arg("modes")
+        .arg(name)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("expected text in UTF-8"),
+        "{}",
+        errors(&output)
+    );
+}
