@@ -73,19 +73,20 @@ fn every_fault_has_its_own_order() {
     }
 }
 
-/// A dent on top of the outer race is passed by balls that nothing presses. One start scatters by two: mean of three.
+/// A dent on top of the outer race is passed by balls that nothing presses. One start scatters by two: mean of six.
 #[test]
 fn a_dent_outside_the_loaded_zone_is_hardly_heard() {
     let rms = |angle_deg: u32| {
         let angle = format!("bearing.defects[0].angle_deg={angle_deg}");
-        let starts = [270, 290, 310].map(|deg| format!("bearing.first_ball_deg={deg}"));
+        let starts =
+            [270, 280, 290, 300, 310, 320].map(|deg| format!("bearing.first_ball_deg={deg}"));
         let of = |start: &String| run("outer-dent", &[&angle, start]).windows[0].rms;
-        starts.iter().map(of).sum::<f64>() / 3.0
+        starts.iter().map(of).sum::<f64>() / 6.0
     };
     let (heard, hardly) = (rms(270), rms(90));
     println!("{heard} and {hardly} m/s^2");
     // found 44 and 9 m/s^2 with any number of vectors; 3.9 without a dent
-    assert!(heard > 3.0 * hardly, "{heard} and {hardly} m/s^2");
+    assert!(heard > 4.0 * hardly, "{heard} and {hardly} m/s^2");
 }
 
 /// A dent in the inner race is heard while it passes the load. Not so the paper's: it is deeper than the play, so that the
