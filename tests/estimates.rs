@@ -14,7 +14,7 @@
 use plummer::case::Case;
 use plummer::chart::Trace;
 use plummer::signal::{band_limit, band_limit_edge_s};
-use plummer::stages::{ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched};
+use plummer::stages::{Horizon, ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched};
 use plummer::system::{BallsInertia, ModeSelection};
 use plummer::transient::Method;
 use rayon::prelude::*;
@@ -230,14 +230,23 @@ fn row(number: u64) -> Result<Row, String> {
     let scene = Scene::build(&case, &Unwatched).map_err(|error| error.to_string())?;
     let choice = ModelChoice::of_case(&case, asked, &scene).map_err(|error| error.to_string())?;
     let estimate = choice.estimated_error.ok_or("no estimate")?;
+    let held =
+        Horizon::of(&case, &scene, &choice).ok_or("the estimate's horizon was not measured")?;
     let (truth, horizon) = reference(&scene, &drawn, case.target())?;
     let [start, stop] = inside(&drawn)?;
     if horizon <= start {
         return Err("the references agree at no time".to_owned());
     }
+    let until = horizon.min(held.held_s);
+    if until <= start {
+        return Err(format!(
+            "the estimate holds for {:.1} ms only",
+            1e3 * held.held_s
+        ));
+    }
     let error = |model: &RunModel| {
         let signals = signals(&scene, model, &drawn)?;
-        let error = signals.error(&truth, start, horizon);
+        let error = signals.error(&truth, start, until);
         error.map_err(|error| error.to_string())
     };
     let whole = error(&choice.model)?;
@@ -257,15 +266,17 @@ fn row(number: u64) -> Result<Row, String> {
         |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1e}"));
     let holds = whole <= estimate;
     let text = format!(
-        "| {number} | {} | {} | {:.1} | {} {} | {} | {} | {} | {estimate:.1e} | {whole:.1e} | {} | {} |",
+        "| {number} | {} | {} | {:.1} | {} {} | {} | {} | {} | {estimate:.1e} | {:.1} of {:.1} | {whole:.1e} | {} | {} |",
         drawn.text,
         if smooth { "smooth" } else { "other" },
-        (horizon - start) * 1e3,
+        (until - start) * 1e3,
         chosen("modes").split(' ').next().unwrap_or_default(),
         chosen("balls").split(' ').next().unwrap_or_default(),
         number_of(modes),
         number_of(balls),
         number_of(method),
+        1e3 * held.held_s,
+        1e3 * held.looked_s,
         number_of(of_model.ok()),
         if holds { "yes" } else { "**no**" },
     );
@@ -280,7 +291,7 @@ fn row(number: u64) -> Result<Row, String> {
 #[ignore = "minutes: compares 40 scenes with references of all modes"]
 fn estimates_hold() {
     println!(
-        "| scene | load, by | play um | c s/m | damping % | balls | band kHz | time ms | dent um | kind | compared ms | modes, balls | of modes | of balls | of method | estimate | error | of model | holds |"
+        "| scene | load, by | play um | c s/m | damping % | balls | band kHz | time ms | dent um | kind | compared ms | modes, balls | of modes | of balls | of method | estimate | holds ms | error | of model | holds |"
     );
     let rows: Vec<_> = (0..SCENES)
         .into_par_iter()

@@ -91,6 +91,8 @@ pub(super) fn run_json<R: Recording>(
             "why": choice_json(&result.choice)["parts"],
         },
         "estimated_error": result.choice.estimated_error,
+        "estimate_held_s": result.horizon.map(|horizon| horizon.held_s),
+        "estimate_looked_s": result.horizon.map(|horizon| horizon.looked_s),
         "energy": result.simulation.energy.map(|energy| json!({
             "input": energy.input_j(),
             "loads": energy.loads_j,

@@ -200,15 +200,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         },
         result.simulation.realtime_factor(),
     ));
-    lines.push(match result.choice.estimated_error {
-        Some(error) => format!(
-            "estimated error of the signals in the band, while nearby solutions stay together: {} (target {}{})",
-            significant(error, 2),
-            significant(result.choice.target, 2),
-            if error > result.choice.target { ", missed" } else { "" }
-        ),
-        None => "the error of the signals is not estimated".to_owned(),
-    });
+    lines.push(result.estimate_sentence());
     for window in &result.windows {
         lines.push(format!(
             "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",

@@ -3,11 +3,11 @@
 use super::bearing_table;
 use super::statics::Statics;
 use super::{
-    AnalysisSettings, InMemory, Keeper, Kinematics, ModelChoice, Recording, RunEnd, Scene,
+    AnalysisSettings, Horizon, InMemory, Keeper, Kinematics, ModelChoice, Recording, RunEnd, Scene,
     SensorScalogram, Simulation, Span, StageError, Watch, WindowAnalysis, analyse,
 };
 use crate::case::Case;
-use crate::report::Table;
+use crate::report::{Table, significant};
 use crate::system::{LoadedModes, RunRecord, SystemError};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
@@ -26,6 +26,8 @@ pub struct RunResult<R = RunRecord> {
     pub statics: Statics,
     /// The model, and why it is this one.
     pub choice: ModelChoice,
+    /// How long its estimated error was seen to hold; `None` where this was not measured.
+    pub horizon: Option<Horizon>,
     /// Modes linearised there.
     pub loaded: LoadedModes,
     /// The signals, and what they took.
@@ -90,6 +92,8 @@ pub fn compute_kept_run<K: Keeper>(
         duration: asked.end - asked.start,
         output_hz: asked.output_hz,
     };
+    watch.stage("compare with a finer run");
+    let horizon = Horizon::of(case, &scene, &choice);
     watch.stage("step");
     let samples = span.duration / choice.model.step;
     let energy = case.analysis.energy.unwrap_or(samples <= FEW_SAMPLES);
@@ -100,6 +104,7 @@ pub fn compute_kept_run<K: Keeper>(
         scene,
         statics,
         choice,
+        horizon,
         loaded,
         simulation,
         windows: Vec::new(),
@@ -120,6 +125,27 @@ impl<R: Recording> RunResult<R> {
     pub fn bearing_table(&self) -> Table {
         let scene = &self.scene;
         bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
+    }
+
+    /// The estimated error of the signals, and for how long it holds.
+    pub fn estimate_sentence(&self) -> String {
+        let (choice, horizon) = (&self.choice, self.horizon.map(|horizon| horizon.sentence()));
+        let Some(error) = choice.estimated_error else {
+            return "the error of the signals is not estimated".to_owned();
+        };
+        format!(
+            "estimated error of the signals in the band: {} (target {}{}), {}",
+            significant(error, 2),
+            significant(choice.target, 2),
+            if error > choice.target {
+                ", missed"
+            } else {
+                ""
+            },
+            horizon
+                .as_deref()
+                .unwrap_or("while nearby solutions stay together"),
+        )
     }
 
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.

@@ -1,6 +1,6 @@
 //! The report of `plummer run`.
 
-use super::analysis_report::{verdict_headlines, window_section};
+use super::analysis_report::{capital, verdict_headlines, window_section};
 use super::drawing::draw;
 use super::statics_report::statics_section;
 use super::tables::{assumptions, expected_table, mode_table, model_facts};
@@ -48,8 +48,11 @@ pub fn run_report<R: Recording>(
             .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
             .facts(model_facts(case, &result.scene.stage, true)),
     );
-    report =
-        report.section(Section::new("What was modelled, and why").table(result.choice.table()));
+    report = report.section(
+        Section::new("What was modelled, and why")
+            .paragraph(format!("{}.", capital(&result.estimate_sentence())))
+            .table(result.choice.table()),
+    );
     report = report.section(Section::new("Bearing").table(result.bearing_table()));
     report = report.section(statics_section(&result.scene.setup, &result.statics));
     report = report.section(Section::new("Computation").facts(computation(result)));

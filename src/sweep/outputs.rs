@@ -84,6 +84,7 @@ fn of_run(result: &Value) -> Vec<Output> {
         number("largest_static_force", "N", None, &largest),
         number("modes", "", None, &model["modes"]),
         number("estimated_error", "", None, &result["estimated_error"]),
+        number("estimate_held", "s", None, &result["estimate_held_s"]),
         number("stepping_s", "s", None, &result["stepping_s"]),
     ]);
     outputs

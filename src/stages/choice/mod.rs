@@ -4,6 +4,7 @@
 
 mod balls;
 mod heaviest;
+mod horizon;
 mod loaded_errors;
 mod mode_errors;
 mod pilot;
@@ -17,6 +18,7 @@ use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
 use crate::system::{BallsInertia, Equilibrium, Formulation, ModeSelection};
 use crate::transient::Method;
+pub use horizon::Horizon;
 use loaded_errors::LoadedErrors;
 use mode_errors::{ModeErrors, undamped_ball_hz};
 use std::f64::consts::TAU;
@@ -169,20 +171,12 @@ impl ModelChoice {
     }
 }
 
-/// Share of the largest contact force at rest that every contact has where the balls stay pressed: with a preload of 10 nm, some lose it.
-const PRESSED: f64 = 0.1;
-
 /// What errors grow to in a run that begins at rest and meets a heavier load.
 fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     let setup = &scene.setup;
     let rests = heaviest.into_iter().chain([&scene.equilibrium]);
-    let forces = rests.flat_map(|rest| &rest.balls);
-    let forces = forces.flat_map(|ball| [ball.inner, ball.outer]);
-    let ends = [f64::INFINITY, 0.0];
-    let [least, most] = forces.fold(ends, |[least, most], force| {
-        [least.min(force), most.max(force)]
-    });
-    let pressed = least > PRESSED * most;
+    let mut balls = rests.flat_map(|rest| &rest.balls);
+    let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
     match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
         true => 1.0,
         false => IMPACTS_GROWTH,

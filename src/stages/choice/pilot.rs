@@ -29,8 +29,11 @@ const AFTER: f64 = 3.0;
 /// How many times the modes the second one has.
 const MORE: usize = 4;
 
+/// Instants in the length of the stretch at which the error since the start is looked at.
+const INSTANTS: u32 = 8;
+
 /// Instants among which the highest speed is looked for.
-const INSTANTS: u32 = 64;
+const SPEEDS: u32 = 64;
 
 /// Relative error of steps and modes in the band, the worst sensor's in both stretches; `None` for a method without a tolerance.
 ///
@@ -42,15 +45,45 @@ pub(super) fn measured(
     scene: &Scene,
     band_hz: f64,
 ) -> Result<Option<f64>, String> {
+    let Some(finer) = finer(model, scene) else {
+        return Ok(None);
+    };
+    let duration = stretch_s(asked, band_hz);
+    let spare = asked.end - asked.start - duration;
+    let change = fastest_change(asked, scene).map(|[from, to]| {
+        let begin = from.max(to - duration).min(asked.start + spare);
+        (begin, (AFTER * duration).min(asked.end - begin))
+    });
+    let first = (begin(asked, scene, spare), duration);
+    let mut most = 0.0_f64;
+    for (begin, duration) in [Some(first), change].into_iter().flatten() {
+        let span = Span {
+            duration,
+            output_hz: asked.output_hz,
+        };
+        let [run, finer] = Compared::over(scene, [model, &finer], span, begin, band_hz)?.signals;
+        for (run, finer) in run.iter().zip(&finer) {
+            most = most.max(relative_difference(run, finer).map_err(|error| error.to_string())?);
+        }
+    }
+    Ok(Some(most / (1.0 - FINER.powf(ADAMS_ORDER))))
+}
+
+/// Length of the first stretch, s.
+pub(super) fn stretch_s(asked: &case::Transient, band_hz: f64) -> f64 {
+    let least = LEAST_S.max(LEAST_PERIODS / band_hz);
+    least.min(asked.end - asked.start)
+}
+
+/// The model that another is measured by; `None` for a method without a tolerance.
+pub(super) fn finer(model: &RunModel, scene: &Scene) -> Option<RunModel> {
     let Method::ExponentialAdams {
         tolerance: Some(tolerance),
     } = model.method
     else {
-        return Ok(None);
+        return None;
     };
-    let whole = asked.end - asked.start;
-    let duration = LEAST_S.max(LEAST_PERIODS / band_hz).min(whole);
-    let finer = RunModel {
+    Some(RunModel {
         method: Method::ExponentialAdams {
             tolerance: Some(FINER * tolerance),
         },
@@ -62,26 +95,62 @@ pub(super) fn measured(
             all => all,
         },
         ..*model
-    };
-    let spare = whole - duration;
-    let mut most = 0.0_f64;
-    let change = fastest_change(asked, scene).map(|[from, to]| {
-        let begin = from.max(to - duration).min(asked.start + spare);
-        (begin, (AFTER * duration).min(asked.end - begin))
-    });
-    let first = (begin(asked, scene, spare), duration);
-    for (begin, duration) in [Some(first), change].into_iter().flatten() {
-        let span = Span {
-            duration,
-            output_hz: asked.output_hz,
-        };
+    })
+}
+
+/// The sensors' signals in the band by two models, over a stretch that begins at rest.
+pub(super) struct Compared {
+    signals: [Vec<TimeSeries>; 2],
+}
+
+impl Compared {
+    /// Steps both, side by side.
+    ///
+    /// # Errors
+    /// Why one of them cannot be stepped.
+    pub(super) fn over(
+        scene: &Scene,
+        [model, finer]: [&RunModel; 2],
+        span: Span,
+        begin: f64,
+        band_hz: f64,
+    ) -> Result<Self, String> {
         let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
-        let (run, finer) = (signals(model)?, signals(&finer)?);
-        for (run, finer) in run.iter().zip(&finer) {
-            most = most.max(relative_difference(run, finer).map_err(|error| error.to_string())?);
-        }
+        let (run, finer) = rayon::join(|| signals(model), || signals(finer));
+        Ok(Self {
+            signals: [run?, finer?],
+        })
     }
-    Ok(Some(most / (1.0 - FINER.powf(ADAMS_ORDER))))
+
+    /// The last instant before any sensor's difference since the start is above `most`, relative, s; infinite where none is. It is looked at
+    /// after `first_s` (s), and then every eighth of it.
+    pub(super) fn held_s(&self, most: f64, first_s: f64) -> f64 {
+        let [run, finer] = &self.signals;
+        let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
+        let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
+            let (mut apart, mut size) = (0.0, 0.0);
+            let mut next = INSTANTS;
+            for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
+                apart += (a - b) * (a - b);
+                size += b * b;
+                // half a sample for round-off
+                if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
+                    continue;
+                }
+                if apart > most * most * size {
+                    return if next == INSTANTS {
+                        0.0
+                    } else {
+                        instant(next - 1)
+                    };
+                }
+                next += 1;
+            }
+            f64::INFINITY
+        };
+        let sensors = run.iter().zip(finer).map(of_sensor);
+        sensors.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.
@@ -115,8 +184,8 @@ fn stretch(
 fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let setup = &scene.setup;
     let speed = |t: f64| setup.cage.motion(t).speed.abs();
-    let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(INSTANTS);
-    let instants = (1..=INSTANTS).map(at);
+    let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
+    let instants = (1..=SPEEDS).map(at);
     let fastest = instants.fold(asked.start, |best, t| match speed(t) > speed(best) {
         true => t,
         false => best,
