@@ -57,6 +57,9 @@ pub enum SpeedSource {
     /// The same, and lines stand halfway between them: the shaft may turn half as fast.
     #[serde(rename = "shaft lines, perhaps every second")]
     EverySecond,
+    /// The same, and only even multiples of the speed stand out: the shaft may turn twice as fast.
+    #[serde(rename = "shaft lines, even ones only")]
+    EvenOnly,
     /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
     #[serde(rename = "lines of both races")]
     Races,
@@ -71,6 +74,7 @@ impl SpeedSource {
             Self::Given => "as given: the signal's lines do not confirm it",
             Self::Sharpened => "by the shaft's lines",
             Self::EverySecond => "by the shaft's lines, of which it may be every second",
+            Self::EvenOnly => "by the shaft's lines, even multiples alone",
             Self::Races => "by the lines of both races",
         }
     }
@@ -154,11 +158,11 @@ fn sharpened(
         teeth.sum::<f64>()
     };
     let step = resolution / (f64::from(MULTIPLES) * PLACES);
-    let best = |centre: f64, offset: f64| {
-        let steps = (LARGEST_ERROR * centre / step).ceil();
+    let best = |centre: f64, offset: f64, reach: f64| {
+        let steps = (reach * centre / step).ceil();
         let places = -(steps as i32)..=steps as i32;
         let fits = places.map(|place| {
-            let order = centre * (1.0 + LARGEST_ERROR * f64::from(place) / steps);
+            let order = centre * (1.0 + reach * f64::from(place) / steps);
             (score(order, offset), order)
         });
         let fits: Vec<(f64, f64)> = fits.collect();
@@ -170,40 +174,57 @@ fn sharpened(
         });
         (most, low, high)
     };
-    let (most, low, high) = best(1.0, 0.0);
-    let (mut controls, mut halfway) = (Vec::new(), Vec::new());
-    let mut centre = CONTROLS[0];
-    while centre < CONTROLS[1] {
-        let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
-        let related = simple
-            .iter()
-            .any(|ratio| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR);
-        if !related {
-            controls.push(best(centre, 0.0).0);
-            halfway.push(best(centre, 0.5).0);
+    // probability that chance finds as good a comb in as wide a search
+    let chance = |most: f64, offset: f64, reach: f64| {
+        let scores = controls().map(|centre| best(centre, offset, reach).0);
+        ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
+    };
+    let shown = |reach: f64, below: f64| {
+        let (most, low, high) = best(1.0, 0.0, reach);
+        let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
+        let factor = 0.5 * (low + high);
+        // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+        let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
+        let seen = sharper && high - low < LARGEST_ERROR && chance(most, 0.0, reach) < below;
+        seen.then_some((factor, error))
+    };
+    let Some((mut factor, mut error)) = shown(LARGEST_ERROR, SEEN_BELOW) else {
+        return Ok(None);
+    };
+    if (factor - 1.0).abs() > UNSEEN_ERROR {
+        // lines at the given speed are the shaft's, whatever a machine beside it has
+        if let Some(at_given) = shown(UNSEEN_ERROR, CERTAIN_BELOW) {
+            (factor, error) = at_given;
         }
-        centre *= 1.0 + 0.5 * LARGEST_ERROR;
     }
-    let chance = |controls, most| {
-        ByChance::of(controls).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
+    let seen = |centre: f64, offset: f64, reach: f64| {
+        chance(best(centre, offset, reach).0, offset, reach) < SEEN_BELOW
     };
-    let source = match chance(halfway, best(1.0, 0.5).0) < SEEN_BELOW {
-        true => SpeedSource::EverySecond,
-        false => SpeedSource::Sharpened,
+    let source = if seen(1.0, 0.5, LARGEST_ERROR) {
+        SpeedSource::EverySecond
+    } else if seen(2.0 * factor, 0.0, error) && !seen(2.0 * factor, 0.5, error) {
+        SpeedSource::EvenOnly
+    } else {
+        SpeedSource::Sharpened
     };
-    let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
-    let factor = 0.5 * (low + high);
-    // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
-    let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
-    Ok(
-        (chance(controls, most) < SEEN_BELOW && sharper && high - low < LARGEST_ERROR).then_some(
-            ShaftSpeed {
-                factor,
-                error,
-                source,
-            },
-        ),
-    )
+    Ok(Some(ShaftSpeed {
+        factor,
+        error,
+        source,
+    }))
+}
+
+/// Orders, related to no simple ratio of the shaft's, at which its comb is tried for what it scores by chance.
+fn controls() -> impl Iterator<Item = f64> {
+    let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
+    let centres = std::iter::successors(Some(CONTROLS[0]), |centre| {
+        Some(centre * (1.0 + 0.5 * LARGEST_ERROR))
+    });
+    let centres = centres.take_while(|centre| *centre < CONTROLS[1]);
+    centres.filter(move |centre| {
+        let related = |ratio: &f64| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR;
+        !simple.iter().any(related)
+    })
 }
 
 /// Sharpens the speed by the orders at which both races were found, where both are certain. The inner race turns past the cage by what the

@@ -68,3 +68,39 @@ fn harmonics_of_one_race_are_told_from_the_lines_of_two() {
     assert!(share(outer, 1.5 * outer) && share(outer, 2.0 * outer + 2e-3));
     assert!(!share(outer, inner));
 }
+
+/// Multiples of a shaft's order up to the eighth, `strength` each.
+fn shaft_lines(values: &mut [f64], speed_hz: f64, strength: f64) {
+    for (k, value) in values.iter_mut().enumerate() {
+        let turn = TAU * speed_hz * k as f64 / RATE;
+        let lines = (1..=8).map(|k| (f64::from(k) * turn).cos());
+        *value += strength * lines.sum::<f64>();
+    }
+}
+
+/// At half the speed the shaft's lines are the even ones.
+#[test]
+fn half_of_the_speed_is_said() {
+    let mut values = vec![0.0; (8.8 * RATE) as usize];
+    shaft_lines(&mut values, 25.0, 1.0);
+    let series = with_noise(&values, 1.0, 25);
+    let source = |factor: f64| judged(&series, |t| factor * steady(t), &bearing(), 0.01);
+    let half = source(0.5);
+    assert_eq!(half.speed_source, SpeedSource::EvenOnly);
+    assert!(half.sentence().contains("may turn twice as fast"));
+    assert_eq!(source(1.0).speed_source, SpeedSource::Sharpened);
+}
+
+/// A machine beside this one, 1.6 % slower, is three times as loud.
+#[test]
+fn the_given_speed_holds_where_its_own_lines_are() {
+    let mut values = vec![0.0; (8.8 * RATE) as usize];
+    shaft_lines(&mut values, 24.6, 3.0);
+    let alone = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
+    assert!((alone.speed_hz / 24.6 - 1.0).abs() < 2e-3);
+    assert!(alone.sentence().contains("where 25.00 Hz were given"));
+    shaft_lines(&mut values, 25.0, 1.0);
+    let both = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
+    assert!((both.speed_hz / 25.0 - 1.0).abs() < 2e-3, "{}", both.speed_hz);
+    assert_eq!(both.speed_change(), None);
+}

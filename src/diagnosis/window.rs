@@ -11,6 +11,9 @@ use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrder
 use crate::series::{TimeSeries, TimeWindow};
 use crate::signal::WhiteSpectrum;
 
+/// Relative change of a given speed that is said.
+const SAID_CHANGE: f64 = 0.01;
+
 /// What is said of a window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
@@ -164,7 +167,24 @@ impl Diagnosis {
             SpeedSource::EverySecond => Some(format!(
                 "lines stand halfway between those of a shaft at {speed} Hz, so that it may turn half as fast: {consequence}"
             )),
+            SpeedSource::EvenOnly => Some(format!(
+                "only even multiples of {speed} Hz stand out, so that the shaft may turn twice as fast: {consequence}"
+            )),
         }
+    }
+
+    /// What is to be checked where the speed that is used is more than 1 % from the given one.
+    #[must_use]
+    pub fn speed_change(&self) -> Option<String> {
+        let change = self.speed_hz / self.given_speed_hz - 1.0;
+        (change.abs() > SAID_CHANGE).then(|| {
+            format!(
+                "the speed that is used is {:.2} Hz, {}, where {:.2} Hz were given: check that these lines are not another machine's",
+                self.speed_hz,
+                self.speed_source.words(),
+                self.given_speed_hz
+            )
+        })
     }
 
     /// The verdict in a line.
@@ -196,6 +216,7 @@ impl Diagnosis {
             )
         }));
         parts.extend(self.speed_doubt());
+        parts.extend(self.speed_change());
         parts.join("; ")
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
                 ),
                 (true, true, None) => match uncertain(diagnosis).as_slice() {
                     [] if diagnosis.speed_doubt().is_some() => {
-                        "no fault indicated at this speed, which no line confirms".to_owned()
+                        "no fault indicated at this speed, which is doubtful".to_owned()
                     }
                     [] => "no fault indicated".to_owned(),
                     parts => format!("not enough evidence: {}", parts.join(", ")),
@@ -163,7 +163,10 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
         return Fact::new(name, hz(window.speed_hz));
     };
     let shown = match diagnosis.speed_source {
-        SpeedSource::Sharpened | SpeedSource::EverySecond | SpeedSource::Races => {
+        SpeedSource::Sharpened
+        | SpeedSource::EverySecond
+        | SpeedSource::EvenOnly
+        | SpeedSource::Races => {
             format!("; given: {}", hz(diagnosis.given_speed_hz))
         }
         SpeedSource::Exact | SpeedSource::Given => String::new(),

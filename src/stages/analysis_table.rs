@@ -30,7 +30,7 @@ pub struct WindowFigures {
     pub unit: String,
     /// Kurtosis; `None` for a constant signal.
     pub kurtosis: Option<f64>,
-    /// Why it is no proof of health that nothing is indicated, where the signal does not confirm the speed.
+    /// Why it is no proof of health that nothing is indicated, where the signal does not confirm the speed, or shows another.
     pub speed_doubt: Option<String>,
     /// What is said of each part whose order is known, or why nothing is.
     pub parts: Result<Vec<PartFigures>, String>,
@@ -113,7 +113,9 @@ impl AnalysisRow {
             found: Ok(WindowFigures {
                 from: window.from,
                 to: window.to,
-                speed_doubt: diagnosis.ok().and_then(|found| found.speed_doubt()),
+                speed_doubt: diagnosis
+                    .ok()
+                    .and_then(|found| found.speed_doubt().or_else(|| found.speed_change())),
                 speed_hz: diagnosis.map_or(window.speed_hz, |found| found.speed_hz),
                 rms: window.rms,
                 unit: window.unit.clone(),
