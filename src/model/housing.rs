@@ -4,7 +4,7 @@
 use super::elements::{HousingElements, highest_dimension};
 use super::link::TiedNodes;
 use super::support::{HousingSupport, Link, PointMass};
-use super::{Bodies, ModelError, Overlap, OverlapRule, RingFrame, Touching};
+use super::{Apart, Bodies, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::material::ElasticMaterial;
 use crate::mesh::{Mesh, PhysicalGroup};
@@ -97,6 +97,7 @@ pub struct HousingModel {
     pub(crate) point_masses: Vec<PointMass>,
     overlaps: Vec<Overlap>,
     touching: Vec<Touching>,
+    ties_apart: Vec<Apart>,
     /// Nodes that the groups of each link have in common.
     pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
@@ -160,6 +161,7 @@ impl HousingModel {
             point_masses: masses,
             overlaps,
             touching: Vec::new(),
+            ties_apart: Vec::new(),
             common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
@@ -173,6 +175,7 @@ impl HousingModel {
         for index in 0..model.links.len() {
             model.attach_link(mesh, index)?;
         }
+        model.ties_apart = model.ties_apart(overlap)?;
         model.touching = model.unconnected();
         Ok(model)
     }
@@ -190,7 +193,7 @@ impl HousingModel {
         self.bodies().touching(|node| linked[node])
     }
 
-    fn bodies(&self) -> Bodies<'_> {
+    pub(super) fn bodies(&self) -> Bodies<'_> {
         Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
     }
 
@@ -202,6 +205,11 @@ impl HousingModel {
     /// Parts whose faces lie on each other without common nodes and without a link.
     pub fn touching(&self) -> &[Touching] {
         &self.touching
+    }
+
+    /// Ties whose sides do not lie on each other.
+    pub fn apart(&self) -> &[Apart] {
+        &self.ties_apart
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -373,18 +381,12 @@ fn check_plane(
             axis: [x, y, z],
         });
     }
-    let first = mesh.nodes.first().map_or(0.0, |node| node[2]);
-    let size = mesh.nodes.iter().fold(0.0_f64, |size, node| {
-        size.max(node[0].abs()).max(node[1].abs())
-    });
-    // gmsh writes 16 digits: what is off by more is meant
-    let off = |node: &[f64; 3]| (node[2] - first).abs() > 1e-9 * size;
-    match mesh.nodes.iter().position(off) {
+    match mesh.node_off_plane() {
         Some(index) => Err(ModelError::NotPlane {
             path: path(),
             tag: mesh.node_tags[index],
             z: mesh.nodes[index][2],
-            first,
+            first: mesh.nodes[0][2],
         }),
         None => Ok(()),
     }

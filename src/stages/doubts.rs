@@ -81,6 +81,12 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         };
         format!("{}; {help}", touching.sentence())
     });
+    let apart = model.apart().iter().map(|apart| {
+        format!(
+            "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
+            apart.sentence()
+        )
+    });
     let links = model.links.iter().zip(&model.common_nodes);
     let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
         let [a, b] = &link.between;
@@ -91,11 +97,12 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let flat = model.flat_layers().map(|flat| {
         let [x, y, z] = flat.place;
         format!(
-            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; give shorter edges along the held face, elements of second order, or housing.linear = \"plain\"",
+            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; supports, stiff springs or a body at least ten times as stiff hold these faces; give shorter edges along them, elements of second order, or housing.linear = \"plain\"",
             flat.faces, flat.flatness, flat.tag
         )
     });
-    overlaps.chain(touching).chain(shared).chain(flat).collect()
+    let tied = overlaps.chain(touching).chain(apart);
+    tied.chain(shared).chain(flat).collect()
 }
 
 /// How the ring sits in the housing.

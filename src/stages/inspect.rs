@@ -5,6 +5,7 @@ use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
 use crate::model::{Bodies, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
 use crate::units::LengthUnit;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Bad elements that are listed one by one.
@@ -153,9 +154,18 @@ fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
     nodes.iter().map(|&node| mesh.nodes[node]).collect()
 }
 
-/// Sum of lengths, areas or volumes.
+/// Sum of lengths, areas or volumes; elements on the same nodes count once, as supports and masses take them.
 pub(super) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f64 {
+    let mut seen = BTreeSet::new();
     elements
+        .filter(|id| {
+            let mut nodes = mesh.blocks[id.block]
+                .element(id.index)
+                .unwrap_or_default()
+                .to_vec();
+            nodes.sort_unstable();
+            seen.insert(nodes)
+        })
         .map(|id| {
             let kind = mesh.blocks[id.block].kind;
             let at = coordinates(mesh, id);

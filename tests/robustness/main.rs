@@ -8,8 +8,10 @@
 
 mod disk;
 mod doubled;
+mod grids;
 mod impossible;
 mod kills;
+mod layers;
 mod limits;
 mod mode_counts;
 mod mutations;
@@ -19,6 +21,8 @@ mod orders;
 mod program;
 mod replaced;
 mod signals;
+mod ties;
+mod turned;
 mod untrusted;
 
 use std::process::{Child, ExitStatus};

@@ -3,13 +3,14 @@
 //!
 //! [`Bodies`] comes in, the elements of the highest dimension of a mesh. What comes out names parts, counts and places:
 //! [`Doubled`], [`MixedOrders`], [`Overlap`],
-//! [`Touching`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
+//! [`Touching`], [`Apart`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
 //! O(n log n).
 //!
 //! # Limitations
 //! An overlap shows itself by the centre of an element or of a face that lies within another element. A body that crosses
 //! another between all these centres is not seen. Faces touch where the centre of one lies on the other.
 
+mod apart;
 mod boxes;
 mod doubled;
 mod facets;
@@ -29,6 +30,8 @@ use serde::{Deserialize, Serialize};
 
 use boxes::Bounds;
 
+pub use apart::Apart;
+pub(super) use apart::Tied;
 pub use doubled::Doubled;
 pub use inside::Overlap;
 pub use orders::MixedOrders;

@@ -59,6 +59,8 @@ pub(super) struct Groups {
     pub without_part: usize,
     /// Groups that are held.
     pub supports: Vec<String>,
+    /// Groups that are named like supports and share nodes with the bore.
+    pub at_bore: Vec<String>,
     /// A point where a sensor may stand.
     pub sensor: Option<String>,
     /// The rest, but for the bore.
@@ -157,6 +159,7 @@ impl Groups {
                 leave(Some(
                     "looks like a support, but shares nodes with the bore, which follow the ring",
                 ));
+                self.at_bore.push(name.to_owned());
             } else {
                 self.supports.push(name.to_owned());
             }
