@@ -4,7 +4,7 @@
 use super::elements::{HousingElements, highest_dimension};
 use super::link::TiedNodes;
 use super::support::{HousingSupport, Link, PointMass};
-use super::{Apart, Bodies, ModelError, Overlap, OverlapRule, RingFrame, Touching};
+use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::material::ElasticMaterial;
 use crate::mesh::{Mesh, PhysicalGroup};
@@ -98,6 +98,7 @@ pub struct HousingModel {
     overlaps: Vec<Overlap>,
     touching: Vec<Touching>,
     ties_apart: Vec<Apart>,
+    crossings: Vec<Crossing>,
     /// Nodes that the groups of each link have in common.
     pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
@@ -162,6 +163,7 @@ impl HousingModel {
             overlaps,
             touching: Vec::new(),
             ties_apart: Vec::new(),
+            crossings: Vec::new(),
             common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
@@ -176,12 +178,12 @@ impl HousingModel {
             model.attach_link(mesh, index)?;
         }
         model.ties_apart = model.ties_apart(overlap)?;
-        model.touching = model.unconnected();
+        model.find_unconnected();
         Ok(model)
     }
 
-    /// Faces that lie on each other where no link connects them.
-    fn unconnected(&self) -> Vec<Touching> {
+    /// Finds what lies on each other, or in one another, where no link connects it.
+    fn find_unconnected(&mut self) {
         let mut linked = vec![false; self.coordinates.len()];
         let tied = self.tied.iter();
         let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
@@ -190,7 +192,13 @@ impl HousingModel {
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
             linked[node] = true;
         }
-        self.bodies().touching(|node| linked[node])
+        let touching = self.bodies().touching(|node| linked[node]);
+        let told = |parts: &[String; 2]| {
+            let touches = touching.iter().any(|touching| touching.parts == *parts);
+            touches || self.overlaps.iter().any(|overlap| overlap.parts == *parts)
+        };
+        self.crossings = self.bodies().crossings(|node| linked[node], told);
+        self.touching = touching;
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
@@ -205,6 +213,11 @@ impl HousingModel {
     /// Parts whose faces lie on each other without common nodes and without a link.
     pub fn touching(&self) -> &[Touching] {
         &self.touching
+    }
+
+    /// Parts that reach into one another, of which the others say nothing.
+    pub fn crossings(&self) -> &[Crossing] {
+        &self.crossings
     }
 
     /// Ties whose sides do not lie on each other.

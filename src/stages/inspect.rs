@@ -2,7 +2,9 @@
 
 use crate::element::continuum::{measure, quality, surface_weights};
 use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::model::{Bodies, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
+use crate::model::{
+    Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind,
+};
 use crate::units::LengthUnit;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -64,6 +66,8 @@ pub struct Inspection {
     pub overlapping: Vec<Overlap>,
     /// Groups of the highest dimension whose faces lie on each other without common nodes.
     pub touching: Vec<Touching>,
+    /// Groups of the highest dimension that reach into one another, of which the other lists say nothing.
+    pub crossing: Vec<Crossing>,
 }
 
 impl Inspection {
@@ -81,6 +85,11 @@ impl Inspection {
     pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
         let bodies = Bodies::of_mesh(mesh);
+        let (overlapping, touching) = (bodies.overlaps(), bodies.touching(|_| false));
+        let told = |parts: &[String; 2]| {
+            let touches = touching.iter().any(|touching| touching.parts == *parts);
+            touches || overlapping.iter().any(|overlap| overlap.parts == *parts)
+        };
         let mut found = Self {
             length_unit: unit,
             size: 0.0,
@@ -90,8 +99,9 @@ impl Inspection {
             invalid: Vec::new(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
-            overlapping: bodies.overlaps(),
-            touching: bodies.touching(|_| false),
+            crossing: bodies.crossings(|_| false, told),
+            overlapping,
+            touching,
             inventory,
         };
         let all = elements_of(mesh, found.inventory.dimension);

@@ -147,7 +147,10 @@ impl Bodies<'_> {
                 .collect();
             let Some(own) = own else { continue };
             let weight = density[self.solids[facet.solid].part] * facet.size / own.len() as f64;
-            for height in own {
+            for height in own
+                .into_iter()
+                .filter(|height| height.abs() > self.tolerance)
+            {
                 apart.masses[usize::from(height < 0.0)] += weight * height.abs();
             }
         }
