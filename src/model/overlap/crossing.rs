@@ -89,7 +89,7 @@ impl Bodies<'_> {
             found
         });
         let mut pairs: Vec<([usize; 2], f64)> = pairs.collect();
-        pairs.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        pairs.sort_unstable_by_key(|pair| pair.0);
         pairs.dedup_by_key(|pair| pair.0);
         let mut by_parts: BTreeMap<[usize; 2], (usize, [usize; 2], f64)> = BTreeMap::new();
         for (pair, depth) in pairs {
