@@ -192,13 +192,10 @@ impl HousingModel {
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
             linked[node] = true;
         }
-        let touching = self.bodies().touching(|node| linked[node]);
-        let told = |parts: &[String; 2]| {
-            let touches = touching.iter().any(|touching| touching.parts == *parts);
-            touches || self.overlaps.iter().any(|overlap| overlap.parts == *parts)
-        };
-        self.crossings = self.bodies().crossings(|node| linked[node], told);
-        self.touching = touching;
+        let (bodies, linked) = (self.bodies(), |node| linked[node]);
+        let touching = bodies.touching(linked);
+        let crossings = bodies.crossings(linked, &self.overlaps, &touching);
+        (self.touching, self.crossings) = (touching, crossings);
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
@@ -321,8 +318,7 @@ impl HousingModel {
 ///
 /// # Errors
 /// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::MixedOrders`] for elements of two orders on one
-/// edge, [`ModelError::Overlap`] for the first overlap that is not
-/// allowed.
+/// edge, [`ModelError::Overlap`] for the first overlap that is not allowed.
 fn accepted_overlaps(
     mesh: &Mesh,
     elements: &HousingElements,

@@ -86,10 +86,6 @@ impl Inspection {
         let inventory = mesh.inventory();
         let bodies = Bodies::of_mesh(mesh);
         let (overlapping, touching) = (bodies.overlaps(), bodies.touching(|_| false));
-        let told = |parts: &[String; 2]| {
-            let touches = touching.iter().any(|touching| touching.parts == *parts);
-            touches || overlapping.iter().any(|overlap| overlap.parts == *parts)
-        };
         let mut found = Self {
             length_unit: unit,
             size: 0.0,
@@ -99,7 +95,7 @@ impl Inspection {
             invalid: Vec::new(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
-            crossing: bodies.crossings(|_| false, told),
+            crossing: bodies.crossings(|_| false, &overlapping, &touching),
             overlapping,
             touching,
             inventory,

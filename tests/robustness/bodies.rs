@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use super::grids::{Grids, modes, result, steps};
-use super::program::{errors, scratch};
+use super::program::{errors, plummer, scratch};
 
 const HELD: &str = "supports = [{ group = 'a_bottom', fixed = ['x', 'y', 'z'] }]";
 
@@ -84,6 +84,19 @@ fn elements_that_are_there_twice() {
         }
         check("bodies-elements", name, &grid, &parts, said);
     }
+    // no draft of a case either
+    let (mut grid, cells) = cube();
+    grid.element(5, 3, "a", &cells[0]);
+    let folder = scratch("bodies-draft");
+    grid.write(&folder);
+    let draft = plummer(&folder, &["init", "grid.msh", "--length-unit", "m"]);
+    assert_eq!(draft.status.code(), Some(2));
+    assert!(
+        errors(&draft).contains("no case file was written"),
+        "{}",
+        errors(&draft)
+    );
+    assert!(!folder.join("grid.toml").exists());
     // a triangle in a face of the support, which is shared by area
     let springs = "parts = [{ group = 'a', material = 'steel' }]\nsupports = [{ group = 'a_bottom', spring = { x = 1e8, y = 1e8, z = 1e8 }, per = 'group' }]";
     let frequencies = [false, true].map(|again| {

@@ -2,7 +2,7 @@
 
 use super::boxes::{Bounds, BoxTree};
 use super::outline::normal;
-use super::{Bodies, Solid, at, both};
+use super::{Bodies, Overlap, Solid, Touching, at, both};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -45,14 +45,15 @@ impl Crossing {
 
 impl Bodies<'_> {
     /// Elements of different bodies without common nodes that fill common space, by pairs of parts. Left out are pairs of
-    /// which each has a node that is `linked`, and pairs of parts that are `known` to overlap or touch.
+    /// which each has a node that is `linked`, and pairs of parts that are known to overlap or touch.
     ///
     /// An element stands for the convex hull of its corners: the separating axis theorem (Gottschalk, Lin and Manocha, SIGGRAPH
     /// 1996) says how far one must move to be clear of the other.
     pub fn crossings(
         &self,
         linked: impl Fn(usize) -> bool + Sync,
-        known: impl Fn(&[String; 2]) -> bool,
+        overlaps: &[Overlap],
+        touching: &[Touching],
     ) -> Vec<Crossing> {
         if !self.is_flat_or_solid() {
             return Vec::new();
@@ -115,7 +116,13 @@ impl Bodies<'_> {
                     }),
                 }
             });
-        found.filter(|crossing| !known(&crossing.parts)).collect()
+        let known = overlaps.iter().map(|overlap| &overlap.parts);
+        let known: Vec<_> = known
+            .chain(touching.iter().map(|touching| &touching.parts))
+            .collect();
+        found
+            .filter(|crossing| !known.contains(&&crossing.parts))
+            .collect()
     }
 
     fn bounds(&self, solid: &Solid) -> Bounds {

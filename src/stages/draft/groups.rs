@@ -166,7 +166,8 @@ impl Groups {
         } else if group.dimension == 0 && self.sensor.is_none() && says(name, &SENSORS) && whole {
             self.sensor = Some(name.to_owned());
         } else {
-            leave(None);
+            let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+            leave(touches_bore.then_some(note));
         }
     }
 }
