@@ -654,7 +654,7 @@ fn a_superelement_takes_the_housing_s_place() {
         );
         // without labels it is the block structure that tells
         let told = match kind {
-            "npz" => "interface coordinates (x, y, about_z of each of the ring's 10 nodes)",
+            "npz" => "interface coordinates for ring.nodes = 10 (x, y, about_z of each)",
             _ => "check \"k_bq = 0\"",
         };
         assert!(error.contains(told), "{error}");

@@ -174,7 +174,7 @@ fn waves_and_ball_sizes_are_checked() {
         ),
         (
             "bearing.ball_radius_differences=[0,0,0,0,0,0,-2e-5]",
-            "`bearing.ball_radius_differences[6]`",
+            "`bearing.ball_radius_differences[6]`: found -2e-5, expected more than minus a hundredth of the ball's radius",
         ),
     ] {
         let error = bearing(set).unwrap_err().to_string();

@@ -258,8 +258,8 @@ mod tests {
             ),
             (
                 "sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]",
-                "--set sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]: `sensors[0].point`: needs `housing.mesh`, \
-                 which the case lacks",
+                "--set sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]: `sensors[0].point`: needs `housing.mesh` \
+                 (a superelement has rows of its own sensors: `recovered = \"NAME\"`), which the case lacks",
             ),
             (
                 "sensors=[{name='a',recovered='P1',direction=[1,0,0]}]",

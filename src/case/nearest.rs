@@ -20,7 +20,10 @@ impl Choices {
 
     /// "did you mean `x`? keys here: a, b", without the question when nothing is near.
     pub(super) fn help(&self, what: &str) -> String {
-        let list = format!("{what} here: {}", self.valid.join(", "));
+        let list = match self.valid.as_slice() {
+            [] => format!("there are no {what} here"),
+            valid => format!("{what} here: {}", valid.join(", ")),
+        };
         match &self.nearest {
             Some(name) => format!("did you mean `{name}`? {list}"),
             None => list,

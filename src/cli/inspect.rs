@@ -156,6 +156,9 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     for touching in &found.touching {
         line("warning", touching.sentence());
     }
+    for crossing in &found.crossing {
+        line("warning", crossing.sentence());
+    }
     line("connected parts", inventory.parts.len().to_string());
     if inventory.parts.len() > 1 {
         for part in &inventory.parts {

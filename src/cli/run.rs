@@ -4,14 +4,14 @@ use super::earlier_results::{ARRAYS, digests};
 use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
-use crate::case::{Case, Method};
+use crate::case::{Case, Method, Transient};
 use crate::report::significant;
 use crate::shell_word::shell_word;
 use crate::stages::{
     CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
     UnfinishedRun, compute_kept_run, explain_run, run_report,
 };
-use crate::transient::BlowUp;
+use crate::transient::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use std::time::Duration;
 
 /// Folder of an unfinished run, in that of the results.
@@ -90,7 +90,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
         summary: summary(&result),
         result: json,
         written: [arrays, vec![json_path], files.paths].concat(),
-        verdict: verdict(&result, case.transient.as_ref().map(|asked| asked.method)),
+        verdict: verdict(&result, case.transient.as_ref()),
     })
 }
 
@@ -133,7 +133,7 @@ fn again(case: &Case, arguments: &Arguments) -> String {
     line + " --resume"
 }
 
-fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<Method>) -> Verdict {
+fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Verdict {
     match &result.simulation.end {
         RunEnd::Complete => Verdict::Good,
         RunEnd::BlewUp(blow_up) => Verdict::Bad {
@@ -148,7 +148,19 @@ fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<Method>) -> Verdic
 }
 
 /// What to try after a blow-up.
-fn smaller_steps(blow_up: &BlowUp, asked: Option<Method>) -> String {
+fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
+    let no_step = |limit: StepLimit| {
+        asked.is_some_and(|asked| {
+            limit.step_s < 2.0 / (f64::from(MOST_STEPS_PER_INTERVAL) * asked.output_hz)
+        })
+    };
+    if let Some(limit) = blow_up.limit.filter(|limit| no_step(*limit)) {
+        return format!(
+            "contacts that vibrate at {:.1e} Hz need shorter steps than a run takes, a millionth of an output interval: check the mass of a ball (bearing.ball_mass, bearing.density) and bearing.stiffness, or leave the balls' inertia out with --set bearing.balls_inertia=quasi-static",
+            limit.highest_hz
+        );
+    }
+    let asked = asked.map(|asked| asked.method);
     if blow_up.method.chooses_its_steps() {
         // a method that the program chose has a tolerance of its own
         let method = match asked {

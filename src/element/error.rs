@@ -135,7 +135,9 @@ fn cause(dimension: usize) -> &'static str {
 
 fn remedy(dimension: usize) -> &'static str {
     match dimension {
-        2 => "reverse the surface in gmsh",
+        2 => {
+            "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)"
+        }
         _ => "the mesh was mirrored or the node order is not gmsh's",
     }
 }

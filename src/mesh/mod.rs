@@ -18,6 +18,7 @@ mod gmsh;
 mod group;
 mod inventory;
 mod kind;
+mod turn;
 
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! What can be wrong between a mesh and what is asked of it.
 
-use super::{Doubled, MixedOrders, Overlap, RingFrame};
+use super::{Apart, Doubled, MixedOrders, Overlap, RingFrame};
 use crate::element::ElementError;
 use crate::mesh::MeshError;
 use thiserror::Error;
@@ -111,6 +111,17 @@ pub enum ModelError {
         path: String,
         /// Which parts, and where.
         overlap: Box<Overlap>,
+    },
+    /// A tie to a face from within the body behind it.
+    #[error(
+        "{path}: {}: a tie joins faces that lie on each other; move or cut one of the bodies in gmsh, or check the groups of the link; housing.overlap = \"allow\" takes them as they are",
+        apart.sentence()
+    )]
+    TieInside {
+        /// The mesh file.
+        path: String,
+        /// Which tie, and where.
+        apart: Box<Apart>,
     },
     /// Elements of the housing that no part names.
     #[error(

@@ -4,7 +4,7 @@
 use super::elements::{HousingElements, highest_dimension};
 use super::link::TiedNodes;
 use super::support::{HousingSupport, Link, PointMass};
-use super::{Bodies, ModelError, Overlap, OverlapRule, RingFrame, Touching};
+use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::material::ElasticMaterial;
 use crate::mesh::{Mesh, PhysicalGroup};
@@ -97,6 +97,8 @@ pub struct HousingModel {
     pub(crate) point_masses: Vec<PointMass>,
     overlaps: Vec<Overlap>,
     touching: Vec<Touching>,
+    ties_apart: Vec<Apart>,
+    crossings: Vec<Crossing>,
     /// Nodes that the groups of each link have in common.
     pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
@@ -160,6 +162,8 @@ impl HousingModel {
             point_masses: masses,
             overlaps,
             touching: Vec::new(),
+            ties_apart: Vec::new(),
+            crossings: Vec::new(),
             common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
@@ -173,12 +177,13 @@ impl HousingModel {
         for index in 0..model.links.len() {
             model.attach_link(mesh, index)?;
         }
-        model.touching = model.unconnected();
+        model.ties_apart = model.ties_apart(overlap)?;
+        model.find_unconnected();
         Ok(model)
     }
 
-    /// Faces that lie on each other where no link connects them.
-    fn unconnected(&self) -> Vec<Touching> {
+    /// Finds what lies on each other, or in one another, where no link connects it.
+    fn find_unconnected(&mut self) {
         let mut linked = vec![false; self.coordinates.len()];
         let tied = self.tied.iter();
         let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
@@ -187,10 +192,13 @@ impl HousingModel {
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
             linked[node] = true;
         }
-        self.bodies().touching(|node| linked[node])
+        let (bodies, linked) = (self.bodies(), |node| linked[node]);
+        let touching = bodies.touching(linked);
+        let crossings = bodies.crossings(linked, &self.overlaps, &touching);
+        (self.touching, self.crossings) = (touching, crossings);
     }
 
-    fn bodies(&self) -> Bodies<'_> {
+    pub(super) fn bodies(&self) -> Bodies<'_> {
         Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
     }
 
@@ -202,6 +210,16 @@ impl HousingModel {
     /// Parts whose faces lie on each other without common nodes and without a link.
     pub fn touching(&self) -> &[Touching] {
         &self.touching
+    }
+
+    /// Parts that reach into one another, of which the others say nothing.
+    pub fn crossings(&self) -> &[Crossing] {
+        &self.crossings
+    }
+
+    /// Ties whose sides do not lie on each other.
+    pub fn apart(&self) -> &[Apart] {
+        &self.ties_apart
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -300,8 +318,7 @@ impl HousingModel {
 ///
 /// # Errors
 /// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::MixedOrders`] for elements of two orders on one
-/// edge, [`ModelError::Overlap`] for the first overlap that is not
-/// allowed.
+/// edge, [`ModelError::Overlap`] for the first overlap that is not allowed.
 fn accepted_overlaps(
     mesh: &Mesh,
     elements: &HousingElements,
@@ -373,18 +390,12 @@ fn check_plane(
             axis: [x, y, z],
         });
     }
-    let first = mesh.nodes.first().map_or(0.0, |node| node[2]);
-    let size = mesh.nodes.iter().fold(0.0_f64, |size, node| {
-        size.max(node[0].abs()).max(node[1].abs())
-    });
-    // gmsh writes 16 digits: what is off by more is meant
-    let off = |node: &[f64; 3]| (node[2] - first).abs() > 1e-9 * size;
-    match mesh.nodes.iter().position(off) {
+    match mesh.node_off_plane() {
         Some(index) => Err(ModelError::NotPlane {
             path: path(),
             tag: mesh.node_tags[index],
             z: mesh.nodes[index][2],
-            first,
+            first: mesh.nodes[0][2],
         }),
         None => Ok(()),
     }

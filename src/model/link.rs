@@ -2,10 +2,11 @@
 
 use super::housing::{HousingModel, NodalMatrix, NodalSource};
 use super::joint::Side;
+use super::overlap::Tied;
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
-use super::{ModelError, elements::dimension_name};
+use super::{Apart, ModelError, OverlapRule, elements::dimension_name};
 use crate::linalg::{SparseMatrix, TripletBuilder};
 use crate::mesh::Mesh;
 use nalgebra::{DMatrix, Matrix3};
@@ -20,6 +21,11 @@ const LARGEST_GAP: f64 = 0.5;
 pub(crate) struct TiedNode {
     pub nodes: Vec<usize>,
     pub follow: Vec<Matrix3<f64>>,
+    /// The nearest point of the face, m, and the face's size, m.
+    pub foot: [f64; 3],
+    pub size: f64,
+    /// Index of the link.
+    pub link: usize,
 }
 
 impl HousingModel {
@@ -41,9 +47,9 @@ impl HousingModel {
                     self.check_surface(side)?;
                 }
                 let [finer, coarser] = finer_first(mesh, &sides)?;
-                let tied = self.feet(mesh, finer, coarser).or_else(|gap| {
+                let tied = self.feet(mesh, index, finer, coarser).or_else(|gap| {
                     // a coarse surface beyond whose edges the finer one reaches: the other way round
-                    self.feet(mesh, coarser, finer).map_err(|_| gap)
+                    self.feet(mesh, index, coarser, finer).map_err(|_| gap)
                 })?;
                 for (node, feet) in tied {
                     if self.tied.insert(node, feet).is_some() {
@@ -157,7 +163,13 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::TieGap`] if some of them are not near it.
-    fn feet(&self, mesh: &Mesh, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
+    fn feet(
+        &self,
+        mesh: &Mesh,
+        link: usize,
+        side: &Side,
+        to: &Side,
+    ) -> Result<TiedNodes, ModelError> {
         let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
         let (mut far, mut worst) = (0, (0.0, 0));
@@ -175,8 +187,14 @@ impl HousingModel {
                     worst = (foot.distance, node);
                 }
             }
-            let Foot { nodes, follow, .. } = foot;
-            tied.insert(node, TiedNode { nodes, follow });
+            let of_node = TiedNode {
+                nodes: foot.nodes,
+                follow: foot.follow,
+                foot: foot.place,
+                size: foot.size,
+                link,
+            };
+            tied.insert(node, of_node);
         }
         if far == 0 {
             return Ok(tied);
@@ -190,6 +208,40 @@ impl HousingModel {
             tag: self.node_tags[worst.1],
             distance: worst.0,
         })
+    }
+
+    /// Ties whose sides do not lie on each other.
+    ///
+    /// # Errors
+    /// [`ModelError::TieInside`] for one that ends within the other body, unless bodies may lie in one another.
+    pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
+        let ties = self.links.iter().enumerate();
+        let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
+        let density: Vec<f64> = self
+            .properties
+            .iter()
+            .map(|part| part.density() * part.thickness())
+            .collect();
+        let found = ties.filter_map(|(index, link)| {
+            let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
+            let own = own.map(|(&node, tied)| Tied {
+                node,
+                face: &tied.nodes,
+                foot: tied.foot,
+                size: tied.size,
+            });
+            let own: Vec<Tied> = own.collect();
+            self.bodies()
+                .apart(&link.between, &own, &self.node_tags, &density)
+        });
+        let found: Vec<Apart> = found.collect();
+        match found.iter().find(|apart| apart.inside > 0) {
+            Some(apart) if rule == OverlapRule::Refuse => Err(ModelError::TieInside {
+                path: self.path.clone(),
+                apart: Box::new(apart.clone()),
+            }),
+            _ => Ok(found),
+        }
     }
 
     fn chain(&self, node: usize, sides: &[Side; 2]) -> ModelError {

@@ -29,7 +29,7 @@ pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub(crate) use housing::{NodalMatrix, NodalSource};
 pub use interface::NodeInterface;
-pub use overlap::{Bodies, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
+pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
 pub use partition::HousingPartition;
 pub use ring::{
     RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,

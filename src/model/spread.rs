@@ -47,7 +47,7 @@ pub(super) fn shares(
 }
 
 /// Shares of elements given by kind, nodes and tag, and their length, area or volume together; points share equally
-/// and have none. What is listed twice counts once.
+/// and have none. What is listed twice counts once, a triangle in a quadrilateral not at all.
 ///
 /// # Errors
 /// [`ModelError::Element`] for an element without length, area or volume.
@@ -57,7 +57,23 @@ pub(super) fn spread<'a>(
 ) -> Result<(Vec<Share>, f64), ModelError> {
     let mut found = Vec::new();
     let mut total = 0.0;
-    let mut seen = BTreeSet::new();
+    let elements: Vec<_> = elements.collect();
+    // a triangle on three corners of a quadrilateral of the group lies in it
+    let quads = elements
+        .iter()
+        .filter(|(kind, ..)| kind.dimension() == 2 && kind.corners() == 4);
+    let mut seen: BTreeSet<Vec<usize>> = quads
+        .flat_map(|(_, nodes, _)| {
+            (0..4).map(|left_out| {
+                let mut three: Vec<usize> = (0..4)
+                    .filter(|&local| local != left_out)
+                    .map(|local| nodes[local])
+                    .collect();
+                three.sort_unstable();
+                three
+            })
+        })
+        .collect();
     for (kind, nodes, tag) in elements {
         let mut corners = nodes[..kind.corners()].to_vec();
         corners.sort_unstable();

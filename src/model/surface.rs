@@ -37,6 +37,8 @@ pub(super) struct Foot {
     /// The point's displacement is `sum_i follow_i u_i`: the face's at the foot and its rotation times the
     /// gap, exact for every rigid motion.
     pub follow: Vec<Matrix3<f64>>,
+    /// The nearest point, m.
+    pub place: [f64; 3],
     /// Distance from the point to the foot, m.
     pub distance: f64,
     /// Size of the face: longest side of its box, m.
@@ -226,6 +228,7 @@ impl Face {
         Foot {
             nodes: self.nodes.clone(),
             follow,
+            place: local.place.into(),
             distance,
             size: (self.high - self.low).max() / (1.0 + 2.0 * BULGE),
         }

@@ -10,7 +10,7 @@ use crate::case::{self, Case};
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
 use crate::system::{BearingSetup, Equilibrium};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Share of a ring's width beyond its bore that is told. The width is that of a rectangle in the section's place, which
 /// misses that of a grooved section by some percent.
@@ -19,6 +19,9 @@ const OVERHANG: f64 = 0.05;
 /// Distance between a ring's outer face and its bore that is told, over the section's height: so far the section moves
 /// the bore by a rigid arm.
 const ARM: f64 = 0.5;
+
+/// Angle without a node of the bore that is told: three times what a coarse bore of first order has between two nodes.
+const FREE_TURN: f64 = FRAC_PI_2;
 
 /// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
 /// the faces of grooved sections.
@@ -81,6 +84,18 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         };
         format!("{}; {help}", touching.sentence())
     });
+    let crossings = model.crossings().iter().map(|crossing| {
+        format!(
+            "{}; mass and stiffness count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments), or move it",
+            crossing.sentence()
+        )
+    });
+    let apart = model.apart().iter().map(|apart| {
+        format!(
+            "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
+            apart.sentence()
+        )
+    });
     let links = model.links.iter().zip(&model.common_nodes);
     let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
         let [a, b] = &link.between;
@@ -91,11 +106,12 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let flat = model.flat_layers().map(|flat| {
         let [x, y, z] = flat.place;
         format!(
-            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; give shorter edges along the held face, elements of second order, or housing.linear = \"plain\"",
+            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; supports, stiff springs or a body at least ten times as stiff hold these faces; give shorter edges along them, elements of second order, or housing.linear = \"plain\"",
             flat.faces, flat.flatness, flat.tag
         )
     });
-    overlaps.chain(touching).chain(shared).chain(flat).collect()
+    let tied = overlaps.chain(touching).chain(crossings).chain(apart);
+    tied.chain(shared).chain(flat).collect()
 }
 
 /// How the ring sits in the housing.
@@ -119,8 +135,15 @@ fn ring_doubts(
             (face, height) = (layer.radius + 0.5 * radial, radial);
         }
     }
+    let seat = Seat::of(mesh, model, tie)?;
+    if seat.free_turn > FREE_TURN {
+        found.push(format!(
+            "the bore \"{}\" leaves {:.0} degrees of the turn free, where nothing holds the ring: check that the group has all faces of the bore",
+            tie.group,
+            seat.free_turn.to_degrees()
+        ));
+    }
     if model.dimension() == 3 {
-        let seat = Seat::of(mesh, model, tie)?;
         let outside = seat.share_outside(width);
         if outside > OVERHANG {
             found.push(format!(

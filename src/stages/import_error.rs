@@ -30,7 +30,7 @@ pub enum ImportError {
     },
     /// An interface that is not the ring's.
     #[error(
-        "expected {} interface coordinates (x, y, about_z of each of the ring's {nodes} nodes) or {} (in a solid housing \
+        "expected {} interface coordinates for ring.nodes = {nodes} (x, y, about_z of each) or {} (in a solid housing \
          then z, about_x, about_y of each), found {found}",
         3 * nodes, 6 * nodes
     )]
@@ -39,6 +39,16 @@ pub enum ImportError {
         nodes: usize,
         /// Interface coordinates of the file; its rows, if it does not tell them apart.
         found: usize,
+    },
+    /// A bore of another radius.
+    #[error(
+        "ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")"
+    )]
+    OuterRadius {
+        /// That of the case, m.
+        case: f64,
+        /// That of the file, m.
+        file: f64,
     },
     /// A coordinate that is not the ring's at this place.
     #[error("interface coordinate {row} (from 0): expected {expected}, found {found}")]
@@ -124,6 +134,15 @@ impl ImportError {
             Self::Count { .. } | Self::Label { .. } => {
                 "`plummer condense` with interface = \"ring\" writes such a file: x, y, about_z of node after node, in \
                  space then z, about_x, about_y of node after node, nodes counter-clockwise from angle 0"
+            }
+            Self::OuterRadius { .. } => {
+                "the tie to the bore is within the superelement: give its value, leave the key out, or condense again"
+            }
+            Self::Place { .. } => {
+                "ring.sections (their radius), ring.nodes and ring.bond must be those that were condensed, or condense again"
+            }
+            Self::Sensor { .. } => {
+                "give one of these names as `recovered`, `ring_deg` for a place on the ring, or condense again with the sensor in its case"
             }
             Self::Check { .. } => {
                 "`plummer condense` of this case lists all checks; expected are Craig-Bampton matrices in SI units, modes \

@@ -14,7 +14,7 @@ use crate::reduction::{Check, Superelement, check_matrices};
 use crate::report::significant;
 use std::path::{Path, PathBuf};
 
-/// A frequency at the end of a band lies within it.
+/// A frequency at the end of a band lies within it, and numbers that were written and read are the same.
 const ROUND_OFF: f64 = 1e-9;
 
 /// Farthest that a node may be from where the ring has it, relative to the ring's radius: six digits of a position that
@@ -53,6 +53,11 @@ impl ImportedHousing {
             source: Box::new(source),
         };
         let record = record(path, asked.nodes).map_err(fault)?;
+        if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
+            && (case - file).abs() > ROUND_OFF * file
+        {
+            return Err(fault(ImportError::OuterRadius { case, file }));
+        }
         let in_space = record.interface.len() == 6 * asked.nodes;
         if !in_space {
             let mut supports = asked.supports.iter();
@@ -177,7 +182,7 @@ impl ImportedHousing {
             name: name.to_owned(),
             row: row.to_owned(),
             known: match names.is_empty() {
-                true => "of array \"sensors\", which the file lacks".to_owned(),
+                true => "of array \"sensors\", which the file lacks (`plummer condense` writes a row for each of its case's [[sensors]])".to_owned(),
                 false => names.join(", "),
             },
         }))
@@ -313,6 +318,26 @@ fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
             "{file} does not say what its coordinates are: the first {} are taken for the ring's in the ring's order. Only \
              their number was checked.",
             record.interface.len()
+        ));
+    }
+    let idle = [
+        (
+            "ring.outer_radius",
+            record.outer_radius.is_none()
+                && case
+                    .ring
+                    .as_ref()
+                    .is_some_and(|ring| ring.outer_radius.is_some()),
+        ),
+        (
+            "condense.fixed_interface_modes",
+            case.condense.fixed_interface_modes != case::FixedInterfaceModes::Auto,
+        ),
+        ("condense.enhanced", !case.condense.enhanced),
+    ];
+    for (key, _) in idle.iter().filter(|(_, given)| *given) {
+        notes.push(format!(
+            "{key} of the case does not act: {file} was condensed before, and does not say with which."
         ));
     }
     if record.weight.is_none() && case.shaft.is_some() {

@@ -207,7 +207,7 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
     assert_eq!(
         error.to_string(),
         format!(
-            "housing.superelement: {}: expected 120 interface coordinates (x, y, about_z of each of the ring's 40 nodes) or \
+            "housing.superelement: {}: expected 120 interface coordinates for ring.nodes = 40 (x, y, about_z of each) or \
              240 (in a solid housing then z, about_x, about_y of each), found {}",
             path.display(),
             record.order()
@@ -222,7 +222,7 @@ fn an_interface_that_is_not_the_ring_s_is_named() {
     write_superelement_npz(&path, &whole).unwrap();
     let error = StructureStage::build(&case, &Unwatched).unwrap_err();
     assert!(error.to_string().ends_with(
-        "expected 27 interface coordinates (x, y, about_z of each of the ring's 9 nodes) or 54 (in a solid housing then z, \
+        "expected 27 interface coordinates for ring.nodes = 9 (x, y, about_z of each) or 54 (in a solid housing then z, \
          about_x, about_y of each), found 24"
     ));
     let changed = |change: fn(&mut [DofLabel])| {
@@ -443,4 +443,22 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
             .unwrap()
             .contains("two thirds of its highest vector")
     );
+}
+
+#[test]
+fn another_bore_than_the_condensed_one_is_refused() {
+    let (_kept, path, record) = small();
+    let nodes = record.interface.len() / 3;
+    let file = record.outer_radius.expect("a tied ring");
+    let of = |radius: f64| {
+        let mut case = imported(&path, nodes, REST, "");
+        case.ring.as_mut().expect("a ring").outer_radius = Some(radius);
+        compute_modes(&case, &Unwatched)
+    };
+    assert!(of(file).is_ok());
+    let refused = of(1.0).unwrap_err();
+    let words =
+        format!("ring.outer_radius is 1 m, but the superelement was condensed with {file} m");
+    assert!(refused.to_string().contains(&words), "{refused}");
+    assert!(refused.help().expect("help").contains("condense again"));
 }

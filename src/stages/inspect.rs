@@ -2,9 +2,12 @@
 
 use crate::element::continuum::{measure, quality, surface_weights};
 use crate::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::model::{Bodies, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
+use crate::model::{
+    Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind,
+};
 use crate::units::LengthUnit;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Bad elements that are listed one by one.
@@ -63,6 +66,8 @@ pub struct Inspection {
     pub overlapping: Vec<Overlap>,
     /// Groups of the highest dimension whose faces lie on each other without common nodes.
     pub touching: Vec<Touching>,
+    /// Groups of the highest dimension that reach into one another, of which the other lists say nothing.
+    pub crossing: Vec<Crossing>,
 }
 
 impl Inspection {
@@ -80,6 +85,7 @@ impl Inspection {
     pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
         let bodies = Bodies::of_mesh(mesh);
+        let (overlapping, touching) = (bodies.overlaps(), bodies.touching(|_| false));
         let mut found = Self {
             length_unit: unit,
             size: 0.0,
@@ -89,8 +95,9 @@ impl Inspection {
             invalid: Vec::new(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
-            overlapping: bodies.overlaps(),
-            touching: bodies.touching(|_| false),
+            crossing: bodies.crossings(|_| false, &overlapping, &touching),
+            overlapping,
+            touching,
             inventory,
         };
         let all = elements_of(mesh, found.inventory.dimension);
@@ -153,9 +160,18 @@ fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
     nodes.iter().map(|&node| mesh.nodes[node]).collect()
 }
 
-/// Sum of lengths, areas or volumes.
+/// Sum of lengths, areas or volumes; elements on the same nodes count once, as supports and masses take them.
 pub(super) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f64 {
+    let mut seen = BTreeSet::new();
     elements
+        .filter(|id| {
+            let mut nodes = mesh.blocks[id.block]
+                .element(id.index)
+                .unwrap_or_default()
+                .to_vec();
+            nodes.sort_unstable();
+            seen.insert(nodes)
+        })
         .map(|id| {
             let kind = mesh.blocks[id.block].kind;
             let at = coordinates(mesh, id);

@@ -4,6 +4,7 @@ use super::StageError;
 use crate::case;
 use crate::mesh::Mesh;
 use crate::model::HousingModel;
+use std::f64::consts::TAU;
 
 /// The bore in the ring's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +15,8 @@ pub(super) struct Seat {
     pub from: f64,
     /// Last place along the axis, m.
     pub to: f64,
+    /// Largest angle round the axis without a node of the bore, radians.
+    pub free_turn: f64,
 }
 
 impl Seat {
@@ -24,8 +27,15 @@ impl Seat {
     pub fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, StageError> {
         let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
         let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
-        let along: Vec<f64> = nodes.map(|&node| model.ring_coordinates(node)[2]).collect();
+        let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();
+        let along: Vec<f64> = places.iter().map(|place| place[2]).collect();
+        let mut angles: Vec<f64> = places.iter().map(|[x, y, _]| y.atan2(*x)).collect();
+        angles.sort_unstable_by(f64::total_cmp);
+        let next = angles.iter().skip(1).copied();
+        let next = next.chain(angles.first().map(|first| first + TAU));
+        let gaps = angles.iter().zip(next).map(|(angle, next)| next - angle);
         Ok(Self {
+            free_turn: gaps.fold(0.0, f64::max),
             nodes: along.len(),
             from: along.iter().copied().fold(f64::INFINITY, f64::min),
             to: along.iter().copied().fold(f64::NEG_INFINITY, f64::max),

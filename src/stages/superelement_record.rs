@@ -1,7 +1,7 @@
 //! A condensed housing as files carry it.
 
 use super::StageError;
-use super::condensed::{CondensedStage, basis_choice};
+use super::condensed::{Boundary, CondensedStage, basis_choice};
 use super::damping::viscous_matrix;
 use super::places::{Place, nodes_at};
 use crate::case::Case;
@@ -109,6 +109,10 @@ impl Coordinates<'_> {
             interface_recovery,
             modal_hz: values.iter().map(|value| value.sqrt() / TAU).collect(),
             band_hz: Some(basis_choice(case).band_hz),
+            outer_radius: match &stage.boundary {
+                Boundary::Ring(_) => case.ring.as_ref().and_then(|ring| ring.outer_radius),
+                _ => None,
+            },
             weight: Some(self.columns(weight(stage))),
             sensors,
             field: self.field(case)?,

@@ -183,7 +183,7 @@ impl Schedule {
             return Err(TransientError::Schedule {
                 what: "step",
                 value: largest_step,
-                rule: "at least a millionth of the output interval, 1 / output_hz (stiff or strongly damped contacts shorten it)",
+                rule: "at least a millionth of the output interval, 1 / output_hz (stiff or strongly damped contacts and light balls shorten it: check bearing.ball_mass, bearing.stiffness, bearing.contact_damping)",
             });
         }
         if intervals * steps > 1e15 {

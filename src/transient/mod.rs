@@ -37,7 +37,9 @@ mod splitting;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub use amplification::{Growth, UNSTABLE, growth};
-pub use driver::{LEAST_TOLERANCE, Method, Schedule, Statistics, Stepping, integrate};
+pub use driver::{
+    LEAST_TOLERANCE, MOST_STEPS_PER_INTERVAL, Method, Schedule, Statistics, Stepping, integrate,
+};
 pub use error::{BlowUp, TransientError};
 pub use integration::Integration;
 pub use limit::{Resonance, StepLimit, fastest};

@@ -6,10 +6,13 @@
 //!
 //!     cargo test --release --test robustness -- --ignored --nocapture --test-threads 1
 
+mod bodies;
 mod disk;
 mod doubled;
+mod grids;
 mod impossible;
 mod kills;
+mod layers;
 mod limits;
 mod mode_counts;
 mod mutations;
@@ -19,6 +22,8 @@ mod orders;
 mod program;
 mod replaced;
 mod signals;
+mod ties;
+mod turned;
 mod untrusted;
 
 use std::process::{Child, ExitStatus};

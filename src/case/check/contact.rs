@@ -65,14 +65,14 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
         return Err(Rule::Count { found, expected }.at(key));
     }
     let limit = 0.01 * bearing.ball_radius;
-    for (index, difference) in differences.iter().enumerate() {
+    for (index, &difference) in differences.iter().enumerate() {
         let key = format!("{key}[{index}]");
-        below(
-            key,
-            difference.abs(),
+        let [what, minus] = [
             "a hundredth of the ball's radius",
-            limit,
-        )?;
+            "minus a hundredth of the ball's radius",
+        ];
+        above(key.as_str(), difference, minus, -limit)?;
+        below(key, difference, what, limit)?;
     }
     Ok(())
 }

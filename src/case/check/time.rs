@@ -99,7 +99,9 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
         }
         let mesh = match case.superelement() {
             None => "[housing]",
-            Some(_) => "`housing.mesh`",
+            Some(_) => {
+                "`housing.mesh` (a superelement has rows of its own sensors: `recovered = \"NAME\"`)"
+            }
         };
         let meshed = case.meshed_housing().is_some();
         let (key, other, present) = match sensor.spot {

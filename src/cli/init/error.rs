@@ -13,6 +13,16 @@ pub enum InitError {
     /// Nothing to make it from.
     #[error(transparent)]
     Draft(#[from] DraftError),
+    /// A mesh that no command computes.
+    #[error("{}: {what}; no case file was written", path.display())]
+    Mesh {
+        /// The mesh file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
     /// A bearing that the catalogue lacks.
     #[error("--bearing: found \"{found}\", expected a bearing of the catalogue")]
     UnknownBearing {
@@ -39,6 +49,7 @@ impl InitError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Draft(error) => error.help(),
+            Self::Mesh { help, .. } => help.clone(),
             Self::UnknownBearing { .. } => Some(format!(
                 "names: {}; plummer init --list-bearings says their dimensions",
                 bearing_names()

@@ -23,7 +23,7 @@ use crate::stages::{Draft, DraftRequest};
 /// Writes a case file for a mesh, or lists the bearings.
 ///
 /// # Errors
-/// [`CliError`] when the mesh cannot be read or makes no case, the bearing is not known, or the file exists or cannot be written.
+/// [`CliError`] when the mesh cannot be read, makes no case or has elements that no command takes, the bearing is not known, or the file exists or cannot be written.
 pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliError> {
     let Some(mesh) = &asked.mesh else {
         return Ok(list::list());
@@ -51,6 +51,10 @@ pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliErro
         bearing,
     };
     let (draft, inspection) = Draft::of_mesh(request).map_err(InitError::from)?;
+    if let Verdict::Bad { what, help } = verdict(&inspection) {
+        let path = mesh.clone();
+        return Err(InitError::Mesh { path, what, help }.into());
+    }
     fs::create_dir_all(folder).map_err(|source| CliError::Folder {
         path: folder.to_owned(),
         source,
@@ -60,7 +64,7 @@ pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliErro
         summary: summary(&draft, &case),
         result: result(mesh, &case, &draft),
         written: vec![case],
-        verdict: verdict(&inspection),
+        verdict: Verdict::Good,
     })
 }
 

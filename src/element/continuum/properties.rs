@@ -113,6 +113,15 @@ impl ContinuumProperties {
         self.dimension
     }
 
+    /// Shear modulus, Pa: of an orthotropic material the mean of its planes (plane parts have one).
+    pub(crate) fn shear_modulus(&self) -> f64 {
+        match &self.elasticity {
+            Elasticity::Isotropic { mu, .. } => *mu,
+            Elasticity::General(c) if self.dimension == 2 => c[0][1][0][1],
+            Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
+        }
+    }
+
     pub(super) fn elasticity(&self) -> &Elasticity {
         &self.elasticity
     }

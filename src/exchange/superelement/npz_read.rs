@@ -43,13 +43,8 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
     if file.npz.has("modal_hz") {
         record.modal_hz = file.list("modal_hz")?;
     }
-    if file.npz.has("band_hz") {
-        record.band_hz = file
-            .list("band_hz")?
-            .first()
-            .copied()
-            .filter(|hz| *hz > 0.0);
-    }
+    record.band_hz = file.positive("band_hz")?;
+    record.outer_radius = file.positive("outer_radius")?;
     record.interface_recovery = file.interface_recovery(record.interface.len())?;
     record.sensors = file.sensors(order)?;
     record.field = file.field(order)?;
@@ -122,6 +117,15 @@ impl Source<'_> {
             return Err(self.wrong(name, "one dimension", format!("shape {:?}", read.shape)));
         }
         Ok(read.values)
+    }
+
+    /// The one number of an array, if it is there and above zero.
+    fn positive(&mut self, name: &str) -> Result<Option<f64>, NpzReadError> {
+        let values = match self.npz.has(name) {
+            true => self.list(name)?,
+            false => Vec::new(),
+        };
+        Ok(values.first().copied().filter(|value| *value > 0.0))
     }
 
     fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, NpzReadError> {

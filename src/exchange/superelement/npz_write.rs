@@ -20,6 +20,7 @@ use crate::linalg::DenseMatrix;
 /// | `recovered_dofs`, `_bodies`, `_positions`, `_axes` | as above for d | what these displacements are |
 /// | `modal_hz` | \[n - b\] | Hz |
 /// | `band_hz` | \[1\] | top of the band that it was condensed for, Hz |
+/// | `outer_radius` | \[1\] | radius of the bore that the ring is tied to, m |
 /// | `weight` | \[n x 3\] | mass times unit accelerations along x, y, z |
 /// | `sensors`, `sensor_names` | \[s x n\], \[s\] | displacement a unit of each coordinate |
 /// | `field_node_tags`, `field_positions`, `field_recovery` | \[N\], \[N x 3\], \[3 N x n\] | nodes, m, displacements x, y, z of node after node |
@@ -49,8 +50,13 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         labels(&mut npz, &recovery.labels, &RECOVERED)?;
     }
     npz.array("modal_hz", &record.modal_hz)?;
-    if let Some(band_hz) = record.band_hz {
-        npz.array("band_hz", &[band_hz])?;
+    for (name, value) in [
+        ("band_hz", record.band_hz),
+        ("outer_radius", record.outer_radius),
+    ] {
+        if let Some(value) = value {
+            npz.array(name, &[value])?;
+        }
     }
     if !record.sensors.is_empty() {
         let mut rows = npz.begin("sensors", &[record.sensors.len(), record.order()])?;

@@ -4,7 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::nodes::{dimension, not_as_announced, tag_range};
+use super::nodes::{dimension, not_as_announced, not_too_large, tag_range};
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::mesh::{ElementBlock, ElementKind, Entity};
@@ -78,6 +78,7 @@ pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Res
     if tag == 0 {
         return Err(cursor.malformed("an element tag, greater than 0", b"0"));
     }
+    not_too_large(cursor, "an element tag", tag)?;
     if !seen.insert(tag) {
         let place = cursor.place();
         return Err(MshError::DuplicateElement { place, tag });

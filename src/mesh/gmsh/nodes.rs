@@ -28,6 +28,7 @@ impl NodeTable {
         if tag == 0 {
             return Err(cursor.malformed("a node tag, greater than 0", b"0"));
         }
+        not_too_large(cursor, "a node tag", tag)?;
         let index = u32::try_from(self.tags.len()).ok();
         let index = index.filter(|&index| index < u32::MAX).ok_or_else(|| {
             cursor.feature("a mesh of more than 4294967295 nodes", "mesh more coarsely")
@@ -119,6 +120,18 @@ pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
         nodes.add_coordinates(cursor, metres)?;
     }
     nodes.complete()
+}
+
+/// Results keep tags in 64 bits with a sign.
+#[inline]
+pub(super) fn not_too_large(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(), MshError> {
+    match i64::try_from(tag) {
+        Ok(_) => Ok(()),
+        Err(_) => Err(cursor.malformed(
+            format!("{what}, at most {}", i64::MAX),
+            tag.to_string().as_bytes(),
+        )),
+    }
 }
 
 fn not_parametric(cursor: &mut Cursor<'_>) -> Result<(), MshError> {

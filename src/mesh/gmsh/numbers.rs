@@ -61,7 +61,7 @@ impl Cursor<'_> {
         };
         match found {
             Some(value) => Ok(value),
-            None => Err(self.no_number(what)),
+            None => Err(self.no_whole_number(what, u64::MAX)),
         }
     }
 
@@ -76,7 +76,7 @@ impl Cursor<'_> {
         };
         match found {
             Some(value) => Ok(value),
-            None => Err(self.no_number(what)),
+            None => Err(self.no_whole_number(what, i32::MAX as u64)),
         }
     }
 
@@ -203,6 +203,22 @@ impl Cursor<'_> {
         let value = std::str::from_utf8(word).ok()?.parse().ok()?;
         self.position += word.len();
         Some(value)
+    }
+
+    /// Why there is no whole number up to `most` at the mark.
+    #[cold]
+    #[inline(never)]
+    fn no_whole_number(&mut self, what: &'static str, most: u64) -> MshError {
+        self.position = self.mark;
+        if self.is_binary() {
+            return self.truncated(what);
+        }
+        match self.take_word() {
+            word @ [_, ..] if word.iter().all(u8::is_ascii_digit) => {
+                self.malformed(format!("{what}, at most {most}"), word)
+            }
+            _ => self.no_number(what),
+        }
     }
 
     /// Why there is no number at the mark.

@@ -34,6 +34,17 @@ pub(super) struct Facet {
 impl Bodies<'_> {
     /// The facets of all bodies, in the order of the elements.
     pub(super) fn facets(&self) -> Vec<Facet> {
+        let (outer, body) = self.outer_faces();
+        let facets = outer.into_iter();
+        let facets = facets.filter_map(|(solid, number)| self.facet(solid, number, body[solid]));
+        let mut facets: Vec<Facet> = facets.collect();
+        reach_to_neighbours(&mut facets);
+        facets
+    }
+
+    /// The faces of one element and of no other, as its index and the face's number, in the order of the elements; and the body
+    /// of each element: those that hang together through whole faces have one.
+    pub(super) fn outer_faces(&self) -> (Vec<(usize, u8)>, Vec<usize>) {
         let faces = self.solids.par_iter().enumerate();
         let mut faces: Vec<([u32; 4], u32, u8)> = faces
             .flat_map_iter(|(index, solid)| {
@@ -60,13 +71,9 @@ impl Bodies<'_> {
             }
         }
         once.sort_unstable();
-        let facets = once.into_iter().filter_map(|(solid, number)| {
-            let body = bodies.root(solid);
-            self.facet(solid, number, body)
-        });
-        let mut facets: Vec<Facet> = facets.collect();
-        reach_to_neighbours(&mut facets);
-        facets
+        let roots = (0..self.solids.len()).map(|solid| bodies.root(solid));
+        let roots = roots.collect();
+        (once, roots)
     }
 
     /// `None` for a face without size.

@@ -3,14 +3,16 @@
 //!
 //! [`Bodies`] comes in, the elements of the highest dimension of a mesh. What comes out names parts, counts and places:
 //! [`Doubled`], [`MixedOrders`], [`Overlap`],
-//! [`Touching`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
+//! [`Touching`], [`Crossing`], [`Apart`]. Read `inside.rs` first. Every search sorts or descends a tree of boxes:
 //! O(n log n).
 //!
 //! # Limitations
-//! An overlap shows itself by the centre of an element or of a face that lies within another element. A body that crosses
-//! another between all these centres is not seen. Faces touch where the centre of one lies on the other.
+//! An [`Overlap`], which is refused, shows itself by the centre of an element that lies within another one. Faces touch where the
+//! centre of one lies on the other. What is between these is a [`Crossing`], which is told.
 
+mod apart;
 mod boxes;
+mod crossing;
 mod doubled;
 mod facets;
 mod inside;
@@ -29,6 +31,9 @@ use serde::{Deserialize, Serialize};
 
 use boxes::Bounds;
 
+pub use apart::Apart;
+pub(super) use apart::Tied;
+pub use crossing::Crossing;
 pub use doubled::Doubled;
 pub use inside::Overlap;
 pub use orders::MixedOrders;

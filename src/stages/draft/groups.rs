@@ -59,6 +59,8 @@ pub(super) struct Groups {
     pub without_part: usize,
     /// Groups that are held.
     pub supports: Vec<String>,
+    /// Groups that are named like supports and share nodes with the bore.
+    pub at_bore: Vec<String>,
     /// A point where a sensor may stand.
     pub sensor: Option<String>,
     /// The rest, but for the bore.
@@ -157,13 +159,15 @@ impl Groups {
                 leave(Some(
                     "looks like a support, but shares nodes with the bore, which follow the ring",
                 ));
+                self.at_bore.push(name.to_owned());
             } else {
                 self.supports.push(name.to_owned());
             }
         } else if group.dimension == 0 && self.sensor.is_none() && says(name, &SENSORS) && whole {
             self.sensor = Some(name.to_owned());
         } else {
-            leave(None);
+            let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+            leave(touches_bore.then_some(note));
         }
     }
 }

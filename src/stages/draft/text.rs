@@ -150,11 +150,23 @@ fn findings(found: &Found<'_>) -> Vec<String> {
         .iter()
         .map(|name| quoted(name))
         .collect();
-    lines.push(if supports.is_empty() {
-        "Nothing is held: no group is named like a support.".to_owned()
-    } else {
-        format!("Held, by their names: {}.", list(&supports))
+    let at_bore: Vec<String> = found
+        .groups
+        .at_bore
+        .iter()
+        .map(|name| quoted(name))
+        .collect();
+    lines.push(match (supports.is_empty(), at_bore.is_empty()) {
+        (false, _) => format!("Held, by their names: {}.", list(&supports)),
+        (true, true) => "Nothing is held: no group is named like a support.".to_owned(),
+        (true, false) => "Nothing is held.".to_owned(),
     });
+    if !at_bore.is_empty() {
+        lines.push(format!(
+            "Not held: {} shares nodes with the bore, and these follow the ring. Give it faces beside the bore in gmsh, or hold it by springs.",
+            list(&at_bore)
+        ));
+    }
     if found.groups.without_part > 0 {
         lines.push(format!(
             "{} elements are in no part: every command will ask for their group.",
@@ -243,10 +255,22 @@ fn supports(page: &mut Page, found: &Found<'_>) {
         "\"x\", \"y\", \"z\""
     };
     let named = &found.groups.supports;
-    if named.is_empty() {
-        page.note("no group is named like a support, so that the housing is free; to hold one:");
+    if let ([], Some(group)) = (named.as_slice(), found.groups.at_bore.first()) {
+        page.note("the housing is free; nodes of the bore follow the ring and cannot be fixed too, but springs may hold them (N/m, a guess):");
+        let along = if found.plane {
+            "x = 1e8, y = 1e8"
+        } else {
+            "x = 1e8, y = 1e8, z = 1e8"
+        };
+        let item = format!(
+            "supports = [{{ group = {}, spring = {{ {along} }}, per = \"group\" }}]",
+            quoted(group)
+        );
+        page.template(true, |page| page.line(&item));
+        return;
     }
     if named.is_empty() {
+        page.note("no group is named like a support, so that the housing is free; to hold one:");
         let group = quoted(found.surface().unwrap_or("GROUP"));
         let item = format!("supports = [{{ group = {group}, fixed = [{axes}] }}]");
         page.template(true, |page| page.line(&item));

@@ -95,7 +95,7 @@ fn inverted_and_folded_plane_elements_say_where() -> Outcome {
     assert_eq!(
         message(stiffness(ContinuumKind::Tri3, &clockwise, &p, PLAIN)),
         "the Tri3 element is inverted: its nodes run clockwise (Jacobian determinant -2.000000e-6 m^2 \
-         at (0.000000e0, 0.000000e0) m); reverse the surface in gmsh"
+         at (0.000000e0, 0.000000e0) m); reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)"
     );
     let arrowhead = [
         [0.0; 3],

@@ -264,6 +264,18 @@ fn nodes() {
         after("2\n5\n4\n", "2\n0\n4\n"),
         "$Nodes, line 28: expected a node tag, greater than 0, found \"0\""
     );
+    for tag in ["9223372036854775808", "18446744073709551615"] {
+        assert_eq!(
+            after("2\n5\n4\n", &format!("2\n{tag}\n4\n")),
+            format!(
+                "$Nodes, line 28: expected a node tag, at most 9223372036854775807, found \"{tag}\""
+            )
+        );
+    }
+    assert_eq!(
+        after("2\n5\n4\n", "2\n18446744073709551616\n4\n"),
+        "$Nodes, line 28: expected a node tag, at most 18446744073709551615, found \"18446744073709551616\""
+    );
 }
 
 #[test]

@@ -1,0 +1,125 @@
+//! Reference: the same meshes with plain elements, whose lowest frequency errs by +12 % at most in such layers.
+//! Goal: a flat layer of incompatible elements that something stiff holds is said wherever it is far too soft, and not else.
+//! Sketch: a plate of 0.4 m in four by four cells, 10 mm high, alone or with blocks of 0.1 m above and below.
+//! Conditions: the program as a user runs it. Parameters: a frequency counts as far too low below 0.85 of the plain one, which the
+//!   plain elements' own error cannot make.
+
+use super::grids::{Grids, modes, result, steps};
+use super::program::scratch;
+
+const FAR_TOO_LOW: f64 = 0.85;
+
+/// Blocks on each other from z = 0 on: name, height, cells over it, and whether it shares its nodes with what is below.
+type Stack<'s> = &'s [(&'s str, f64, usize, bool)];
+
+fn write(folder: &std::path::Path, stack: Stack) {
+    let mut grid = Grids::default();
+    let side = steps(0.0, 0.4, 4);
+    let mut floor = 0.0;
+    for &(name, height, cells, joined) in stack {
+        let up = steps(floor, floor + height, cells);
+        grid.solid(name, [&side, &side, &up], joined);
+        floor += height;
+    }
+    grid.write(folder);
+}
+
+#[test]
+fn flat_layers_are_said_where_they_are_too_soft() {
+    let folder = scratch("layers");
+    let fixed = "supports = [{ group = 'a_bottom', fixed = ['x', 'y', 'z'] }]";
+    let springs = |stiffness: &str| {
+        format!(
+            "supports = [{{ group = 'a_bottom', spring = {{ x = {stiffness}, y = {stiffness}, z = {stiffness} }} }}]"
+        )
+    };
+    let tie = "links = [{ between = ['a_top', 'b_bottom'], tie = true }]";
+    let plate: Stack = &[("a", 0.01, 1, false)];
+    let block: Stack = &[("a", 0.1, 1, false), ("b", 0.01, 1, true)];
+    for (name, stack, materials, more, told) in [
+        ("held", plate, ["steel", ""], fixed.to_owned(), true),
+        (
+            "on stiff springs",
+            plate,
+            ["steel", ""],
+            springs("1e15"),
+            true,
+        ),
+        (
+            "on soft springs",
+            plate,
+            ["steel", ""],
+            springs("1e5"),
+            false,
+        ),
+        (
+            "on a stiffer block",
+            block,
+            ["steel", "rubber"],
+            fixed.to_owned(),
+            true,
+        ),
+        (
+            "on a block of its own",
+            block,
+            ["steel", "steel"],
+            fixed.to_owned(),
+            false,
+        ),
+        (
+            "tied to a stiffer block",
+            &[("a", 0.1, 1, false), ("b", 0.01, 1, false)],
+            ["steel", "rubber"],
+            format!("{fixed}\n{tie}"),
+            true,
+        ),
+        (
+            "between stiffer blocks, in two elements",
+            &[
+                ("a", 0.1, 1, false),
+                ("b", 0.01, 2, true),
+                ("a", 0.002, 1, true),
+            ],
+            ["steel", "rubber"],
+            fixed.to_owned(),
+            true,
+        ),
+        (
+            "between stiffer blocks, in one element",
+            &[
+                ("a", 0.1, 1, false),
+                ("b", 0.01, 1, true),
+                ("a", 0.1, 1, true),
+            ],
+            ["steel", "rubber"],
+            fixed.to_owned(),
+            false,
+        ),
+        (
+            "as high as its edges",
+            &[("a", 0.1, 1, false)],
+            ["steel", ""],
+            fixed.to_owned(),
+            false,
+        ),
+    ] as [(&str, Stack, [&str; 2], String, bool); 9]
+    {
+        write(&folder, stack);
+        let parts = ["a", "b"]
+            .into_iter()
+            .zip(materials)
+            .filter(|(_, material)| !material.is_empty());
+        let parts = parts
+            .map(|(part, material)| format!("{{ group = '{part}', material = '{material}' }},"));
+        let housing = format!("parts = [{}]\n{more}", parts.collect::<String>());
+        let (warnings, own) = result(&folder, &modes(&folder, &housing));
+        let plain = format!("linear = 'plain'\n{housing}");
+        let (_, plain) = result(&folder, &modes(&folder, &plain));
+        assert_eq!(warnings.contains("flat layers"), told, "{name}: {warnings}");
+        assert_eq!(
+            own < FAR_TOO_LOW * plain,
+            told,
+            "{name}: {own} Hz, plain {plain} Hz"
+        );
+    }
+}
