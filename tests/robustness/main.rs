@@ -14,12 +14,15 @@ mod impossible;
 mod kills;
 mod layers;
 mod limits;
+mod mesh;
 mod mode_counts;
 mod mutations;
 mod neighbours;
 mod orders;
 #[path = "../program/mod.rs"]
 mod program;
+mod relations;
+mod relations_run;
 mod replaced;
 mod signals;
 mod ties;
@@ -43,6 +46,11 @@ impl Dice {
         z ^ (z >> 31)
     }
 
+    /// From 0 to below 1.
+    pub fn fraction(&mut self) -> f64 {
+        (self.number() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     /// Below `end`, which is not 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.number() % end as u64) as usize
@@ -56,7 +64,12 @@ impl Dice {
 
 /// Rounds of a long test: `PLUMMER_ROUNDS`, or this.
 pub fn rounds(default: usize) -> usize {
-    std::env::var("PLUMMER_ROUNDS").map_or(default, |text| text.parse().unwrap())
+    setting("PLUMMER_ROUNDS", default as u64) as usize
+}
+
+/// A whole number of the environment, or this.
+pub fn setting(name: &str, default: u64) -> u64 {
+    std::env::var(name).map_or(default, |text| text.parse().unwrap())
 }
 
 /// Waits so long for a process; `None`: it was still running, and is killed.

@@ -1,18 +1,21 @@
 //! Reference: the exit codes, 0 done, 1 a bad answer, 2 a wrong input; a memory limit of the system's.
-//! Goal: no text of a case file makes the program panic, or take more memory than stated.
+//! Goal: no text of a case file or a mesh makes the program panic, or take more memory than stated; what it says to be done is whole.
 //! Sketch: cases that run in a fraction of a second, changed at random in bytes, numbers, words, lines and tables; each is given to a
-//!   command.
+//!   command. The campaign takes the examples too, changes meshes, and asks the questions of `relations` with random numbers between.
 //! Conditions: address space of 2 GiB, above which the system refuses memory (an abort: no exit code); 20 s, after which a case that
 //!   asks for a long computation is ended and counted apart.
-//! Parameters: 120 mutations with the other tests, 10 000 in the long form.
+//! Parameters: 120 mutations with the other tests, 10 000 in the long form; the campaign lasts `PLUMMER_MINUTES` (10) from the seed
+//!   `PLUMMER_SEED` (1).
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+use plummer::files;
 
 use super::program::scratch;
-use super::{Dice, ended_within, rounds};
+use super::{Dice, ended_within, relations, rounds, setting};
 
 /// Address space of the program, KiB: what `ulimit -v` takes.
 const MEMORY_KIB: usize = 2 << 20;
@@ -24,13 +27,46 @@ struct Base {
     commands: &'static [&'static str],
 }
 
+fn meshes() -> String {
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    meshes.display().to_string()
+}
+
+/// An example with whole paths.
+fn read(name: &str) -> String {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let text = fs::read_to_string(examples.join(name)).unwrap();
+    let modal = examples.join("modal").display().to_string();
+    text.replace("../../meshes", &meshes())
+        .replace("file = \"", &format!("file = \"{modal}/"))
+}
+
+/// The examples of the documents, runs of them a millisecond long.
+fn examples() -> impl Iterator<Item = Base> {
+    let all: [(&str, &[&str]); 9] = [
+        ("scenes/impact.toml", &["run"]),
+        ("scenes/rattle.toml", &["run"]),
+        ("scenes/pedestal.toml", &["run", "modes"]),
+        ("housings/ring.toml", &["run"]),
+        ("tadina2011/ball-flat.toml", &["run"]),
+        ("tadina2011/inner-dent.toml", &["run"]),
+        ("modal/ring.toml", &["modes"]),
+        ("modal/pedestal.toml", &["modes"]),
+        ("transfer/pedestal.toml", &["condense", "frf"]),
+    ];
+    all.into_iter().map(|(name, commands)| {
+        let text = read(name);
+        let kept = text.lines().take_while(|line| *line != "[analysis]");
+        let lines = kept.map(|line| match line.starts_with("end = ") {
+            true => "end = 1e-3",
+            false => line,
+        });
+        let text = lines.collect::<Vec<_>>().join("\n");
+        Base { text, commands }
+    })
+}
+
 fn bases() -> Vec<Base> {
-    let project = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let read = |name: &str| {
-        let text = fs::read_to_string(project.join("examples").join(name)).unwrap();
-        let meshes = project.join("meshes").display().to_string();
-        text.replace("../../meshes", &meshes)
-    };
     let beam = read("tadina2011/beam.toml");
     let beam = beam[..beam.find("expected = [").unwrap()].replace("nodes = 72", "nodes = 24");
     let smooth = read("scenes/smooth.toml")
@@ -49,7 +85,7 @@ fn bases() -> Vec<Base> {
         [frf]\nfrom = [{ ring_deg = 270, direction = [0, -1, 0] }]\nto = [\"P1\"]\nband_hz = [0, 50000]\n\
         [accuracy]\nband_hz = [0, 50000]\ntarget = 0.01\n\
         [modes]\ncount = 6\n"
-        .replace("MESHES", &project.join("meshes").display().to_string());
+        .replace("MESHES", &meshes());
     vec![
         Base {
             text: beam,
@@ -209,42 +245,83 @@ fn change(bytes: &mut Vec<u8>, dice: &mut Dice) {
     }
 }
 
+/// Every base as it is ends with 0.
+fn try_bases(folder: &Path, bases: &[Base]) {
+    for base in bases {
+        for command in base.commands {
+            let found = run(folder, base.text.as_bytes(), command);
+            assert_eq!(found.0, Some(0), "{command}: {}\n{}", found.1, base.text);
+            check_digests(folder, command);
+        }
+    }
+}
+
+/// One change of one of the bases, of its mesh at times: 0, 1, 2 or, still running, 3.
+fn attempt(folder: &Path, bases: &[Base], round: u64, meshes_too: bool) -> usize {
+    let mut dice = Dice(round);
+    let base = dice.of(bases);
+    let command = *dice.of(base.commands);
+    let own = base
+        .text
+        .find(&meshes())
+        .filter(|_| meshes_too && dice.below(3) == 0);
+    let text = match own {
+        None => mutated(&base.text, &mut dice),
+        Some(start) => {
+            let length = base.text[start..].find('"').unwrap();
+            let path = &base.text[start..start + length];
+            let mesh = mutated(&fs::read_to_string(path).unwrap(), &mut dice);
+            fs::write(folder.join("mesh.msh"), mesh).unwrap();
+            base.text.replace(path, "mesh.msh").into_bytes()
+        }
+    };
+    let (code, said) = run(folder, &text, command);
+    match code {
+        Some(code @ 0..=2) if !said.contains("panicked") => {
+            let silent = code != 0 && !said.contains("error: ");
+            assert!(
+                !silent,
+                "round {round}: {command} gave {code} without a reason"
+            );
+            if code == 0 {
+                check_digests(folder, command);
+            }
+            code as usize
+        }
+        Some(-1) => 3,
+        code => {
+            let kept = folder.join(format!("fault-{round}.toml"));
+            fs::write(&kept, &text).unwrap();
+            panic!(
+                "round {round}: {command} {} gave {code:?}: {said}",
+                kept.display()
+            );
+        }
+    }
+}
+
+/// The arrays beside a result are those that it speaks of.
+fn check_digests(folder: &Path, command: &str) {
+    let out = folder.join("out");
+    let result = fs::read(out.join(format!("{command}.json"))).unwrap();
+    let result: serde_json::Value = serde_json::from_slice(&result).unwrap();
+    let arrays = result["arrays"].as_object();
+    assert_eq!(arrays.is_some(), ["run", "modes"].contains(&command));
+    for (name, digest) in arrays.into_iter().flatten() {
+        let file = fs::File::open(out.join(name)).unwrap();
+        let found = files::hex(files::sha256(file).unwrap());
+        assert_eq!(*digest, *found, "{command}: {name}");
+    }
+}
+
 /// How many ended with 0, 1 and 2, and how many were still running.
 fn many(name: &str, count: usize, seed: u64) -> [usize; 4] {
     let folder = scratch(name);
     let bases = bases();
-    for base in &bases {
-        for command in base.commands {
-            let found = run(&folder, base.text.as_bytes(), command);
-            assert_eq!(found.0, Some(0), "{command}: {}", found.1);
-        }
-    }
+    try_bases(&folder, &bases);
     let mut ends = [0; 4];
-    for round in 0..count {
-        let mut dice = Dice(seed + round as u64);
-        let base = dice.of(&bases);
-        let command = *dice.of(base.commands);
-        let text = mutated(&base.text, &mut dice);
-        let (code, said) = run(&folder, &text, command);
-        let kept = folder.join(format!("fault-{round}.toml"));
-        match code {
-            Some(code @ 0..=2) if !said.contains("panicked") => {
-                ends[code as usize] += 1;
-                let silent = code != 0 && !said.contains("error: ");
-                assert!(
-                    !silent,
-                    "round {round}: {command} gave {code} without a reason"
-                );
-            }
-            Some(-1) => ends[3] += 1,
-            code => {
-                fs::write(&kept, &text).unwrap();
-                panic!(
-                    "round {round}: {command} {} gave {code:?}: {said}",
-                    kept.display()
-                );
-            }
-        }
+    for round in 0..count as u64 {
+        ends[attempt(&folder, &bases, seed + round, false)] += 1;
     }
     ends
 }
@@ -294,4 +371,25 @@ fn ten_thousand_damaged_cases() {
     let count = rounds(10_000);
     let ends = many("mutations-long", count, 1_000_000);
     println!("{count} mutations, exit codes 0, 1, 2, still running: {ends:?}");
+}
+
+/// All attacks on the input as long as one likes: the round in a message makes the same change again as `PLUMMER_SEED`.
+#[test]
+#[ignore = "long"]
+fn campaign() {
+    let folder = scratch("campaign");
+    let mut bases = bases();
+    bases.extend(examples());
+    try_bases(&folder, &bases);
+    let end = Instant::now() + Duration::from_secs(60 * setting("PLUMMER_MINUTES", 10));
+    let (mut ends, mut asked, mut round) = ([0; 4], 0, setting("PLUMMER_SEED", 1));
+    while Instant::now() < end {
+        ends[attempt(&folder, &bases, round, true)] += 1;
+        round += 1;
+        if round % 20 == 0 {
+            relations::ask_at_random(&mut Dice(round));
+            asked += 1;
+        }
+    }
+    println!("up to round {round}: exit codes 0, 1, 2, still running: {ends:?}; {asked} relations");
 }

@@ -9,6 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use serde_json::Value;
+
 use super::Dice;
 use super::program::{errors, plummer, scratch};
 
@@ -17,7 +19,7 @@ fn table(folder: &Path, name: &str, spoil: impl Fn(usize, f64) -> f64) -> PathBu
     let mut dice = Dice(7);
     let mut text = "time_s,x\n".to_owned();
     for place in 0..4000_usize {
-        let noise = 2.0 * (dice.number() >> 11) as f64 / (1_u64 << 53) as f64 - 1.0;
+        let noise = 2.0 * dice.fraction() - 1.0;
         writeln!(text, "{},{:e}", place as f64 / 8000.0, spoil(place, noise)).unwrap();
     }
     let path = folder.join(name);
@@ -164,4 +166,63 @@ fn names_in_other_bytes_are_wrong_input() {
         "{}",
         errors(&output)
     );
+}
+
+/// What is diagnosed is in no unit: a signal four times as large, turned over, or of a machine four times as fast says the same.
+#[test]
+fn a_signal_in_other_units_has_the_same_verdict() {
+    let folder = scratch("signal-units");
+    // 29.95 Hz and the outer race's 3.585 of a 6205, impacts that ring at 2.2 kHz
+    let ring = |place: usize, noise: f64| {
+        let pass = place as f64 / 8000.0 * 29.95 * 3.585;
+        let since = pass.fract() / (29.95 * 3.585);
+        0.2 * noise + (-900.0 * since).exp() * (since * 2200.0 * std::f64::consts::TAU).sin()
+    };
+    table(&folder, "one.csv", ring);
+    table(&folder, "large.csv", |place, noise| {
+        -4.0 * ring(place, noise)
+    });
+    let fast = fs::read_to_string(folder.join("one.csv")).unwrap();
+    let values = fast.lines().skip(1).filter_map(|line| line.split_once(','));
+    let fast = values.fold("x\n".to_owned(), |text, (_, value)| text + value + "\n");
+    fs::write(folder.join("fast.csv"), fast).unwrap();
+    let verdict = |words: &str, time: f64, size: f64| {
+        let line = format!("analyze {words} --channel x {BEARING} --out out --force --json");
+        let output = plummer(&folder, &line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let window = &found["windows"][0];
+        let number = |value: &Value| value.as_f64().unwrap();
+        let peaks = window["envelope_peaks"].as_array().unwrap().iter();
+        let peaks = peaks.flat_map(|peak| {
+            [
+                number(&peak["frequency_hz"]) * time,
+                number(&peak["amplitude"]) / size,
+            ]
+        });
+        let mut numbers = vec![number(&window["rms"]) / size, number(&window["kurtosis"])];
+        numbers.extend(peaks);
+        let parts = window["verdict"]["faults"].as_array().unwrap().iter();
+        let parts = parts.map(|part| [&part["fault"], &part["conclusion"]].map(Value::to_string));
+        (numbers, parts.collect::<Vec<_>>())
+    };
+    let (one, said) = verdict("one.csv --speed 29.95 --high-pass 1000", 1.0, 1.0);
+    let outer = ["\"outer race\"", "\"named\""].map(str::to_owned);
+    assert!(said.contains(&outer), "{said:?}");
+    // round-off; and bins of 0.25 Hz whatever the rate, between which a peak is interpolated
+    for (words, time, size, limit) in [
+        ("large.csv --speed 29.95 --high-pass 1000", 1.0, 4.0, 1e-9),
+        (
+            "fast.csv --rate 32000 --speed 119.8 --high-pass 4000",
+            0.25,
+            1.0,
+            1e-3,
+        ),
+    ] {
+        let (other, said_of_other) = verdict(words, time, size);
+        for (other, one) in other.iter().zip(&one) {
+            assert!((other / one - 1.0).abs() < limit, "{words}: {other} {one}");
+        }
+        assert_eq!(said, said_of_other, "{words}");
+    }
 }
