@@ -122,14 +122,14 @@ impl Compared {
         })
     }
 
-    /// The last instant before any sensor's difference since the start is above `most`, relative, s; infinite where none is. It is looked at
-    /// after `first_s` (s), and then every eighth of it.
+    /// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
+    /// none is. It is looked at every eighth of `first_s` (s), and counts from `first_s` on: a short beginning may be nearly still.
     pub(super) fn held_s(&self, most: f64, first_s: f64) -> f64 {
         let [run, finer] = &self.signals;
         let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
         let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
             let (mut apart, mut size) = (0.0, 0.0);
-            let mut next = INSTANTS;
+            let (mut next, mut held) = (1, 0.0);
             for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
                 apart += (a - b) * (a - b);
                 size += b * b;
@@ -137,12 +137,10 @@ impl Compared {
                 if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
                     continue;
                 }
-                if apart > most * most * size {
-                    return if next == INSTANTS {
-                        0.0
-                    } else {
-                        instant(next - 1)
-                    };
+                if apart <= most * most * size {
+                    held = instant(next);
+                } else if next >= INSTANTS {
+                    return held;
                 }
                 next += 1;
             }
