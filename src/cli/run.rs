@@ -156,7 +156,7 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
     };
     if let Some(limit) = blow_up.limit.filter(|limit| no_step(*limit)) {
         return format!(
-            "contacts that vibrate at {:.1e} Hz need shorter steps than a run takes, a millionth of an output interval: check the mass of a ball (bearing.ball_mass, bearing.density) and bearing.stiffness, or leave the balls' inertia out with --set bearing.balls_inertia=quasi-static",
+            "contacts that vibrate at {:.1e} Hz need shorter steps than a run takes, a millionth of an output interval: check the mass of a ball (bearing.ball_mass, bearing.density) and bearing.stiffness, or leave the balls' inertia out (bearing.balls_inertia = \"quasi-static\", which takes no bearing.contact_damping)",
             limit.highest_hz
         );
     }

@@ -182,7 +182,7 @@ impl ImportedHousing {
             name: name.to_owned(),
             row: row.to_owned(),
             known: match names.is_empty() {
-                true => "of array \"sensors\", which the file lacks (`plummer condense` writes a row for each of its case's [[sensors]])".to_owned(),
+                true => "of array \"sensors\", which the file lacks".to_owned(),
                 false => names.join(", "),
             },
         }))

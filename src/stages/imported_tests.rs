@@ -185,6 +185,9 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
                         record.interface.len()
                     ),
                     format!(
+                        "ring.outer_radius of the case does not act: {file} was condensed before, and does not say with which."
+                    ),
+                    format!(
                         "{file} has no array \"weight\": the weight of the housing does not act."
                     ),
                     format!(
@@ -449,6 +452,7 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
 fn another_bore_than_the_condensed_one_is_refused() {
     let (_kept, path, record) = small();
     let nodes = record.interface.len() / 3;
+    write_superelement_npz(&path, &record).unwrap();
     let file = record.outer_radius.expect("a tied ring");
     let of = |radius: f64| {
         let mut case = imported(&path, nodes, REST, "");

@@ -40,7 +40,7 @@ impl Grids {
     }
 
     /// The node at a place, an old one if `merge` and there is one.
-    fn node(&mut self, place: [f64; 3], merge: bool) -> usize {
+    pub fn node(&mut self, place: [f64; 3], merge: bool) -> usize {
         let near = |node: &[f64; 3]| (0..3).all(|axis| (node[axis] - place[axis]).abs() < 1e-12);
         let found = self.nodes.iter().position(near).filter(|_| merge);
         1 + found.unwrap_or_else(|| {

@@ -44,14 +44,7 @@ fn write(folder: &std::path::Path, kind: usize, elements: &[&[usize]], turned: [
             _ => 0,
         }));
         let nodes: Vec<usize> = places
-            .map(|[x, y]| {
-                let place = [*x, y + floor, 0.0];
-                let known = grid.nodes.iter().position(|node| *node == place);
-                1 + known.unwrap_or_else(|| {
-                    grid.nodes.push(place);
-                    grid.nodes.len() - 1
-                })
-            })
+            .map(|[x, y]| grid.node([*x, y + floor, 0.0], true))
             .collect();
         for (number, element) in elements.iter().enumerate() {
             let own: Vec<usize> = element.iter().map(|&place| nodes[place]).collect();

@@ -172,7 +172,10 @@ fn groups_are_parts_supports_and_sensors_by_dimension_and_name() {
     // node 5 is the seat's too, and what is tied cannot be fixed
     assert_eq!(
         notes(&groups),
-        [("rim", ""), ("base", "looks like a support")]
+        [
+            ("rim", "shares nodes with the bore"),
+            ("base", "looks like a support")
+        ]
     );
     // without a ring it can
     assert_eq!(Groups::of(&mesh, 2, None).supports, ["Feet", "base"]);
