@@ -238,6 +238,34 @@ fn parts_that_touch_without_a_link_are_said() {
     }
 }
 
+/// Commands that hand a model on say what is doubtful of it: on the terminal, in the result and, of a sweep, in the report.
+#[test]
+fn export_and_sweep_say_what_modes_say() {
+    let folder = scratch("doubled-handed-on");
+    let mut blocks = Blocks::default();
+    blocks.cube(1, "a", [0.0; 3], 2);
+    blocks.cube(2, "b", [0.1, 0.0, 0.0], 2);
+    blocks.write(&folder, &["a", "b"], "");
+    let vary = ["--vary", "modes.count=4,5"];
+    for (command, words) in [
+        ("export", &["--to", "mtx"][..]),
+        ("sweep", &[&["--command", "modes"], &vary[..]].concat()),
+    ] {
+        let line = [&[command, "case.toml", "--out", command], words].concat();
+        let output = plummer(&folder, &line);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let said = "the parts \"a\" and \"b\" touch without common nodes";
+        assert!(text(&output).contains(said), "{}", text(&output));
+        let json = fs::read_to_string(folder.join(format!("{command}/{command}.json"))).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let warning = &json["warnings"][0];
+        let warning = warning.as_str().or(warning["text"].as_str()).unwrap();
+        assert!(warning.contains(said), "{warning}");
+    }
+    let page = fs::read_to_string(folder.join("sweep/report.html")).unwrap();
+    assert!(page.contains("touch without common nodes"));
+}
+
 /// Reaching into one another by 1.3 mm, a twenty-fifth of a cell: no centre of an element lies in another one.
 #[test]
 fn parts_that_reach_into_one_another_by_little_are_said() {

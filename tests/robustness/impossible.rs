@@ -119,6 +119,14 @@ fn pressures_beyond_the_rating_are_said_and_impossible_ones_refused() {
         &set,
         &["half-axis of 1.032e-3 m"],
     );
+    // grooves that hardly conform: a patch so small that the pressure ends it first
+    let grooves = [
+        "bearing.inner_groove_radius=2e-3",
+        "bearing.outer_groove_radius=2e-3",
+    ];
+    let set = [&[stiff, "shaft.mass=200", SHORT], &grooves[..]].concat();
+    let words = ["the pressure between a ball and the inner race would be 13165 MPa"];
+    refused("impossible-pressure", "run", BEARING, &set, &words);
 }
 
 const SEAT: &str = "housings/pillow_block.toml";

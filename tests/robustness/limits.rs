@@ -11,11 +11,20 @@ use super::program::{errors, scratch};
 
 /// The healthy scene's run under limits of the shell.
 fn limited(name: &str, limit: &str, set: &str) -> Output {
+    limited_to(
+        name,
+        limit,
+        &format!("run CASE --set transient.end=0.1 {set}"),
+    )
+}
+
+/// Any command on the case `CASE`.
+fn limited_to(name: &str, limit: &str, command: &str) -> Output {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/healthy.toml");
     let line = format!(
-        "ulimit {limit}; exec {} run {} --set transient.end=0.1 {set} --quiet --out out --force",
+        "ulimit {limit}; exec {} {} --quiet --out out --force",
         env!("CARGO_BIN_EXE_plummer"),
-        scene.display()
+        command.replace("CASE", &scene.display().to_string())
     );
     Command::new("sh")
         .arg("-c")
@@ -52,6 +61,15 @@ fn memory_that_does_not_suffice_is_an_error() {
         failures += usize::from(code != Some(0));
     }
     assert!(failures > 0, "no limit was too low");
+}
+
+/// A matrix of 6000 rows has 288 MB; it says so by a panic of its own.
+#[test]
+fn memory_that_does_not_suffice_for_a_matrix_is_an_error() {
+    let output = limited_to("matrix", "-v 300000", "modes CASE --set ring.nodes=2000");
+    assert_eq!(output.status.code(), Some(1), "{:?}", output.status);
+    let said = "error: the memory does not suffice for a matrix\n";
+    assert!(errors(&output).starts_with(said), "{}", errors(&output));
 }
 
 #[test]

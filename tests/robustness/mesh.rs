@@ -88,16 +88,16 @@ const HEIGHTS: [f64; 3] = [-2e-3, 0.3e-3, 2e-3];
 
 /// An annulus of two parts, with the groups `bore`, and `foot` on an eighth of its outside; of Quad4, or of Hex8.
 pub fn annulus(solid: bool) -> Mesh {
-    let layers = if solid { HEIGHTS.len() } else { 1 };
+    let heights = if solid { &HEIGHTS[..] } else { &[0.0] };
+    let layers = heights.len();
     let number = |around: usize, radius: usize, layer: usize| {
         around % AROUND + AROUND * (radius + RADII.len() * layer)
     };
     let mut nodes = Vec::new();
-    for layer in 0..layers {
+    for &z in heights {
         for radius in RADII {
             for around in 0..AROUND {
                 let (sin, cos) = (std::f64::consts::TAU * around as f64 / AROUND as f64).sin_cos();
-                let z = if solid { HEIGHTS[layer] } else { 0.0 };
                 nodes.push([radius * cos, radius * sin, z]);
             }
         }

@@ -158,12 +158,25 @@ fn a_run_does_not_go_on_with_other_rows_than_it_had() {
     child.kill().unwrap();
     child.wait().unwrap();
     let path = partial.join("shaft_x.f64");
+    // rows, and then all of it, where a link leads
+    let resume = "run case.toml --set transient.end=5 --resume --quiet --out out";
+    for path in [&path, &partial] {
+        let elsewhere = folder.join("elsewhere");
+        fs::rename(path, &elsewhere).unwrap();
+        symlink(&elsewhere, path).unwrap();
+        let output = plummer(&folder, &words(resume));
+        assert!(!output.status.success());
+        let said = errors(&output);
+        assert!(said.contains("expected no symbolic link"), "{said}");
+        fs::remove_file(path).unwrap();
+        fs::rename(&elsewhere, path).unwrap();
+    }
     let mut bytes = fs::read(&path).unwrap();
     bytes[..8].copy_from_slice(&1.0_f64.to_le_bytes());
     fs::write(&path, bytes).unwrap();
     refused(
         &folder,
-        "run case.toml --set transient.end=5 --resume --quiet --out out",
+        resume,
         "the rows in its columns are not those that the checkpoint counts\nhelp: begin anew with --force\n",
     );
 }
@@ -244,6 +257,20 @@ fn results_of_another_mesh_are_not_exported() {
             "a.msh is not the file that out/modes.json speaks of",
         );
     }
+}
+
+/// Shapes that another model left beside a result are not written for it.
+#[test]
+fn shapes_are_not_read_beside_the_result_of_another_model() {
+    let folder = folder("other-shapes");
+    for nodes in [24, 25] {
+        let line = format!("modes case.toml --set ring.nodes={nodes} --quiet --out {nodes}");
+        let output = plummer(&folder, &words(&line));
+        assert!(output.status.success(), "{}", errors(&output));
+    }
+    fs::copy(folder.join("25/modes.npz"), folder.join("24/modes.npz")).unwrap();
+    let said = "24/modes.npz is not the file that 24/modes.json speaks of: expected SHA-256 ";
+    refused(&folder, "export 24 --to uff --quiet", said);
 }
 
 #[test]

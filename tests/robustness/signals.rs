@@ -9,6 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use plummer::exchange::NpzWriter;
 use serde_json::Value;
 
 use super::Dice;
@@ -124,6 +125,15 @@ fn words_against_the_file_are_said() {
         "{}",
         errors(&output)
     );
+    let mut file = NpzWriter::create(folder.join("own.npz")).unwrap();
+    let mut dice = Dice(7);
+    let values: Vec<f64> = (0..4000).map(|_| dice.fraction() - 0.5).collect();
+    file.array("x", &values).unwrap();
+    file.array("speed_hz", &[30.5]).unwrap();
+    file.finish().unwrap();
+    let output = analyze(&folder, "own.npz", "--bearing 6205 --rate 8000");
+    let said = "--speed takes 29.9500 Hz, on the average, for what the file says are 30.5000 Hz";
+    assert!(errors(&output).contains(said), "{}", errors(&output));
     let output = analyze(&folder, "good.csv", "--orders outer=3.585,inner=3.585");
     assert_eq!(output.status.code(), Some(2));
     assert!(
