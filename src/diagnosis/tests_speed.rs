@@ -101,6 +101,10 @@ fn the_given_speed_holds_where_its_own_lines_are() {
     assert!(alone.sentence().contains("where 25.00 Hz were given"));
     shaft_lines(&mut values, 25.0, 1.0);
     let both = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
-    assert!((both.speed_hz / 25.0 - 1.0).abs() < 2e-3, "{}", both.speed_hz);
+    assert!(
+        (both.speed_hz / 25.0 - 1.0).abs() < 2e-3,
+        "{}",
+        both.speed_hz
+    );
     assert_eq!(both.speed_change(), None);
 }
