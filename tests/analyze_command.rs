@@ -91,8 +91,8 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
         let why = &loaded.diagnosis.as_ref().unwrap().faults[0].why;
         assert!(why.contains(expected), "{name}: {why}");
     };
-    let sound = "The case has no damage there: balls that cross the play of 2.5 um strike";
-    let hidden = "This cannot be told from damage: balls that cross the play of 2.5 um strike";
+    let sound = "The case has no damage there, and the play is 2.5 um";
+    let hidden = "This cannot be told from damage: the play is 2.5 um";
     told("healthy", &set, sound);
     told("outer-dent", &set, hidden);
     // a shaft that is as heavy itself is such a load

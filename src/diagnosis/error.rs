@@ -37,6 +37,16 @@ pub enum DiagnosisError {
         /// End of the window, s.
         to_s: f64,
     },
+    /// A signal of tones alone, computed or recorded with too few digits: its rounding makes lines of its own.
+    #[error(
+        "expected noise beside the tones, to judge lines against, found a floor of {noise:.1e} (RMS) where the values have steps of {step:.1e}: record with a higher gain or more digits; a computed signal needs noise"
+    )]
+    NoNoise {
+        /// Root mean square of white noise with the floor's density, in the signal's unit.
+        noise: f64,
+        /// Step of the values, in the signal's unit.
+        step: f64,
+    },
     /// A shaft that rests or turns back: angle is no measure of progress then.
     #[error(
         "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"

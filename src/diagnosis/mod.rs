@@ -39,8 +39,10 @@ mod line_change;
 mod line_spectrum;
 mod order_spectrum;
 mod ratio_interval;
+mod rounding;
 mod shaft_speed;
 mod stretch_spectrum;
+mod strictly_periodic;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -5,7 +5,9 @@ use super::bands::{Spectra, band_spectra, check_band, searched_band};
 use super::comb::SHOWN_HARMONICS;
 use super::explain::{Found, Search};
 use super::findings::envelope_name;
+use super::rounding::check_noise;
 use super::shaft_speed::{ShaftSpeed, SpeedSource, speed_of_races};
+use super::strictly_periodic::say_strictly_periodic;
 use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict};
 use crate::series::{TimeSeries, TimeWindow};
@@ -63,9 +65,10 @@ impl Diagnosis {
         check_band(asked_hz, signal)?;
         let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
         let grid = AngleGrid::new(window, signal.step_s(), &turns, highest)?;
-        let white = WhiteSpectrum::of(signal)?;
         let strikes_hz = orders.highest() * grid.fastest_hz;
         let within_hz = searched_band(asked_hz, signal, strikes_hz);
+        check_noise(signal, within_hz)?;
+        let white = WhiteSpectrum::of(signal)?;
         let mut speed = ShaftSpeed::of(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
@@ -100,6 +103,14 @@ impl Diagnosis {
             speed = races;
             (spectra, found) = search(speed)?;
         }
+        say_strictly_periodic(
+            &mut found.faults,
+            &white,
+            within_hz,
+            orders,
+            speed.factor * given_speed_hz,
+            speed,
+        );
         let sharp = |time: f64| speed.factor * turns(time);
         let best = spectra
             .lines

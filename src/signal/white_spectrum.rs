@@ -28,6 +28,8 @@ const LIMIT: f64 = 3.0;
 #[derive(Debug, Clone)]
 pub struct WhiteSpectrum {
     bins: Vec<Complex<f64>>,
+    /// Amplitude of each bin over the median about it, before it is bounded.
+    over_median: Vec<f64>,
     points: usize,
     start_s: f64,
     step_s: f64,
@@ -59,8 +61,11 @@ impl WhiteSpectrum {
         let medians = running_median(&amplitudes, reach.max(FEWEST_BINS / 2));
         // bins of nothing but rounding stay as small as they are
         let least = 1e-12 * amplitudes.iter().fold(0.0_f64, |most, &a| most.max(a));
-        for ((bin, amplitude), median) in bins.iter_mut().zip(&amplitudes).zip(&medians) {
-            let over_median = amplitude / median.max(least).max(f64::MIN_POSITIVE);
+        let pairs = amplitudes.iter().zip(&medians);
+        let over_median: Vec<f64> = pairs
+            .map(|(amplitude, median)| amplitude / median.max(least).max(f64::MIN_POSITIVE))
+            .collect();
+        for ((bin, amplitude), over_median) in bins.iter_mut().zip(&amplitudes).zip(&over_median) {
             let wanted = over_median.min(LIMIT);
             *bin = if *amplitude > 0.0 {
                 *bin * (wanted / amplitude)
@@ -70,6 +75,7 @@ impl WhiteSpectrum {
         }
         Ok(Self {
             bins,
+            over_median,
             points,
             start_s: series.start_s(),
             step_s: series.step_s(),
@@ -88,8 +94,19 @@ impl WhiteSpectrum {
         let bins = self.bins.iter().enumerate();
         Ok(Self {
             bins: bins.map(|(bin, value)| value * gain(bin)).collect(),
+            over_median: self.over_median.clone(),
             ..*self
         })
+    }
+
+    /// Amplitude of each bin over the median about it, before it is bounded; [`bin`](Self::bin) is that of a frequency.
+    pub(crate) fn over_median(&self) -> &[f64] {
+        &self.over_median
+    }
+
+    /// Place of a frequency (Hz) among the bins, not rounded.
+    pub(crate) fn bin(&self, hz: f64) -> f64 {
+        hz * self.step_s * self.points as f64
     }
 
     /// Squared envelope of the band between two frequencies (Hz), at a rate of about four times the band's width: twice what its

@@ -15,22 +15,18 @@ pub(super) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
     let Some(bearing) = case.bearing.as_ref() else {
         return Vec::new();
     };
-    let strikes = (bearing.play() > 0.0).then(|| {
-        format!(
-            "balls that cross the play of {} um strike as they enter the load, at this order too",
-            significant(1e6 * bearing.play(), 2)
-        )
-    });
+    let play = (bearing.play() > 0.0)
+        .then(|| format!("the play is {} um", significant(1e6 * bearing.play(), 2)));
     let damaged: Vec<Fault> = bearing.defects.iter().map(part_of).collect();
     let mut reasons = Vec::new();
     for fault in [Fault::OuterRace, Fault::InnerRace, Fault::Ball] {
-        let strikes = strikes.as_ref().filter(|_| fault == Fault::OuterRace);
-        let reason = match (damaged.contains(&fault), strikes) {
-            (false, Some(strikes)) => format!("The case has no damage there: {strikes}."),
+        let play = play.as_ref().filter(|_| fault == Fault::OuterRace);
+        let reason = match (damaged.contains(&fault), play) {
+            (false, Some(play)) => format!("The case has no damage there, and {play}."),
             (false, None) => "The case has no damage there.".to_owned(),
-            (true, Some(strikes)) => match ball_weights(case) {
+            (true, Some(play)) => match ball_weights(case) {
                 Some(weights) if weights >= STRIKING_LOAD => format!(
-                    "This cannot be told from damage: {strikes}, and shaft and loads weigh up to {} times a ball. Compare with a run without the damage (--baseline).",
+                    "This cannot be told from damage: {play}, and shaft and loads weigh up to {} times a ball. Compare with a run without the damage (--baseline).",
                     significant(weights, 2)
                 ),
                 _ => continue,

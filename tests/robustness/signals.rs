@@ -159,6 +159,79 @@ fn a_band_at_the_end_of_the_signal_has_no_verdict() {
     assert!(!with(2000.0).1.contains("expected a band"));
 }
 
+/// What a computed signal of tones alone says of a bearing rests on the rounding of its numbers.
+#[test]
+fn signals_without_noise_have_no_verdict() {
+    let folder = scratch("no-noise");
+    let time = |place: usize| place as f64 / 8000.0;
+    let sine = |place: usize| (std::f64::consts::TAU * 107.3 * time(place)).sin();
+    table(&folder, "sine.csv", |place, _| sine(place));
+    table(&folder, "short.csv", |place, _| {
+        (32767.0 * sine(place)).round()
+    });
+    table(&folder, "ramp.csv", |place, _| 9.81 + time(place));
+    table(&folder, "step.csv", |place, _| {
+        f64::from(u8::from(place > 2000))
+    });
+    table(&folder, "offset.csv", |_, noise| {
+        f64::from((1e8 + noise) as f32)
+    });
+    for file in ["sine.csv", "short.csv", "ramp.csv", "step.csv"] {
+        let output = analyze(&folder, file, BEARING);
+        let text = errors(&output);
+        assert_eq!(output.status.code(), Some(1), "{file}: {text}");
+        assert!(
+            text.contains("expected noise beside the tones"),
+            "{file}: {text}"
+        );
+    }
+    // nothing is left of the noise in the digits of single precision
+    let output = analyze(&folder, "offset.csv", BEARING);
+    assert_eq!(output.status.code(), Some(1));
+    table(&folder, "double.csv", |_, noise| 1e8 + noise);
+    let output = analyze(&folder, "double.csv", BEARING);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+}
+
+#[test]
+fn tables_that_are_no_signals_are_refused() {
+    let folder = scratch("no-signals");
+    let write = |name: &str, head: &str, row: &dyn Fn(usize) -> String| {
+        let rows: String = (0..4000).map(row).collect();
+        fs::write(folder.join(name), format!("{head}\n{rows}")).unwrap();
+    };
+    let time = |place: usize| place as f64 / 8000.0;
+    let value = |place: usize| (place * 7919 % 1009) as f64;
+    let gap = |place: usize| time(place) + if place > 2000 { 0.5 } else { 0.0 };
+    write("gap.csv", "t,x", &|k| format!("{},{}\n", gap(k), value(k)));
+    write("back.csv", "t,x", &|k| {
+        format!("{},{}\n", time(4000 - k), value(k))
+    });
+    write("still.csv", "t,x", &|k| format!("0,{}\n", value(k)));
+    write("twice.csv", "t,x,x", &|k| {
+        format!("{},{},1\n", time(k), value(k))
+    });
+    write("commas.csv", "t,x", &|k| format!("{},0,5\n", time(k)));
+    table(
+        &folder,
+        "nan.csv",
+        |k, noise| if k == 2000 { f64::NAN } else { noise },
+    );
+    for (file, expected) in [
+        ("gap.csv", "expected equal time steps"),
+        ("back.csv", "expected equal time steps"),
+        ("still.csv", "expected equal time steps"),
+        ("twice.csv", "expected one channel of this name, found 2"),
+        ("commas.csv", "expected 2 columns"),
+        ("nan.csv", "nan.csv:2002: expected a finite number"),
+    ] {
+        let output = analyze(&folder, file, BEARING);
+        let text = errors(&output);
+        assert_eq!(output.status.code(), Some(2), "{file}: {text}");
+        assert!(text.contains(expected), "{file}: {text}");
+    }
+}
+
 /// Results are UTF-8, and so are the names in them.
 #[cfg(unix)]
 #[test]

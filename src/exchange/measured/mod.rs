@@ -140,6 +140,15 @@ fn choose(
         };
     }
     let place = |wanted: &String| {
+        let count = names.iter().filter(|name| *name == wanted).count();
+        if count > 1 {
+            return Err(MeasuredError::Array {
+                path: path.to_owned(),
+                name: wanted.clone(),
+                expected: "one channel of this name".to_owned(),
+                found: count.to_string(),
+            });
+        }
         let place = names.iter().position(|name| name == wanted);
         place.ok_or_else(|| MeasuredError::NoChannel {
             path: path.to_owned(),
