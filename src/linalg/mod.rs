@@ -50,7 +50,7 @@ pub use harmonic::{
 pub use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub use lu::SmallLu;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
+    SparseMatrix, TripletBuilder, congruence, placed, scattered_rows, sparse_times_dense, submatrix,
     transpose_times_dense,
 };
 
