@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what the build needs beside Rust, where it is missing: a C compiler and linker, pkg-config and ARPACK
+# Installs what the build needs beside Rust, where it is missing: a C compiler and linker
 # (Debian's package names). Quick and silent when everything is there.
 set -eu
 
@@ -19,13 +19,6 @@ fi
 # The C library's headers and start files; without them the linker cannot make a program.
 if ! { [ -e /usr/include/stdio.h ] || [ -e /usr/local/include/stdio.h ]; }; then
     need libc6-dev
-fi
-if ! command -v pkg-config >/dev/null 2>&1; then
-    need pkg-config
-    # Nothing can be asked about ARPACK yet; installing what is there already does no harm.
-    need libarpack2-dev
-elif ! pkg-config --exists arpack; then
-    need libarpack2-dev
 fi
 
 [ -n "$missing" ] || exit 0

@@ -8,8 +8,8 @@ use crate::case::{Case, Method};
 use crate::report::significant;
 use crate::shell_word::shell_word;
 use crate::stages::{
-    CHECKPOINT_S, Recording, SHOWN_WINDOWS, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
-    UnfinishedRun, compute_kept_run, explain_run, run_report,
+    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, SHOWN_WINDOWS, StageError,
+    UnfinishedError, UnfinishedRun, compute_kept_run, explain_run, run_report,
 };
 use crate::transient::BlowUp;
 use std::time::Duration;

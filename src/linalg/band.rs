@@ -185,13 +185,19 @@ impl<'p> Space<'p> {
     }
 
     fn ritz(&self) -> Result<SymmetricSpectrum, LinalgError> {
-        let part = self.projected.as_ref().submatrix(0, 0, self.done, self.done);
+        let part = self
+            .projected
+            .as_ref()
+            .submatrix(0, 0, self.done, self.done);
         symmetric_eigen(&part.to_owned())
     }
 
     /// `|A x - value x|` of a Ritz pair in the norm of M.
     fn residual(&self, spectrum: &SymmetricSpectrum, place: usize) -> f64 {
-        let part = spectrum.vectors.col(place).subrows(self.last.start, self.last.len());
+        let part = spectrum
+            .vectors
+            .col(place)
+            .subrows(self.last.start, self.last.len());
         let square: f64 = part.transpose() * (&self.outside * part);
         square.max(0.0).sqrt()
     }
@@ -206,13 +212,16 @@ impl<'p> Space<'p> {
         kept.sort_unstable();
         kept.dedup();
         let waiting = self.basis.size() - self.done;
-        let turn = DenseMatrix::from_fn(self.basis.size(), kept.len() + waiting, |row, column| {
-            match (row.checked_sub(self.done), column.checked_sub(kept.len())) {
-                (None, None) => spectrum.vectors[(row, kept[column])],
-                (Some(row), Some(column)) if row == column => 1.0,
-                _ => 0.0,
-            }
-        });
+        let turn =
+            DenseMatrix::from_fn(
+                self.basis.size(),
+                kept.len() + waiting,
+                |row, column| match (row.checked_sub(self.done), column.checked_sub(kept.len())) {
+                    (None, None) => spectrum.vectors[(row, kept[column])],
+                    (Some(row), Some(column)) if row == column => 1.0,
+                    _ => 0.0,
+                },
+            );
         self.basis.rotate(turn.as_ref());
         self.projected.fill(0.0);
         for (place, &old) in kept.iter().enumerate() {

@@ -188,14 +188,6 @@ pub enum LinalgError {
         /// Largest residual accepted.
         limit: f64,
     },
-    /// ARPACK refused its input; an error of this program.
-    #[error("ARPACK routine {routine} returned info = {info}")]
-    Arpack {
-        /// Name of the routine.
-        routine: &'static str,
-        /// Its error code.
-        info: i32,
-    },
     /// A dense eigenvalue computation failed or met values that are not finite.
     #[error("the dense eigenvalue computation of a {order} x {order} matrix failed")]
     DenseEigen {
@@ -213,7 +205,6 @@ impl LinalgError {
                 | Self::MissingModes { .. }
                 | Self::NoGap { .. }
                 | Self::Residual { .. }
-                | Self::Arpack { .. }
         )
     }
 

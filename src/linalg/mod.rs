@@ -1,5 +1,5 @@
 //! Linear algebra between the libraries and the mechanics: one sparse type, one dense type, one
-//! factorisation, one eigensolver for sparse problems (block Krylov for the lowest pairs, ARPACK for a band), one for
+//! factorisation, one eigensolver for sparse problems (block Krylov for the lowest pairs, block Lanczos for a band), one for
 //! dense ones, and one solver for harmonic loads.
 //!
 //! The sparse currency is [`SparseMatrix`] (compressed columns, both triangles stored), the dense
@@ -8,8 +8,6 @@
 //!
 //! **Limitations**: symmetric problems, complex ones for harmonic loads alone; a factor has at most 2^31 entries.
 
-#[allow(unsafe_code)]
-mod arpack;
 mod band;
 mod basis;
 mod bound;
@@ -50,8 +48,8 @@ pub use harmonic::{
 pub use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub use lu::SmallLu;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, placed, scattered_rows, sparse_times_dense, submatrix,
-    transpose_times_dense,
+    SparseMatrix, TripletBuilder, congruence, placed, scattered_rows, sparse_times_dense,
+    submatrix, transpose_times_dense,
 };
 
 /// Dense column-major matrix of `f64`.

@@ -30,10 +30,8 @@ pub fn survey_report(
     let title = format!("{inputs} files and folders");
     let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of ball bearings by their vibration signals");
-    report = counts(report, rows).section(verdicts(
-        rows,
-        "Analyse a file alone to see its spectra.",
-    ));
+    report =
+        counts(report, rows).section(verdicts(rows, "Analyse a file alone to see its spectra."));
     if failed > 0 {
         report = report.warning(format!(
             "{failed} rows have no window: their last column says why."
@@ -66,11 +64,7 @@ pub(super) fn counts(report: Report, rows: &[AnalysisRow]) -> Report {
     };
     let unjudged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| !figures.is_judged());
     report
-        .headline(
-            "Windows analysed",
-            windows(rows).to_string(),
-            Verdict::None,
-        )
+        .headline("Windows analysed", windows(rows).to_string(), Verdict::None)
         .headline(
             "Windows with a fault indicated",
             count(&indicated).to_string(),

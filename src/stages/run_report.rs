@@ -31,7 +31,9 @@ pub fn run_report<R: Recording>(
         .subtitle("Run-up transient of a ball bearing in its housing");
     let windows = result.windows.iter();
     let name = case.source.path.display().to_string();
-    let rows: Vec<AnalysisRow> = windows.map(|window| AnalysisRow::of(&name, window)).collect();
+    let rows: Vec<AnalysisRow> = windows
+        .map(|window| AnalysisRow::of(&name, window))
+        .collect();
     let few = rows.len() <= SHOWN_WINDOWS;
     report = match few {
         true => verdict_headlines(report, &result.windows),
@@ -48,14 +50,18 @@ pub fn run_report<R: Recording>(
         report = report.warning(text);
     }
     if few {
-        report.sections.extend(result.windows.iter().map(window_section));
+        report
+            .sections
+            .extend(result.windows.iter().map(window_section));
     } else {
         let instead = "`plummer analyze FOLDER --channel NAME` shows one sensor's.";
         report = report.section(verdicts(&rows, instead));
     }
     report = report.section(signals(result)?);
     let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
-    report.sections.extend(scalograms.map(SensorScalogram::section));
+    report
+        .sections
+        .extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     report = report.section(
         Section::new("Model")
@@ -265,7 +271,9 @@ mod tests {
         };
         let plots = |sections: &[Section]| {
             let blocks = sections.iter().flat_map(|section| &section.blocks);
-            blocks.filter(|block| matches!(block, Block::Plot(_))).count()
+            blocks
+                .filter(|block| matches!(block, Block::Plot(_)))
+                .count()
         };
         let titled = |sections: &[Section], title: &str| {
             sections.iter().any(|section| section.title == title)

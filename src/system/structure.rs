@@ -318,7 +318,10 @@ mod tests {
         let structure = structure_of(LARGEST_DENSE / 3 + 1);
         let modes = structure.lowest_modes(20).unwrap();
         assert!(modes.has_more && modes.count() == 20);
-        let (stiff, heavy) = (structure.stiffness() * &modes.shapes, structure.mass() * &modes.shapes);
+        let (stiff, heavy) = (
+            structure.stiffness() * &modes.shapes,
+            structure.mass() * &modes.shapes,
+        );
         for mode in 0..20 {
             let square = modes.squared_frequencies[mode];
             let rest = stiff.col(mode) - heavy.col(mode) * faer::Scale(square);
@@ -327,7 +330,10 @@ mod tests {
         }
         let load = DenseMatrix::from_fn(structure.dof(), 1, |row, _| f64::from(u8::from(row == 7)));
         let response = structure.static_response(&load).unwrap();
-        assert!(matches!(structure.factor.get(), Some(Some(StaticFactor::Sparse(_)))));
+        assert!(matches!(
+            structure.factor.get(),
+            Some(Some(StaticFactor::Sparse(_)))
+        ));
         let rest = structure.stiffness() * &response - &load;
         // stiffness of an element times the displacement, 1e9 N/m and 1e-6 m, in the last digits
         assert!(rest.norm_max() < 1e-9, "{:e}", rest.norm_max());

@@ -1,4 +1,4 @@
-//! Reference: the second eigensolver (shift-invert ARPACK from the middle of a band, factor in double precision with
+//! Reference: the second eigensolver (block Lanczos from the middle of a band, factor in double precision with
 //!   pivots) and the dense one, against the block iteration with its factor in single precision; and what is known of
 //!   models on which modal computations fail elsewhere.
 //! Goal: the right number of modes with the right frequencies, or a clear error, on every one of them.

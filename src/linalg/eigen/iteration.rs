@@ -100,12 +100,7 @@ impl EigenProblem {
 
     /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
     /// are known, whichever vectors of the crowd were found. `None` if one is missing, or if it cannot be counted there.
-    pub(super) fn count_before(
-        &self,
-        ritz: &Ritz,
-        count: usize,
-        shift: f64,
-    ) -> Option<CountCheck> {
+    pub(super) fn count_before(&self, ritz: &Ritz, count: usize, shift: f64) -> Option<CountCheck> {
         let gap = |place: usize| {
             let low = place.checked_sub(1).map_or(shift, |last| ritz.values[last]);
             [low, ritz.values[place]]

@@ -42,7 +42,10 @@ fn the_estimate_of_modes_looks_at_few_of_many_sensors_and_says_so() {
         choice("scenes/smooth", &[&set]).parts[0].why.clone()
     };
     let few = why(130);
-    assert!(few.ends_with("; estimated at 44 of the 130 sensors"), "{few}");
+    assert!(
+        few.ends_with("; estimated at 44 of the 130 sensors"),
+        "{few}"
+    );
     assert!(!why(2).contains("estimated at"));
 }
 

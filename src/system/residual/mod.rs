@@ -80,8 +80,9 @@ impl ResidualFlexibility {
             }
         }
         let sensors = structure.sensors();
-        let sensor_rows = DenseMatrix::from_fn(sensors.len(), dof, |sensor, row| sensors[sensor].row[row])
-            * response.subcols(0, ring_dof);
+        let sensor_rows =
+            DenseMatrix::from_fn(sensors.len(), dof, |sensor, row| sensors[sensor].row[row])
+                * response.subcols(0, ring_dof);
         let width = ring_dof + ELEMENT_DOF / 2;
         let polar = polar_components(ring, width);
         let on_ring = response.subrows(0, ring_dof);

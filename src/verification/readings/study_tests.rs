@@ -255,7 +255,10 @@ fn the_static_response_of_the_modes_left_out_is_what_makes_few_modes_enough() {
         has_more: true,
         ..few
     });
-    assert!((knowing / exact - 1.0).abs() < 1e-5, "{knowing} and {exact}");
+    assert!(
+        (knowing / exact - 1.0).abs() < 1e-5,
+        "{knowing} and {exact}"
+    );
     assert!(kept < 20 && modes.count() == 216, "{kept}");
     assert!((with / exact - 1.0).abs() < 1e-5, "{with} and {exact}");
     assert!(
