@@ -25,6 +25,9 @@ const LOOK: usize = 3;
 /// residuals of the equation itself are verified afterwards.
 const TOLERANCE: f64 = 1e-10;
 
+/// New spaces in a row that may find nothing new in the band.
+const IDLE: usize = 2;
+
 /// Looks after which the iteration gives up; modal problems need two to ten.
 const LOOKS: usize = 200;
 
@@ -34,7 +37,7 @@ pub(super) fn largest_basis(count: usize) -> usize {
 }
 
 /// The `count` pairs that lie between `low` and `high`, by counts at both ends. A block sees as many vectors of a repeated eigenvalue
-/// as it has; where pairs are missing although all that are seen have converged, new vectors come in.
+/// as it has; where pairs are missing although all that are seen have converged, a new space is begun beside them.
 ///
 /// # Errors
 /// [`LinalgError::MissingModes`], [`LinalgError::DenseEigen`].
@@ -46,7 +49,7 @@ pub(super) fn between(
 ) -> Result<Ritz, LinalgError> {
     let mut space = Space::new(mass, factor, largest_basis(count));
     let mut next = 2 * count + 4 * BLOCK;
-    let mut known = 0;
+    let (mut known, mut complete, mut idle) = (0, 0, 0);
     for _ in 0..LOOKS {
         let mut grows = true;
         while grows && space.done < next && space.has_room() {
@@ -69,12 +72,21 @@ pub(super) fn between(
             break;
         }
         if !space.has_room() {
-            space.restart(&spectrum, &inside, count + count / 2 + BLOCK);
+            if open > 0 {
+                let waiting = space.basis.size() - space.done;
+                let kept = space.best(&spectrum, &inside, count + count / 2 + BLOCK);
+                space.restart(&spectrum, &kept, waiting);
+            } else {
+                // what is missing is no part of this space: a new one beside the known pairs
+                idle = if known > complete { 0 } else { idle + 1 };
+                if idle == IDLE {
+                    break;
+                }
+                complete = known;
+                space.restart(&spectrum, &inside, 0);
+            }
         }
-        if open == 0 {
-            space.enrich()?;
-        }
-        next = space.done + LOOK * BLOCK;
+        next = space.done + (LOOK * BLOCK).max(count / 4);
     }
     Err(LinalgError::MissingModes {
         below_hz: high.max(0.0).sqrt() / std::f64::consts::TAU,
@@ -115,7 +127,7 @@ impl<'p> Space<'p> {
             last: 0..0,
             outside: DenseMatrix::zeros(0, 0),
             started: 0,
-            blocks: [(); 3].map(|()| DenseMatrix::zeros(order, 2 * BLOCK)),
+            blocks: [(); 3].map(|()| DenseMatrix::zeros(order, BLOCK)),
         }
     }
 
@@ -202,8 +214,8 @@ impl<'p> Space<'p> {
         square.max(0.0).sqrt()
     }
 
-    /// Keeps these Ritz vectors and so many of the largest in magnitude, and the vectors that are still to be multiplied.
-    fn restart(&mut self, spectrum: &SymmetricSpectrum, inside: &[usize], largest: usize) {
+    /// These places and so many of the largest values in magnitude, ascending.
+    fn best(&self, spectrum: &SymmetricSpectrum, inside: &[usize], largest: usize) -> Vec<usize> {
         let size = |place: &usize| spectrum.values[*place].abs();
         let mut kept: Vec<usize> = (0..self.done).collect();
         kept.sort_by(|a, b| size(b).total_cmp(&size(a)));
@@ -211,7 +223,12 @@ impl<'p> Space<'p> {
         kept.extend(inside);
         kept.sort_unstable();
         kept.dedup();
-        let waiting = self.basis.size() - self.done;
+        kept
+    }
+
+    /// Keeps these Ritz vectors, and so many of the vectors that are still to be multiplied: all, or none where these pairs have
+    /// converged and lie in the space alone.
+    fn restart(&mut self, spectrum: &SymmetricSpectrum, kept: &[usize], waiting: usize) {
         let turn =
             DenseMatrix::from_fn(
                 self.basis.size(),
