@@ -2,7 +2,7 @@
 
 use super::SystemMatrices;
 use crate::linalg::{
-    DenseMatrix, SparseMatrix, TripletBuilder, congruence, sparse_times_dense,
+    DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense,
     transpose_times_dense,
 };
 use crate::model::{HousingModel, Ring, RingTie};
@@ -147,17 +147,4 @@ impl CoupledMotions {
         }
         x
     }
-}
-
-/// A dense matrix at a place on the diagonal of an empty one.
-fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
-    let mut whole = TripletBuilder::new(order, order);
-    for column in 0..part.ncols() {
-        for row in 0..part.nrows() {
-            if part[(row, column)] != 0.0 {
-                whole.add(first + row, first + column, part[(row, column)]);
-            }
-        }
-    }
-    whole.build()
 }

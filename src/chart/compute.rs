@@ -69,7 +69,7 @@ pub fn compute_chart(
     effort: Effort,
     watch: &(impl Watch + Sync),
 ) -> Result<Chart, ChartError> {
-    let scene = Scene::build(case, watch)?;
+    let scene = Scene::with_all_modes(case, watch)?;
     // a chart without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
     let settings = Settings::of(case, asked, effort)?;

@@ -81,7 +81,7 @@ pub(super) fn run_json<R: Recording>(
         },
         "model": {
             "modes": result.simulation.modes,
-            "of_modes": result.scene.stage.modes.count(),
+            "of_modes": result.scene.stage.structure.dof(),
             "fixed_interface_modes": result.scene.stage.fixed_interface_modes,
             "balls": match result.choice.model.balls_inertia {
                 BallsInertia::Dynamic => "dynamic",

@@ -8,8 +8,8 @@ use crate::case::{Case, Method, Transient};
 use crate::report::significant;
 use crate::shell_word::shell_word;
 use crate::stages::{
-    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, StageError, UnfinishedError,
-    UnfinishedRun, compute_kept_run, explain_run, run_report,
+    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, SHOWN_WINDOWS, StageError,
+    UnfinishedError, UnfinishedRun, compute_kept_run, explain_run, run_report,
 };
 use crate::transient::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use std::time::Duration;
@@ -204,7 +204,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         result.simulation.step_s(),
         result.simulation.method.name(),
         result.simulation.modes,
-        result.scene.stage.modes.count(),
+        result.scene.stage.structure.dof(),
         if result.simulation.residual {
             " with static residual"
         } else {
@@ -213,7 +213,7 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         result.simulation.realtime_factor(),
     ));
     lines.push(result.estimate_sentence());
-    for window in &result.windows {
+    for window in result.windows.iter().take(SHOWN_WINDOWS) {
         lines.push(format!(
             "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",
             window.sensor, window.from, window.to, window.speed_hz, window.rms, window.peak
@@ -236,6 +236,12 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
                 ),
             });
         }
+    }
+    if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
+        lines.push(format!(
+            "{} windows more: run.json and the report have them",
+            more + 1
+        ));
     }
     if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());

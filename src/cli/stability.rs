@@ -25,7 +25,7 @@ pub(super) fn alone(
     progress: &Progress,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let scene = Scene::build(case, progress)?;
+    let scene = Scene::with_all_modes(case, progress)?;
     let conditions = Condition::all(case, effort);
     let stability = compute_stability(case, &scene, conditions, effort, progress)?;
     progress.stage("write");

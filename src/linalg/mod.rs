@@ -50,8 +50,8 @@ pub use harmonic::{
 pub use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub use lu::SmallLu;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, scattered_rows, sparse_times_dense, submatrix,
-    transpose_times_dense,
+    SparseMatrix, TripletBuilder, congruence, placed, scattered_rows, sparse_times_dense,
+    submatrix, transpose_times_dense,
 };
 
 /// Dense column-major matrix of `f64`.

@@ -71,6 +71,19 @@ pub fn submatrix(a: &SparseMatrix, rows: &[usize], columns: &[usize]) -> SparseM
     sprs::CsMat::new_csc((rows.len(), columns.len()), offsets, indices, values)
 }
 
+/// A square dense matrix at a place on the diagonal of an empty one [order x order]; zeros are left out.
+pub fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
+    let mut whole = TripletBuilder::new(order, order);
+    for column in 0..part.ncols() {
+        for (row, &value) in part.col_as_slice(column).iter().enumerate() {
+            if value != 0.0 {
+                whole.add(first + row, first + column, value);
+            }
+        }
+    }
+    whole.build()
+}
+
 /// The rows of `part` [rows x k] at the given places of `order` rows, the others zero.
 pub fn scattered_rows(part: &DenseMatrix, rows: &[usize], order: usize) -> DenseMatrix {
     let mut whole = DenseMatrix::zeros(order, part.ncols());

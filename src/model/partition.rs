@@ -7,7 +7,7 @@ use crate::linalg::SparseMatrix;
 pub struct HousingPartition {
     /// Degrees of freedom that the tie drives.
     pub driven: Vec<usize>,
-    /// Degrees of freedom that stay free, neither driven nor fixed.
+    /// Degrees of freedom that stay free, neither driven nor fixed, ascending.
     pub interior: Vec<usize>,
     /// T: displacements of `driven` from the interface coordinates [driven x interface].
     pub tie: SparseMatrix,

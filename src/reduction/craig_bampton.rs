@@ -163,7 +163,7 @@ impl CraigBampton {
     pub fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
         let partition = self.substructure.partition();
         let interface = self.superelement.interface_dof;
-        if let Some(place) = partition.interior.iter().position(|&i| i == dof) {
+        if let Ok(place) = partition.interior.binary_search(&dof) {
             let psi = self.substructure.constraint_modes();
             let q = self.basis.vectors();
             let constraint = (0..interface).map(|column| psi[(place, column)]);

@@ -1,11 +1,11 @@
-//! The report of many analysed files: one table, and the windows themselves where they are few.
+//! Many analysed windows in a report: counts, one table, and the windows themselves where they are few.
 
 use super::WindowAnalysis;
 use super::analysis_report::window_section;
 use super::analysis_table::{AnalysisRow, analysis_table};
 use crate::report::{Report, Section, Verdict};
 
-/// Most windows that a report of many files shows with their plots.
+/// Most windows or sensors that a report shows with their plots.
 pub const SHOWN_WINDOWS: usize = 12;
 
 /// A window's section in a report of many files.
@@ -26,11 +26,32 @@ pub fn survey_report(
     assumptions: &[String],
     command: &str,
 ) -> Report {
-    let windows = rows.iter().filter(|row| row.found.is_ok()).count();
-    let failed = rows.len() - windows;
+    let failed = rows.len() - windows(rows);
     let title = format!("{inputs} files and folders");
     let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of ball bearings by their vibration signals");
+    report =
+        counts(report, rows).section(verdicts(rows, "Analyse a file alone to see its spectra."));
+    if failed > 0 {
+        report = report.warning(format!(
+            "{failed} rows have no window: their last column says why."
+        ));
+    }
+    if windows(rows) <= SHOWN_WINDOWS {
+        report.sections.extend(sections);
+    }
+    for text in assumptions {
+        report = report.assumption(text.clone());
+    }
+    report
+}
+
+fn windows(rows: &[AnalysisRow]) -> usize {
+    rows.iter().filter(|row| row.found.is_ok()).count()
+}
+
+/// How many windows there are, and what is said of how many, on top of a report.
+pub(super) fn counts(report: Report, rows: &[AnalysisRow]) -> Report {
     let count =
         |wanted: &dyn Fn(&AnalysisRow) -> bool| rows.iter().filter(|row| wanted(row)).count();
     let indicated = |row: &AnalysisRow| {
@@ -42,8 +63,8 @@ pub fn survey_report(
         })
     };
     let unjudged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| !figures.is_judged());
-    report = report
-        .headline("Windows analysed", windows.to_string(), Verdict::None)
+    report
+        .headline("Windows analysed", windows(rows).to_string(), Verdict::None)
         .headline(
             "Windows with a fault indicated",
             count(&indicated).to_string(),
@@ -53,24 +74,16 @@ pub fn survey_report(
             "Windows without a verdict",
             count(&unjudged).to_string(),
             Verdict::None,
-        );
-    let mut table = Section::new("Verdicts").table(analysis_table(rows));
-    if windows > SHOWN_WINDOWS {
-        table = table.paragraph(format!(
-            "This report has no plots: there are {windows} windows, and it shows at most {SHOWN_WINDOWS}. Analyse a file alone to see its spectra."
-        ));
+        )
+}
+
+/// All windows in one table; `instead` says how to see one of them where they are too many to be shown.
+pub(super) fn verdicts(rows: &[AnalysisRow], instead: &str) -> Section {
+    let section = Section::new("Verdicts").table(analysis_table(rows));
+    match windows(rows) {
+        ..=SHOWN_WINDOWS => section,
+        windows => section.paragraph(format!(
+            "This report has no plots of windows: there are {windows}, and it shows at most {SHOWN_WINDOWS}. {instead}"
+        )),
     }
-    report = report.section(table);
-    if failed > 0 {
-        report = report.warning(format!(
-            "{failed} rows have no window: their last column says why."
-        ));
-    }
-    if windows <= SHOWN_WINDOWS {
-        report.sections.extend(sections);
-    }
-    for text in assumptions {
-        report = report.assumption(text.clone());
-    }
-    report
 }

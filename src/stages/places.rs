@@ -4,6 +4,7 @@ use super::condensed::{Boundary, CondensedStage};
 use super::{HousingStage, StageError};
 use crate::assembly::CoupledMatrices;
 use crate::case::{self, SensorSpot};
+use crate::mesh::BoundingBox;
 use crate::model::{Ring, RingFrame, RingTie};
 use crate::reduction::CraigBampton;
 
@@ -276,19 +277,28 @@ fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<
             plane
         }
     };
-    let bounds = housing.mesh.inventory().bounding_box.extent();
+    let bounds = BoundingBox::of(housing.mesh.nodes.iter().copied()).extent();
     let nodes = housing.mesh.nodes.iter().enumerate();
-    let on_housing = nodes.filter(|(index, _)| housing.model.is_used(*index));
-    let found = on_housing.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    let mut found: Option<(usize, f64)> = None;
+    for (index, node) in nodes.filter(|(index, _)| housing.model.is_used(*index)) {
+        let nearer = |away: f64| found.is_none_or(|(_, least)| away < least);
+        // what is too far along x alone need not be measured
+        if nearer((node[0] - point[0]).abs()) {
+            let away = distance(node);
+            if nearer(away) {
+                found = Some((index, away));
+            }
+        }
+    }
     let missed = |distance| StageError::SensorPlace {
         name: name.to_owned(),
         point: *point,
         distance,
     };
-    let (index, node) = found.ok_or_else(|| missed(f64::INFINITY))?;
-    if distance(node) <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
+    let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;
+    if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
         Ok(index)
     } else {
-        Err(missed(distance(node)))
+        Err(missed(away))
     }
 }

@@ -1,10 +1,14 @@
 //! The report of `plummer run`.
 
 use super::analysis_report::{capital, verdict_headlines, window_section};
+use super::analysis_survey::{counts, verdicts};
 use super::drawing::draw;
 use super::statics_report::statics_section;
 use super::tables::{assumptions, expected_table, mode_table, model_facts};
-use super::{ExpectedMode, Recording, RunEnd, RunResult, StageError};
+use super::{
+    AnalysisRow, ExpectedMode, Recording, RunEnd, RunResult, SHOWN_WINDOWS, SensorScalogram,
+    StageError,
+};
 use crate::case::Case;
 use crate::report::{
     Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant,
@@ -25,6 +29,16 @@ pub fn run_report<R: Recording>(
 ) -> Result<Report, StageError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
+    let windows = result.windows.iter();
+    let name = case.source.path.display().to_string();
+    let rows: Vec<AnalysisRow> = windows
+        .map(|window| AnalysisRow::of(&name, window))
+        .collect();
+    let few = rows.len() <= SHOWN_WINDOWS;
+    report = match few {
+        true => verdict_headlines(report, &result.windows),
+        false => counts(report, &rows),
+    };
     report = headlines(report, result);
     if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));
@@ -35,13 +49,19 @@ pub fn run_report<R: Recording>(
     for text in &result.warnings {
         report = report.warning(text);
     }
-    for window in &result.windows {
-        report = report.section(window_section(window));
+    if few {
+        report
+            .sections
+            .extend(result.windows.iter().map(window_section));
+    } else {
+        let instead = "`plummer analyze FOLDER --channel NAME` shows one sensor's.";
+        report = report.section(verdicts(&rows, instead));
     }
     report = report.section(signals(result)?);
-    for scalogram in &result.scalograms {
-        report = report.section(scalogram.section());
-    }
+    let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
+    report
+        .sections
+        .extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     report = report.section(
         Section::new("Model")
@@ -70,7 +90,7 @@ pub fn run_report<R: Recording>(
 }
 
 fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
-    let mut report = verdict_headlines(report, &result.windows).headline(
+    let mut report = report.headline(
         "Simulated",
         format!("{} s", significant(result.simulation.simulated_s, 4)),
         Verdict::of(matches!(result.simulation.end, RunEnd::Complete)),
@@ -115,8 +135,16 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
     }
     let sensors = record.sensors();
     let grid = [simulation.start_s, simulation.schedule.interval];
-    for (index, name) in sensors.iter().enumerate() {
-        let mut thinner = Thinner::new(rows, SIGNAL_POINTS / sensors.len());
+    let shown = &sensors[..sensors.len().min(SHOWN_WINDOWS)];
+    if shown.len() < sensors.len() {
+        section = section.paragraph(format!(
+            "The first {} of {} sensors are shown; signals.npz has all.",
+            shown.len(),
+            sensors.len()
+        ));
+    }
+    for (index, name) in shown.iter().enumerate() {
+        let mut thinner = Thinner::new(rows, SIGNAL_POINTS / shown.len());
         record.read(Column::Sensor(index), 0..rows, &mut |piece| {
             thinner.push(piece);
             Ok(())
@@ -191,7 +219,7 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
             format!(
                 "{} of {}",
                 result.simulation.modes,
-                result.scene.stage.modes.count()
+                result.scene.stage.structure.dof()
             ),
         )
         .note(if result.simulation.residual {
@@ -222,4 +250,44 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
     ];
     facts.extend(energy);
     facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Block;
+    use crate::stages::{Unwatched, compute_run};
+
+    /// Twelve sensors are drawn, and of more than twelve windows there is one table.
+    #[test]
+    fn a_report_of_many_sensors_shows_some_and_says_so() {
+        let sections = |sensors: usize| {
+            let sensor = |at| format!("{{name='P{at}',ring_deg={at},direction=[0,1,0]}}");
+            let all: Vec<String> = (0..sensors).map(sensor).collect();
+            let all = format!("sensors=[{}]", all.join(","));
+            let window = "analysis.envelope=[{from=0.2e-3,to=0.8e-3}]";
+            let set = [&*all, window, "transient.end=1e-3", "transient.modes=3"];
+            let case = Case::example("scenes/smooth", &set);
+            let result = compute_run(&case, &Unwatched).unwrap();
+            assert_eq!(result.windows.len(), sensors, "{:?}", result.not_analysed);
+            run_report(&case, &result, "").unwrap().sections
+        };
+        let plots = |sections: &[Section]| {
+            let blocks = sections.iter().flat_map(|section| &section.blocks);
+            blocks
+                .filter(|block| matches!(block, Block::Plot(_)))
+                .count()
+        };
+        let titled = |sections: &[Section], title: &str| {
+            sections.iter().any(|section| section.title == title)
+        };
+        let (few, many) = (sections(SHOWN_WINDOWS), sections(SHOWN_WINDOWS + 1));
+        assert!(!titled(&few, "Verdicts") && titled(&many, "Verdicts"));
+        assert!(plots(&few) > 2 * SHOWN_WINDOWS && plots(&many) < plots(&few));
+        let said = many.iter().flat_map(|section| &section.blocks);
+        let said = said.filter(|block| {
+            matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors"))
+        });
+        assert_eq!(said.count(), 1);
+    }
 }

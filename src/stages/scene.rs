@@ -36,8 +36,26 @@ impl Scene {
     /// [`StageError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
         refuse_structural_damping(case)?;
+        Self::built(StructureStage::build(case, watch)?, case, watch)
+    }
+
+    /// The scene of a case with all modes of its structure, however many.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn with_all_modes(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+        refuse_structural_damping(case)?;
+        let stage = StructureStage::with_modes(case, usize::MAX, watch)?;
+        Self::built(stage, case, watch)
+    }
+
+    fn built(
+        stage: Option<StructureStage>,
+        case: &Case,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
         // a run without ring, bearing, shaft or transient was refused with the case
-        let stage = StructureStage::build(case, watch)?.ok_or(SystemError::NotSupported)?;
+        let stage = stage.ok_or(SystemError::NotSupported)?;
         watch.stage("equilibrium");
         Self::around(stage, case)
     }

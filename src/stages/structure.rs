@@ -5,13 +5,16 @@ use super::housing::material;
 use super::imported::ImportedHousing;
 use super::places::{Place, PlaceBodies};
 use super::{HousingStage, StageError, Watch};
-use crate::case::{self, Case, Interface};
+use crate::case::{self, Case, Interface, ModesKept};
 use crate::element::curved_beam::RingInterpolation;
 use crate::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
 use crate::reduction::{BasisChoice, BasisSize};
 use crate::system::{Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
+
+/// Modes of a ring of many nodes where a part of them is enough: as many as a ring of 72 nodes in a solid housing has of its own.
+const LOWEST: usize = 432;
 
 /// Frequencies up to so many times the band take part in a run: contact shakes ring and housing above the band too.
 pub(super) const MODELLED: f64 = 3.0;
@@ -48,16 +51,28 @@ pub struct StructureStage {
     pub complete_hz: f64,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,
-    /// All its modes.
+    /// All its modes, or the lowest ones of a ring of many nodes.
     pub modes: StructureModes,
 }
 
 impl StructureStage {
-    /// Builds ring and housing of a case; `None` without a ring.
+    /// Builds ring and housing of a case, with as many modes as it needs; `None` without a ring.
     ///
     /// # Errors
     /// [`StageError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+        Self::with_modes(case, needed_modes(case), watch)
+    }
+
+    /// The same with at least so many modes, if it has them.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub(super) fn with_modes(
+        case: &Case,
+        count: usize,
+        watch: &impl Watch,
+    ) -> Result<Option<Self>, StageError> {
         let Some(asked) = &case.ring else {
             return Ok(None);
         };
@@ -75,7 +90,8 @@ impl StructureStage {
             let mut structure = Structure::with_housing(ring, &imported.element, gravity)?;
             let rows = imported.sensor_rows(case, structure.ring())?;
             add_sensors(&mut structure, &case.sensors, rows)?;
-            return Self::solved(structure, Around::Imported(Box::new(imported)), watch).map(Some);
+            let around = Around::Imported(Box::new(imported));
+            return Self::solved(structure, around, count, watch).map(Some);
         }
         let asked_basis = basis_choice(case);
         let choice = BasisChoice {
@@ -104,7 +120,7 @@ impl StructureStage {
                 rows.push(place.on_ring(structure.dof()));
             }
             add_sensors(&mut structure, &case.sensors, rows)?;
-            return Self::solved(structure, Around::Nothing, watch).map(Some);
+            return Self::solved(structure, Around::Nothing, count, watch).map(Some);
         };
         let mut rows = Vec::with_capacity(case.sensors.len());
         for sensor in &case.sensors {
@@ -124,7 +140,7 @@ impl StructureStage {
         let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
         add_sensors(&mut structure, &case.sensors, rows)?;
         let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
-        let solved = Self::solved(structure, around, watch)?;
+        let solved = Self::solved(structure, around, count, watch)?;
         Ok(Some(Self {
             complete_hz,
             ..solved
@@ -134,11 +150,12 @@ impl StructureStage {
     fn solved(
         structure: Structure,
         around: Around,
+        modes: usize,
         watch: &impl Watch,
     ) -> Result<Self, StageError> {
         watch.stage("eigen");
         let mut stage = Self {
-            modes: structure.modes()?,
+            modes: structure.lowest_modes(modes)?,
             housing: None,
             imported: None,
             tie: None,
@@ -170,6 +187,22 @@ impl StructureStage {
             (None, Some(imported)) => imported.frame,
             (None, None) => RingFrame::default(),
         }
+    }
+}
+
+/// How many modes a case asks for: the printed equations and the source's method take all.
+fn needed_modes(case: &Case) -> usize {
+    let printed = case::Formulation::Printed;
+    let bearing = case.bearing.as_ref();
+    let transient = case.transient.as_ref();
+    let source = transient.is_some_and(|asked| asked.method == case::Method::NewmarkExplicit);
+    if source || bearing.is_some_and(|bearing| bearing.formulation == printed) {
+        return usize::MAX;
+    }
+    match transient.map(|asked| asked.modes) {
+        Some(ModesKept::All) => usize::MAX,
+        Some(ModesKept::Count(count)) => count.max(LOWEST),
+        Some(ModesKept::Auto) | None => LOWEST,
     }
 }
 

@@ -154,7 +154,7 @@ impl CoupledSystem {
         residual: bool,
     ) -> Result<Self, SystemError> {
         let count = selection.count(modes);
-        let complete = count == modes.count();
+        let complete = count == modes.count() && !modes.has_more;
         if count == 0 {
             return Err(SystemError::NoModesKept {
                 lowest_hz: modes.frequency_hz(0),

@@ -53,7 +53,8 @@ struct Linearised {
 
 impl LoadedModes {
     /// Linearises at `equilibrium`. With `consistent` equations the problem is symmetric; the
-    /// `printed` ones couple the balls to the mean ring acceleration and need a general solver.
+    /// `printed` ones couple the balls to the mean ring acceleration and need a general solver. Where the structure has more
+    /// than these modes, its static response under the balls stands for the others.
     ///
     /// # Errors
     /// What the eigenvalue computation reports.
@@ -63,7 +64,13 @@ impl LoadedModes {
         setup: &BearingSetup,
         equilibrium: &Equilibrium,
     ) -> Result<Self, SystemError> {
-        Ok(LoadedShapes::at(structure, modes, setup, equilibrium)?.modes)
+        if !modes.has_more {
+            return Ok(LoadedShapes::at(structure, modes, setup, equilibrium)?.modes);
+        }
+        let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
+        let loads = contact_rows(structure, setup, &angles);
+        let basis = modes.with_static_response(structure, f64::INFINITY, &loads)?;
+        Ok(LoadedShapes::at(structure, &basis, setup, equilibrium)?.modes)
     }
 
     /// The mode nearest to a frequency (Hz) among those that are not the balls' own.

@@ -146,9 +146,7 @@ impl Observer<CoupledSystem> for Recorder {
         for (sensor, filter) in self.filters.iter_mut().enumerate() {
             let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
-                let forces = system.balls.all(|ball| &ball.outer_radial);
-                let row = residual.sensor_row(sensor).as_flattened().iter();
-                row.zip(forces).map(|(row, force)| row * force).sum()
+                residual.at_sensor(sensor, system.balls.all(|ball| &ball.outer_radial))
             });
             if let Some(acceleration) = filter.push(modal + residual) {
                 self.queue.sensors[sensor].1.push(acceleration);

@@ -2,11 +2,22 @@
 //! housing.
 
 use super::SystemError;
-use crate::linalg::{DenseCholesky, DenseMatrix, symmetric_generalised_eigen};
+use crate::linalg::{
+    DenseCholesky, DenseMatrix, EigenProblem, SparseCholesky, placed, symmetric_generalised_eigen,
+};
 use crate::model::Ring;
 use crate::reduction::Superelement;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
+
+/// Most coordinates that are solved densely where a part of the modes is enough: a minute's work for all modes.
+const LARGEST_DENSE: usize = 1300;
+
+/// Entries of a stiffness, as a divisor of all places, up to which it is factorised as a sparse matrix.
+const SPARSE: usize = 10;
+
+/// Relative error of static responses by a sparse factor above which a structure counts as free.
+const LARGEST_CONTRACTION: f64 = 1e-4;
 
 /// A displacement to watch: `row . (ring displacements, housing amplitudes)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +38,14 @@ pub struct Structure {
     gravity: Vec<f64>,
     sensors: Vec<Sensor>,
     /// Factor of the stiffness once it was asked for; `None` in it: the structure is not held.
-    factor: OnceLock<Option<DenseCholesky>>,
+    factor: OnceLock<Option<StaticFactor>>,
+}
+
+/// Factor of the stiffness.
+#[derive(Debug, Clone)]
+enum StaticFactor {
+    Dense(DenseCholesky),
+    Sparse(SparseCholesky),
 }
 
 /// Modes of a structure: all of them, or the lowest with what they leave out of some static responses.
@@ -35,8 +53,10 @@ pub struct Structure {
 pub struct StructureModes {
     /// omega^2, 1/s^2, ascending.
     pub squared_frequencies: Vec<f64>,
-    /// Mode shapes [dof x dof], `phi^T M phi = 1`.
+    /// Mode shapes [dof x modes], `phi^T M phi = 1`.
     pub shapes: DenseMatrix,
+    /// Whether the structure has modes above these.
+    pub has_more: bool,
 }
 
 impl Structure {
@@ -162,6 +182,25 @@ impl Structure {
         Ok(StructureModes {
             squared_frequencies: spectrum.values,
             shapes: spectrum.vectors,
+            has_more: false,
+        })
+    }
+
+    /// The lowest `count` modes of a large structure, by the solver for sparse problems; all of one with few coordinates.
+    ///
+    /// # Errors
+    /// What the eigenvalue computation reports.
+    pub fn lowest_modes(&self, count: usize) -> Result<StructureModes, SystemError> {
+        let order = self.dof();
+        if order <= LARGEST_DENSE.max(count) {
+            return self.modes();
+        }
+        let [k, m] = [&self.stiffness, &self.mass].map(|matrix| placed(matrix, 0, order));
+        let pairs = EigenProblem::new(&k, &m)?.lowest(count)?;
+        Ok(StructureModes {
+            squared_frequencies: pairs.values,
+            shapes: pairs.vectors,
+            has_more: true,
         })
     }
 
@@ -170,16 +209,33 @@ impl Structure {
     /// # Errors
     /// [`SystemError::NotSupported`] if the structure can move without force.
     pub fn static_response(&self, loads: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
-        let factor = self.factor.get_or_init(|| {
-            // a free structure may slip through the factorisation with pivots of round-off size
-            DenseCholesky::new(&self.stiffness)
-                .ok()
-                .filter(|factor| factor.reciprocal_condition() >= 1e-14)
-        });
-        match factor {
-            Some(factor) => Ok(factor.solve(loads)),
+        match self.factor.get_or_init(|| self.factorised()) {
+            Some(StaticFactor::Dense(factor)) => Ok(factor.solve(loads)),
+            Some(StaticFactor::Sparse(factor)) => {
+                let mut response = loads.clone();
+                factor.solve_columns(&mut response)?;
+                Ok(response)
+            }
             None => Err(SystemError::NotSupported),
         }
+    }
+
+    /// `None` for a free structure, which may slip through the factorisation with pivots of round-off size.
+    fn factorised(&self) -> Option<StaticFactor> {
+        let order = self.dof();
+        if order > LARGEST_DENSE {
+            let sparse = placed(&self.stiffness, 0, order);
+            if sparse.nnz() < order * order / SPARSE {
+                let factor = SparseCholesky::new(&sparse).ok();
+                return factor
+                    .filter(|factor| factor.contraction() <= LARGEST_CONTRACTION)
+                    .map(StaticFactor::Sparse);
+            }
+        }
+        DenseCholesky::new(&self.stiffness)
+            .ok()
+            .filter(|factor| factor.reciprocal_condition() >= 1e-14)
+            .map(StaticFactor::Dense)
     }
 }
 
@@ -218,6 +274,7 @@ impl StructureModes {
         let mut squares = self.squared_frequencies[..kept].to_vec();
         squares.extend(&own.values);
         Ok(Self {
+            has_more: false,
             squared_frequencies: squares,
             shapes: DenseMatrix::from_fn(structure.dof(), kept + loads.ncols(), |row, column| {
                 match column.checked_sub(kept) {
@@ -248,4 +305,40 @@ fn ring_gravity(ring: &Ring, gravity: [f64; 2]) -> Vec<f64> {
     let fall = ring.rigid_motion(gravity[0], gravity[1], 0.0);
     let fall = DenseMatrix::from_fn(fall.len(), 1, |row, _| fall[row]);
     (ring.mass() * fall).col(0).iter().copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::force::tangent_tests::structure_of;
+    use super::*;
+
+    /// A ring just beyond what is solved densely: its equations hold, and it knows that it has more modes.
+    #[test]
+    fn a_ring_of_many_nodes_has_its_lowest_modes_and_its_static_response() {
+        let structure = structure_of(LARGEST_DENSE / 3 + 1);
+        let modes = structure.lowest_modes(20).unwrap();
+        assert!(modes.has_more && modes.count() == 20);
+        let (stiff, heavy) = (
+            structure.stiffness() * &modes.shapes,
+            structure.mass() * &modes.shapes,
+        );
+        for mode in 0..20 {
+            let square = modes.squared_frequencies[mode];
+            let rest = stiff.col(mode) - heavy.col(mode) * faer::Scale(square);
+            // the iteration's own limit
+            assert!(rest.norm_l2() < 1e-5 * stiff.col(mode).norm_l2(), "{mode}");
+        }
+        let load = DenseMatrix::from_fn(structure.dof(), 1, |row, _| f64::from(u8::from(row == 7)));
+        let response = structure.static_response(&load).unwrap();
+        assert!(matches!(
+            structure.factor.get(),
+            Some(Some(StaticFactor::Sparse(_)))
+        ));
+        let rest = structure.stiffness() * &response - &load;
+        // stiffness of an element times the displacement, 1e9 N/m and 1e-6 m, in the last digits
+        assert!(rest.norm_max() < 1e-9, "{:e}", rest.norm_max());
+        // a structure that is small enough has all
+        let small = structure_of(24).lowest_modes(20).unwrap();
+        assert!(!small.has_more && small.count() == 72);
+    }
 }

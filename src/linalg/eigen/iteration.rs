@@ -98,14 +98,9 @@ impl EigenProblem {
         })
     }
 
-    /// Counts before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
-    /// are known, whichever vectors of the crowd were found. `None` if one is missing.
-    pub(super) fn count_before(
-        &self,
-        ritz: &Ritz,
-        count: usize,
-        shift: f64,
-    ) -> Result<Option<CountCheck>, LinalgError> {
+    /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
+    /// are known, whichever vectors of the crowd were found. `None` if one is missing, or if it cannot be counted there.
+    pub(super) fn count_before(&self, ritz: &Ritz, count: usize, shift: f64) -> Option<CountCheck> {
         let gap = |place: usize| {
             let low = place.checked_sub(1).map_or(shift, |last| ritz.values[last]);
             [low, ritz.values[place]]
@@ -114,17 +109,22 @@ impl EigenProblem {
             let [low, high] = gap(*place);
             high - low > SMALLEST_GAP * (high - shift)
         };
-        let Some(found) = (0..count).rev().find(wide) else {
-            return Ok(None);
-        };
-        let (below, counted) = self.count_in_gap(gap(found))?;
+        let found = (0..count).rev().find(wide)?;
+        let [low, high] = gap(found);
+        let near = SMALLEST_GAP * (high - shift);
+        if ritz.values[count - 1] - high > near {
+            // not one crowd: what is missing may be lower than the last of them
+            return None;
+        }
+        let place = [low.max(high - 2.0 * near), high - near];
+        let (below, counted) = self.count_in_gap(place).ok()?;
         let check = CountCheck {
             above: None,
             below,
             counted,
             found,
         };
-        Ok((counted == found).then_some(check))
+        (counted == found).then_some(check)
     }
 
     /// Whether a second factor can stand beside the first without filling the memory.

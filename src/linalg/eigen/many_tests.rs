@@ -172,3 +172,25 @@ fn no_frequency_at_all() {
         "{found:?}"
     );
 }
+
+/// Three hundred equal pairs of masses, with the eigenvalues 1 and 3: a gap behind the crowd is found, and the crowd is not taken whole.
+#[test]
+fn a_crowd_before_a_gap_is_counted_before_it() {
+    let order = 600;
+    let (mut k, mut m) = (
+        TripletBuilder::new(order, order),
+        TripletBuilder::new(order, order),
+    );
+    for row in 0..order {
+        m.add(row, row, 1.0);
+        k.add(row, row, 2.0);
+        k.add(row, row ^ 1, -1.0);
+    }
+    let problem = EigenProblem::new(&k.build(), &m.build()).expect("an order");
+    let pairs = problem.lowest(10).expect("found");
+    assert!(pairs.values.iter().all(|value| (value - 1.0).abs() < 1e-9));
+    let check = pairs.count_check;
+    // counted behind it there would be 300 of both
+    assert_eq!((check.counted, check.found), (0, 0));
+    assert!(check.below < 1.0 && check.below > 0.99, "{}", check.below);
+}

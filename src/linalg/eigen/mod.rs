@@ -49,6 +49,10 @@ const BEYOND: usize = 4;
 /// How often missing pairs, or a gap, are looked for.
 const ROUNDS: usize = 5;
 
+/// Missing pairs beyond which it is asked first whether the wanted ones are the lowest all the same: a crowd of hundreds of equal
+/// eigenvalues would take a space larger than itself.
+const MISSING: usize = 16;
+
 /// Rounds after which equal eigenvalues are taken for a crowd without end.
 const CROWDED: usize = 3;
 
@@ -222,8 +226,9 @@ impl EigenProblem {
                 counted,
             } = iterated;
             let Some((value, counted)) = counted else {
-                let before = (round >= CROWDED).then(|| self.count_before(&ritz, count, shift));
-                if let Some(found) = before.transpose()?.flatten() {
+                if round >= CROWDED
+                    && let Some(found) = self.count_before(&ritz, count, shift)
+                {
                     return self.finished(ritz, quality, count, found, shift, times);
                 }
                 beyond = (2 * beyond + BEYOND).min(order - count);
@@ -237,6 +242,11 @@ impl EigenProblem {
                 found: below,
             };
             if counted == below {
+                return self.finished(ritz, quality, count, found, shift, times);
+            }
+            if counted > below + MISSING
+                && let Some(found) = self.count_before(&ritz, count, shift)
+            {
                 return self.finished(ritz, quality, count, found, shift, times);
             }
             check = Some(found);

@@ -13,7 +13,7 @@ pub struct BoundingBox {
 
 impl BoundingBox {
     /// Extent of the points; the origin if there are none.
-    pub(super) fn of(mut points: impl Iterator<Item = [f64; 3]>) -> Self {
+    pub(crate) fn of(mut points: impl Iterator<Item = [f64; 3]>) -> Self {
         let first = points.next().unwrap_or_default();
         let mut found = Self {
             min: first,

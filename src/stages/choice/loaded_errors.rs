@@ -21,6 +21,7 @@
 //! Loan, Matrix Computations, section 8.1 (first order changes of eigenvalues).
 
 use super::super::{Scene, StageError};
+use super::judged;
 use super::mode_errors::{participations, radial_forces};
 use crate::linalg::DenseMatrix;
 use crate::system::{Equilibrium, Formulation, LoadedShapes};
@@ -149,8 +150,7 @@ impl<'a> Loaded<'a> {
     fn of(scene: &'a Scene, rest: &'a Equilibrium, seconds: f64) -> Result<Self, StageError> {
         let (stage, setup) = (&scene.stage, &scene.setup);
         let shapes = LoadedShapes::at(&stage.structure, &stage.modes, setup, rest)?;
-        let sensors = stage.structure.sensors().iter();
-        let sensors: Vec<_> = sensors
+        let sensors: Vec<_> = judged(scene)
             .map(|sensor| participations(&stage.modes, &sensor.row))
             .collect();
         let balls = radial_forces(scene, rest.balls.iter().map(|ball| ball.angle));

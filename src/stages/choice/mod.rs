@@ -16,7 +16,7 @@ use super::structure::left_out;
 use super::{RunModel, Scene, StageError};
 use crate::case::{self, Case, ModesKept};
 use crate::report::significant;
-use crate::system::{BallsInertia, Equilibrium, Formulation, ModeSelection};
+use crate::system::{BallsInertia, Equilibrium, Formulation, ModeSelection, Sensor};
 use crate::transient::Method;
 pub use horizon::Horizon;
 use loaded_errors::LoadedErrors;
@@ -44,6 +44,9 @@ const USUAL_BAND: f64 = 40e3;
 /// Largest ball force to prepare for, in units of the largest static one: impacts in a dent of the source's size reach five to
 /// ten times.
 const IMPACT: f64 = 10.0;
+
+/// Sensors at most that the estimates of modes look at: each costs some milliseconds.
+const JUDGED_SENSORS: usize = 64;
 
 /// A model, and why it is this one.
 #[derive(Debug, Clone, PartialEq)]
@@ -221,10 +224,10 @@ fn modes(
     errors: &ModeErrors,
     whole: bool,
 ) -> (ModeSelection, ChosenPart) {
-    let all = scene.stage.modes.count();
+    let (all, known) = (scene.stage.structure.dof(), scene.stage.modes.count());
     let (selection, why) = match asked.modes {
         ModesKept::All => (ModeSelection::All, "given".to_owned()),
-        ModesKept::Count(count) => (ModeSelection::Count(count.min(all)), "given".to_owned()),
+        ModesKept::Count(count) => (ModeSelection::Count(count.min(known)), "given".to_owned()),
         ModesKept::Auto if whole => (
             ModeSelection::All,
             "the equations or the method need all displacements of the ring".to_owned(),
@@ -248,13 +251,18 @@ fn modes(
     };
     let kept = match selection {
         ModeSelection::Count(count) => count,
-        _ => all,
+        _ => known,
     };
     let highest = scene.stage.modes.frequency_hz(kept.saturating_sub(1));
     let left = match (kept < all, asked.residual) {
         (false, _) => "nothing left out".to_owned(),
         (true, true) => "of the others only their inertia is left out".to_owned(),
         (true, false) => "the others are left out".to_owned(),
+    };
+    let (looked_at, sensors) = (judged(scene).count(), scene.stage.structure.sensors().len());
+    let left = match looked_at < sensors {
+        true => format!("{left}; estimated at {looked_at} of the {sensors} sensors"),
+        false => left,
     };
     let part = ChosenPart {
         what: "modes",
@@ -271,6 +279,13 @@ fn modes(
         estimated_error: Some(errors.with(kept, asked.residual)),
     };
     (selection, part)
+}
+
+/// The sensors that the estimates of modes look at: all, or every so many of them.
+fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
+    let sensors = scene.stage.structure.sensors();
+    let apart = sensors.len().div_ceil(JUDGED_SENSORS).max(1);
+    sensors.iter().step_by(apart)
 }
 
 /// So many modes, and those that belong to the last one.

@@ -17,7 +17,7 @@
 
 use super::super::Scene;
 use super::loaded_errors::LoadedErrors;
-use super::{IMPACT, ball_frequency, hertz};
+use super::{IMPACT, ball_frequency, hertz, judged};
 use crate::system::{ModeDamping, StructureModes};
 use std::f64::consts::TAU;
 
@@ -45,11 +45,7 @@ impl ModeErrors {
     pub(super) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
         let modes = &scene.stage.modes;
         let contacts = at_raceway(scene);
-        let sensors: Vec<Vec<f64>> = scene
-            .stage
-            .structure
-            .sensors()
-            .iter()
+        let sensors: Vec<Vec<f64>> = judged(scene)
             .map(|sensor| participations(modes, &sensor.row))
             .collect();
         let stiffness = in_series(scene);

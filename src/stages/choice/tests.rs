@@ -32,6 +32,23 @@ fn a_load_that_comes_later_is_looked_at() {
     assert!(late.growth > plain.growth);
 }
 
+/// Every third one; the sentence is not there where all are looked at.
+#[test]
+fn the_estimate_of_modes_looks_at_few_of_many_sensors_and_says_so() {
+    let why = |sensors: usize| {
+        let sensor = |at| format!("{{name='P{at}',ring_deg={at},direction=[0,1,0]}}");
+        let all: Vec<String> = (0..sensors).map(sensor).collect();
+        let set = format!("sensors=[{}]", all.join(","));
+        choice("scenes/smooth", &[&set]).parts[0].why.clone()
+    };
+    let few = why(130);
+    assert!(
+        few.ends_with("; estimated at 44 of the 130 sensors"),
+        "{few}"
+    );
+    assert!(!why(2).contains("estimated at"));
+}
+
 /// With a preload; the vectors of the second one are complete up to twice the band.
 #[test]
 fn a_condensed_housing_is_part_of_the_estimate() {

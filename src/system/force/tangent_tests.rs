@@ -20,6 +20,11 @@ const FIRST: f64 = 5.2;
 
 /// A steel ring of 24 nodes on springs.
 pub(in super::super) fn structure() -> Structure {
+    structure_of(24)
+}
+
+/// The same of so many nodes.
+pub(in super::super) fn structure_of(nodes: usize) -> Structure {
     let layer = RingLayer {
         material: Material::new(210e9, 0.3, 7850.0).unwrap(),
         area: 12e-6,
@@ -30,7 +35,7 @@ pub(in super::super) fn structure() -> Structure {
         shear_coefficient: 5.0 / 6.0,
     };
     let section = BeamSection::combine(&[layer], Bond::Slip(RadiusRule::Own)).unwrap();
-    let mut ring = Ring::new(24, section, RingInterpolation::ExactArc).unwrap();
+    let mut ring = Ring::new(nodes, section, RingInterpolation::ExactArc).unwrap();
     ring.add_support(&RingSupport {
         from: 3.0,
         to: 6.4,

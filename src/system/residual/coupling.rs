@@ -21,8 +21,8 @@ type Quintic = [Lanes; 6];
 /// Couplings of all balls at the last cage angle.
 ///
 /// Columns stand one behind the other, each of one group of lanes after the other: radial displacement of the balls for a
-/// radial force at each ball (m/N), their displacement under the weight (m), and each sensor's displacement for a radial
-/// force at the balls (m/N).
+/// radial force at each ball (m/N), and their displacement under the weight (m). Each sensor's displacement for a radial
+/// force at the balls (m/N) follows in the quintics alone: it is asked for where it is recorded.
 #[derive(Debug, Clone)]
 pub(in super::super) struct Coupling {
     residual: ResidualFlexibility,
@@ -47,19 +47,21 @@ struct Stretch {
 }
 
 impl Coupling {
-    pub fn new(residual: ResidualFlexibility, balls: usize) -> Self {
+    pub fn new(mut residual: ResidualFlexibility, balls: usize) -> Self {
         let groups = balls.div_ceil(LANES);
-        let columns = balls + 1 + residual.sensors();
-        let blank = Stretch {
+        let columns = balls + 1;
+        let blank = |columns: usize| Stretch {
             number: usize::MAX,
             quintics: vec![[[0.0; LANES]; 6]; columns * groups],
         };
+        // the balls say how finely a turn is cut
+        let sensors = std::mem::take(&mut residual.sensors);
         let mut coupling = Self {
             stretches: least_common_multiple(residual.elements, balls),
             residual,
             balls,
             groups,
-            made: [blank.clone(), blank],
+            made: [(); 2].map(|()| blank(columns)),
             at: (0, 0.0),
             // a state that is not a number reaches what fills up the last lanes: they have columns too
             values: vec![[0.0; LANES]; columns.max(groups * LANES) * groups],
@@ -71,11 +73,13 @@ impl Coupling {
             cuts *= 2;
             coupling.stretches = cuts * between_elements;
         }
-        coupling.forget();
+        coupling.residual.sensors = sensors;
+        let columns = columns + coupling.residual.sensors();
+        coupling.made = [(); 2].map(|()| blank(columns));
         coupling
     }
 
-    /// Turns to the angle of the first ball in turns, 0 <= turn < 1, with all but the balls' columns.
+    /// Turns to the angle of the first ball in turns, 0 <= turn < 1, with the weight's column.
     #[inline(always)]
     pub fn turn_to(&mut self, turn: f64) {
         let place = turn * self.stretches as f64;
@@ -86,9 +90,9 @@ impl Coupling {
         }
         let x = 2.0 * (place - number as f64) - 1.0;
         self.at = (slot, x);
-        let others = self.balls * self.groups;
-        let quintics = &self.made[slot].quintics[others..];
-        for (value, quintic) in self.values[others..].iter_mut().zip(quintics) {
+        let weight = self.balls * self.groups..(self.balls + 1) * self.groups;
+        let quintics = &self.made[slot].quintics[weight.clone()];
+        for (value, quintic) in self.values[weight].iter_mut().zip(quintics) {
             *value = together(value_of(quintic, x));
         }
     }
@@ -137,10 +141,14 @@ impl Coupling {
         self.column::<B>(self.balls)
     }
 
-    /// Displacement of a sensor for radial forces at the balls \[groups\], m/N.
-    #[inline(always)]
-    pub fn sensor_row(&self, sensor: usize) -> &[Lanes] {
-        self.column::<0>(self.balls + 1 + sensor)
+    /// Displacement of a sensor for radial forces at the balls (N), m.
+    #[inline]
+    pub fn at_sensor(&self, sensor: usize, forces: impl Iterator<Item = f64>) -> f64 {
+        let (slot, x) = self.at;
+        let first = (self.balls + 1 + sensor) * self.groups;
+        let quintics = &self.made[slot].quintics[first..first + self.groups];
+        let row = quintics.iter().flat_map(|quintic| value_of(quintic, x));
+        row.zip(forces).map(|(row, force)| row * force).sum()
     }
 
     /// Rate by the cage angle (N m/rad) of the work of radial forces F at the balls, `F . w + F . G F / 2` with the flexibility
@@ -265,12 +273,6 @@ impl Coupling {
             });
         }
         worst / largest.max(f64::MIN_POSITIVE)
-    }
-
-    fn forget(&mut self) {
-        for stretch in &mut self.made {
-            stretch.number = usize::MAX;
-        }
     }
 }
 

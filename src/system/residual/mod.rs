@@ -13,7 +13,7 @@ use super::SystemError;
 use super::raceway::RacewayTable;
 use super::structure::{Structure, StructureModes};
 use crate::lanes::{LANES, Lanes};
-use crate::linalg::DenseMatrix;
+use crate::linalg::{DenseMatrix, SparseMatrix, TripletBuilder, sparse_times_dense};
 use crate::model::Ring;
 use std::f64::consts::TAU;
 
@@ -71,38 +71,38 @@ impl ResidualFlexibility {
             let shape = modes.shapes.col(mode);
             let softness = 1.0 / modes.squared_frequencies[mode];
             let pull = modes.participation(mode, structure.gravity());
-            for row in 0..dof {
-                for column in 0..ring_dof {
-                    response[(row, column)] -= softness * shape[row] * shape[column];
+            let of_shape = (0..ring_dof).map(|column| shape[column]).chain([pull]);
+            for (column, part) in of_shape.enumerate() {
+                let response = response.col_as_slice_mut(column).iter_mut();
+                for (entry, moved) in response.zip(shape.iter()) {
+                    *entry -= softness * moved * part;
                 }
-                response[(row, ring_dof)] -= softness * shape[row] * pull;
             }
         }
         let sensors = structure.sensors();
-        let sensor_rows = DenseMatrix::from_fn(sensors.len(), ring_dof, |sensor, column| {
-            (0..dof)
-                .map(|row| sensors[sensor].row[row] * response[(row, column)])
-                .sum()
-        });
+        let sensor_rows =
+            DenseMatrix::from_fn(sensors.len(), dof, |sensor, row| sensors[sensor].row[row])
+                * response.subcols(0, ring_dof);
         let width = ring_dof + ELEMENT_DOF / 2;
         let polar = polar_components(ring, width);
         let on_ring = response.subrows(0, ring_dof);
-        let flexibility = &polar * on_ring.subcols(0, ring_dof) * polar.transpose();
-        let weight = &polar * on_ring.subcols(ring_dof, 1);
-        let sensor_rows = sensor_rows * polar.transpose();
-        let by_rows = |matrix: &DenseMatrix| -> Vec<f64> {
-            (0..matrix.nrows())
-                .flat_map(|row| (0..matrix.ncols()).map(move |column| (row, column)))
-                .map(|place| matrix[place])
+        let of_displacements = sparse_times_dense(&polar, &on_ring.to_owned());
+        let weight = of_displacements.col_as_slice(ring_dof).to_vec();
+        // over loads, row by row
+        let by_rows = |over_ring: faer::MatRef<'_, f64>| -> Vec<f64> {
+            let polar = sparse_times_dense(&polar, &over_ring.transpose().to_owned());
+            (0..polar.ncols())
+                .flat_map(|row| polar.col_as_slice(row))
+                .copied()
                 .collect()
         };
         Ok(Self {
             elements: ring.nodes(),
             interpolation: RacewayTable::of_interpolation(ring),
             width,
-            flexibility: by_rows(&flexibility),
-            weight: by_rows(&weight),
-            sensors: by_rows(&sensor_rows),
+            flexibility: by_rows(of_displacements.subcols(0, ring_dof)),
+            weight,
+            sensors: by_rows(sensor_rows.as_ref()),
         })
     }
 
@@ -170,19 +170,23 @@ impl ResidualFlexibility {
 
 /// Polar components of all nodes, the first repeated at the end, from (u_x, u_y, theta)
 /// [width x ring dof].
-fn polar_components(ring: &Ring, width: usize) -> DenseMatrix {
-    let mut polar = DenseMatrix::zeros(width, ring.dof());
+fn polar_components(ring: &Ring, width: usize) -> SparseMatrix {
+    let mut polar = TripletBuilder::new(width, ring.dof());
     for repeated in 0..width / 3 {
         let node = repeated % ring.nodes();
         let (sin, cos) = ring.node_angle(node).sin_cos();
         let (row, column) = (3 * repeated, 3 * node);
-        polar[(row, column)] = -sin;
-        polar[(row, column + 1)] = cos;
-        polar[(row + 1, column)] = cos;
-        polar[(row + 1, column + 1)] = sin;
-        polar[(row + 2, column + 2)] = 1.0;
+        for (down, across, value) in [
+            (0, 0, -sin),
+            (0, 1, cos),
+            (1, 0, cos),
+            (1, 1, sin),
+            (2, 2, 1.0),
+        ] {
+            polar.add(row + down, column + across, value);
+        }
     }
-    polar
+    polar.build()
 }
 
 fn product(row: &Row, b: &[f64]) -> f64 {
