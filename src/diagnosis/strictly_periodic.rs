@@ -49,7 +49,7 @@ pub(super) fn say_strictly_periodic(
         if let Some((frequency_hz, harmonics)) = comb(&tones, white, within_hz, line) {
             verdict.conclusion = Conclusion::NotEnough;
             verdict.why = format!(
-                "{} But {harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself: strictly periodic, as in a computed signal without slip. A bearing slips; of a measured signal they are those of a gear, another shaft or the supply.",
+                "{} But {harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself: strictly periodic, as in a computed signal without slip. A bearing usually slips; a gear, another shaft and the supply do not.",
                 verdict.why
             );
         }
