@@ -169,11 +169,11 @@ mod tests {
         let scene = Scene::build(&case, &Unwatched).unwrap();
         let asked = case.transient.as_ref().unwrap();
         let mut choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
-        let of = |choice: &ModelChoice| choice.parts.iter().find(|part| part.what == "method");
-        let measured = of(&choice).unwrap().estimated_error.unwrap();
+        let method = choice.parts.iter().find(|part| part.what == "method");
+        let mut part = method.unwrap().clone();
+        let measured = part.estimated_error.unwrap();
         assert_eq!(choice.share_of_steps(), choice.estimated_error);
         // three times the measured error: a third of the whole is left to it, within 6 % as the modes' part counts in none
-        let mut part = of(&choice).unwrap().clone();
         part.what = CONDENSATION;
         part.estimated_error = Some(3.0 * measured);
         choice.parts.push(part);
