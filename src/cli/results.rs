@@ -92,6 +92,7 @@ pub(super) fn run_json<R: Recording>(
         },
         "estimated_error": result.choice.estimated_error,
         "estimate_held_s": result.horizon.map(|horizon| horizon.held_s),
+        "estimate_from_s": result.horizon.map(|horizon| horizon.from_s),
         "estimate_looked_s": result.horizon.map(|horizon| horizon.looked_s),
         "energy": result.simulation.energy.map(|energy| json!({
             "input": energy.input_j(),

@@ -5,7 +5,7 @@
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
 use super::super::{Scene, Span};
-use super::pilot::{Compared, finer, stretch_s};
+use super::pilot::{Compared, begin, finer, stretch_s};
 use super::{CONDENSATION, ModelChoice, SUPERELEMENT, USUAL_BAND};
 use crate::case::Case;
 use crate::report::significant;
@@ -13,13 +13,17 @@ use crate::report::significant;
 /// How far is looked in units of the pilot's stretch: at first, and where the estimate holds so long.
 const LENGTHS: [f64; 2] = [3.0, 10.0];
 
-/// How long an estimated error was seen to hold, s from the start of the run.
+/// How long an estimated error was seen to hold, s from [`from_s`](Self::from_s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Horizon {
-    /// Until then the error since the start was at most the estimate; 0 where it never was.
+    /// Where it was looked at, s: from the start of a run that is as short as the looks, else where the pilot begins.
+    pub from_s: f64,
+    /// Until then the error since there was at most the estimate; 0 where it never was.
     pub held_s: f64,
     /// Until then it was looked at.
     pub looked_s: f64,
+    /// Start of the run.
+    pub start_s: f64,
     /// Length of the run.
     pub run_s: f64,
     /// Whether balls strike, so that differences grow beyond any estimate.
@@ -35,6 +39,11 @@ impl Horizon {
         let finer = finer(&choice.model, scene)?;
         let most = choice.share_of_steps()?;
         let run_s = asked.end - asked.start;
+        let longest_s = LENGTHS.map(|length| length * first_s)[1];
+        let from_s = match run_s <= longest_s {
+            true => asked.start,
+            false => begin(asked, scene, run_s - longest_s),
+        };
         let mut horizon = None;
         let first_s = stretch_s(asked, band_hz);
         for length in LENGTHS {
@@ -44,9 +53,11 @@ impl Horizon {
                 output_hz: asked.output_hz,
             };
             let models = [&choice.model, &finer];
-            let compared = Compared::over(scene, models, span, asked.start, band_hz).ok()?;
+            let compared = Compared::over(scene, models, span, from_s, band_hz).ok()?;
             let held_s = compared.held_s(most, first_s);
             horizon = Some(Self {
+                from_s,
+                start_s: asked.start,
                 held_s: held_s.min(looked_s),
                 looked_s,
                 run_s,
@@ -72,15 +83,20 @@ impl Horizon {
             true => "the waveform is one of many: compare spectra and verdicts, not samples",
             false => "it is larger: lower accuracy.target",
         };
+        let held = ms(self.held_s);
+        let place = match self.from_s > self.start_s {
+            true => format!(
+                "for {held} ms from rest at {} s",
+                significant(self.from_s, 4)
+            ),
+            false => format!("in the first {held} ms of {whole}"),
+        };
         match (self.passed(), self.looked_s < self.run_s) {
             (true, _) if self.held_s <= 0.0 => {
                 format!("passed within {} ms; then {later}", ms(self.looked_s))
             }
-            (true, _) => format!(
-                "in the first {} ms of {whole}; later, {later}",
-                ms(self.held_s)
-            ),
-            (false, true) => format!("in the first {} ms of {whole} at least", ms(self.looked_s)),
+            (true, _) => format!("{place}; later, {later}"),
+            (false, true) => format!("{place} at least"),
             (false, false) => "over the whole run".to_owned(),
         }
     }

@@ -179,7 +179,7 @@ fn stretch(
 }
 
 /// The instant of the highest speed among those of the run that leave the stretch, and from there the time to the next impact.
-fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
+pub(super) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let setup = &scene.setup;
     let speed = |t: f64| setup.cage.motion(t).speed.abs();
     let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
