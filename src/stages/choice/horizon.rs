@@ -39,13 +39,13 @@ impl Horizon {
         let finer = finer(&choice.model, scene)?;
         let most = choice.share_of_steps()?;
         let run_s = asked.end - asked.start;
-        let longest_s = LENGTHS.map(|length| length * first_s)[1];
+        let first_s = stretch_s(asked, band_hz);
+        let longest_s = LENGTHS[1] * first_s;
         let from_s = match run_s <= longest_s {
             true => asked.start,
             false => begin(asked, scene, run_s - longest_s),
         };
         let mut horizon = None;
-        let first_s = stretch_s(asked, band_hz);
         for length in LENGTHS {
             let looked_s = (length * first_s).min(run_s);
             let span = Span {
