@@ -53,7 +53,9 @@ impl Horizon {
                 output_hz: asked.output_hz,
             };
             let models = [&choice.model, &finer];
-            let compared = Compared::over(scene, models, span, from_s, band_hz).ok()?;
+            let Ok(compared) = Compared::over(scene, models, span, from_s, band_hz) else {
+                break;
+            };
             let held_s = compared.held_s(most, first_s);
             horizon = Some(Self {
                 from_s,

@@ -10,6 +10,7 @@ use super::heaviest::fastest_change;
 use super::stepping::ADAMS_ORDER;
 use crate::bearing::Race;
 use crate::case;
+use crate::report::significant;
 use crate::series::TimeSeries;
 use crate::signal::{band_limit, relative_difference};
 use crate::system::{Equilibrium, ModeSelection, StaticCondition};
@@ -18,6 +19,9 @@ use crate::transient::Method;
 /// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.
 const LEAST_S: f64 = 2e-3;
 const LEAST_PERIODS: f64 = 30.0;
+
+/// Most steps of a stretch: some ten seconds. A shaft of micrograms would take hours.
+const MOST_STEPS: f64 = 1e6;
 
 /// How much smaller the second tolerance is, and how much shorter its steps.
 const FINER: f64 = 0.1;
@@ -115,6 +119,10 @@ impl Compared {
         begin: f64,
         band_hz: f64,
     ) -> Result<Self, String> {
+        let steps = span.duration / finer.step;
+        if steps > MOST_STEPS {
+            return Err(format!("it would take {} steps", significant(steps, 2)));
+        }
         let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
         let (run, finer) = rayon::join(|| signals(model), || signals(finer));
         Ok(Self {
