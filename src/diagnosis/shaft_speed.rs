@@ -179,23 +179,14 @@ fn sharpened(
         let scores = controls().map(|centre| best(centre, offset, reach).0);
         ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
     };
-    let shown = |reach: f64, below: f64| {
-        let (most, low, high) = best(1.0, 0.0, reach);
-        let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
-        let factor = 0.5 * (low + high);
-        // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
-        let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
-        let seen = sharper && high - low < LARGEST_ERROR && chance(most, 0.0, reach) < below;
-        seen.then_some((factor, error))
-    };
-    let Some((mut factor, mut error)) = shown(LARGEST_ERROR, SEEN_BELOW) else {
+    let (most, low, high) = best(1.0, 0.0, LARGEST_ERROR);
+    let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
+    let factor = 0.5 * (low + high);
+    // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+    let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
+    let clear = sharper && high - low < LARGEST_ERROR;
+    if !clear || chance(most, 0.0, LARGEST_ERROR) >= SEEN_BELOW {
         return Ok(None);
-    };
-    if (factor - 1.0).abs() > UNSEEN_ERROR {
-        // lines at the given speed are the shaft's, whatever a machine beside it has
-        if let Some(at_given) = shown(UNSEEN_ERROR, CERTAIN_BELOW) {
-            (factor, error) = at_given;
-        }
     }
     let seen = |centre: f64, offset: f64, reach: f64| {
         chance(best(centre, offset, reach).0, offset, reach) < SEEN_BELOW

@@ -93,7 +93,7 @@ fn half_of_the_speed_is_said() {
 
 /// A machine beside this one, 1.6 % slower, is three times as loud.
 #[test]
-fn the_given_speed_holds_where_its_own_lines_are() {
+fn a_changed_speed_is_said_and_own_lines_hold_the_given_one() {
     let mut values = vec![0.0; (8.8 * RATE) as usize];
     shaft_lines(&mut values, 24.6, 3.0);
     let alone = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
