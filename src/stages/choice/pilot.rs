@@ -20,8 +20,8 @@ use crate::transient::Method;
 const LEAST_S: f64 = 2e-3;
 const LEAST_PERIODS: f64 = 30.0;
 
-/// Most steps of a stretch: some ten seconds. A shaft of micrograms would take hours.
-const MOST_STEPS: f64 = 1e6;
+/// Most steps of a stretch: some ten minutes. Heavily damped contacts in low bands take a million, a shaft of a picogram would take hours.
+const MOST_STEPS: f64 = 1e8;
 
 /// How much smaller the second tolerance is, and how much shorter its steps.
 const FINER: f64 = 0.1;
