@@ -269,6 +269,7 @@ fn named(
         shown_band: Some(AskedBand::HighPass(5e3)),
         whiten: false,
         windows: vec![WINDOW],
+        good_to_hz: None,
         no_signs: Vec::new(),
     };
     let read = |window: TimeWindow, margin_s: f64| {

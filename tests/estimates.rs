@@ -316,8 +316,8 @@ fn estimates_hold() {
         (held, holds.len())
     };
     let (smooth, others) = (of(true), of(false));
-    // of the forty, 7 and 18 can be compared with a reference
-    assert!(smooth.1 >= 7 && others.1 >= 18, "{smooth:?} {others:?}");
+    // of the forty, 15 and 20 can be compared with a reference; other round-off may move one
+    assert!(smooth.1 >= 14 && others.1 >= 19, "{smooth:?} {others:?}");
     assert_eq!(smooth.0, smooth.1);
     assert!(others.0 as f64 >= 0.95 * others.1 as f64);
 }

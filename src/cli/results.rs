@@ -155,6 +155,7 @@ pub(super) fn window_json(window: &WindowAnalysis) -> Value {
             "speed_source": diagnosis.speed_source,
             "faults": diagnosis.faults,
             "unexplained": diagnosis.unexplained,
+            "by_signal_alone": diagnosis.by_signal_alone,
         }),
         Err(reason) => json!({ "sentence": format!("no verdict: {reason}") }),
     };

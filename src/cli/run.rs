@@ -87,7 +87,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     let json_path = folder.write("run.json", text.as_bytes())?;
     unfinished.remove().map_err(StageError::from)?;
     Ok(Outcome {
-        summary: summary(&result),
+        summary: summary(&result, started.elapsed().as_secs_f64()),
         result: json,
         written: [arrays, vec![json_path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
@@ -194,12 +194,13 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
     }
 }
 
-fn summary<R: Recording>(result: &RunResult<R>) -> String {
+fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
     let mut lines = vec![result.bearing_table().plain()];
     lines.push(format!(
-        "{} s simulated in {:.2} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
+        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
         significant(result.simulation.simulated_s, 4),
-        result.simulation.stepping_s,
+        significant(result.simulation.stepping_s, 3),
+        significant(wall_s, 3),
         result.simulation.statistics.steps,
         result.simulation.step_s(),
         result.simulation.method.name(),
@@ -215,8 +216,13 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         lines.push(format!(
-            "{} from {} to {} s (shaft {:.2} Hz): rms {:.4} m/s^2, peak {:.4} m/s^2",
-            window.sensor, window.from, window.to, window.speed_hz, window.rms, window.peak
+            "{} from {} to {} s (shaft {:.2} Hz): rms {} m/s^2, peak {} m/s^2",
+            window.sensor,
+            window.from,
+            window.to,
+            window.speed_hz,
+            significant(window.rms, 3),
+            significant(window.peak, 3)
         ));
         lines.push(match &window.diagnosis {
             Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
@@ -227,8 +233,9 @@ fn summary<R: Recording>(result: &RunResult<R>) -> String {
         for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().filter(|_| shown)) {
             lines.push(match found {
                 Some((hz, amplitude)) => format!(
-                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {amplitude:.4} {}",
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {} {}",
                     100.0 * (hz / expected - 1.0),
+                    significant(*amplitude, 3),
                     window.spectrum.unit
                 ),
                 None => format!(

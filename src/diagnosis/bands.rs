@@ -48,16 +48,19 @@ pub(super) struct BandSpectrum {
     pub(super) lines: LineSpectrum,
 }
 
-/// The band that is searched (Hz): as asked for, else from the lowest carrier of events at `strikes_hz` on.
+/// The band that is searched (Hz): as asked for; where it begins at 0 or none is asked for, from the lowest carrier of events at
+/// `strikes_hz` on.
 pub(super) fn searched_band(
     asked_hz: Option<[f64; 2]>,
     signal: &TimeSeries,
     strikes_hz: f64,
 ) -> [f64; 2] {
-    let end_hz = 0.5 * signal.rate_hz();
-    match asked_hz {
-        Some([from, to]) => [from, to.min(end_hz)],
-        None => [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz],
+    let [from_hz, to_hz] = asked_hz.unwrap_or([0.0, f64::INFINITY]);
+    let end_hz = to_hz.min(0.5 * signal.rate_hz());
+    if from_hz > 0.0 {
+        [from_hz, end_hz]
+    } else {
+        [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz]
     }
 }
 
@@ -69,13 +72,13 @@ pub(super) fn check_band(
     asked_hz: Option<[f64; 2]>,
     signal: &TimeSeries,
 ) -> Result<(), DiagnosisError> {
-    let most_hz = LATEST_START * 0.5 * signal.rate_hz();
-    match asked_hz {
-        Some([from_hz, _]) if from_hz > most_hz => {
-            Err(DiagnosisError::NarrowBand { from_hz, most_hz })
-        }
-        _ => Ok(()),
+    let [from_hz, to_hz] = asked_hz.unwrap_or([0.0, f64::INFINITY]);
+    let end_hz = 0.5 * signal.rate_hz();
+    if from_hz > LATEST_START * end_hz || from_hz >= to_hz {
+        let most_hz = LATEST_START * to_hz.min(end_hz);
+        return Err(DiagnosisError::NarrowBand { from_hz, most_hz });
     }
+    Ok(())
 }
 
 /// The whole band, its halves, quarters and eighths, and those halfway between them, no narrower than `narrowest` (Hz).

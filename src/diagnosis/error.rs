@@ -19,7 +19,7 @@ pub enum DiagnosisError {
     NoEnvelope,
     /// A band at the end of what the signal has: nothing is left of it to judge.
     #[error(
-        "expected a band that begins below {most_hz} Hz, nine tenths of half the sampling rate, found one from {from_hz} Hz on"
+        "expected a band that begins below {most_hz} Hz, nine tenths of what the signal is good for, found one from {from_hz} Hz on"
     )]
     NarrowBand {
         /// Where the band begins, Hz.

@@ -232,7 +232,7 @@ impl Search<'_> {
             lines.extend((1..=CAGE_MULTIPLES).map(|multiple| KnownLine {
                 order: f64::from(multiple) * cage,
                 error: self.orders.error(Fault::Cage) + self.speed_error,
-                name: format!("{multiple} x cage, at which each ball comes into the load"),
+                name: format!("balls entering the load zone, {multiple} x cage"),
                 carrier: None,
             }));
         }

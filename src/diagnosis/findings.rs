@@ -61,13 +61,42 @@ impl Search<'_> {
                 "The envelope's spectrum ends at order {ends:.1}, below the third harmonic of this part. A higher sampling rate is needed."
             )
         } else {
-            covered(&harmonics)
+            self.covered(fault, &harmonics, widest)
         };
         FaultVerdict {
             why,
             harmonics,
             ..self.empty(fault, expected)
         }
+    }
+
+    /// Which lines hide those of a part, and what window shows them; the table of harmonics has them all.
+    fn covered(&self, fault: Fault, harmonics: &[Harmonic], spectrum: usize) -> String {
+        let deciding = self.spectra[spectrum].lines.harmonics as usize;
+        let harmonics = &harmonics[..deciding.min(harmonics.len())];
+        let hidden = harmonics.iter().filter_map(|harmonic| {
+            let other = harmonic.coincides_with.as_ref()?;
+            Some(format!("{} with {other}", harmonic.name))
+        });
+        let hidden: Vec<String> = hidden.collect();
+        let free = harmonics.len() - hidden.len();
+        let too_few = if free < LEAST_FREE {
+            format!("only {free} of the first {deciding} harmonics are free of other lines")
+        } else {
+            "neither the first nor the second harmonic is free of other lines".to_owned()
+        };
+        let shown = hidden.iter().take(2).map(String::as_str);
+        let shown: Vec<&str> = shown.collect();
+        let hint = match self.orders.turns_to_judge(fault) {
+            Some(turns) if turns > self.turns => format!(
+                "A window of {:.0} revolutions at one speed separates them from the shaft's; this one has {:.0}.",
+                turns.ceil(),
+                self.turns
+            ),
+            Some(_) => "Lines that have another reason hide them.".to_owned(),
+            None => "No window separates them from the shaft's.".to_owned(),
+        };
+        format!("No verdict: {too_few} ({}). {hint}", shown.join(", "))
     }
 
     pub(super) fn verdict(
@@ -177,19 +206,6 @@ impl Search<'_> {
         }
         found
     }
-}
-
-/// Which lines hide those of a part; the table of harmonics has them all.
-fn covered(harmonics: &[Harmonic]) -> String {
-    let mut hidden = harmonics.iter().filter_map(|harmonic| {
-        let other = harmonic.coincides_with.as_ref()?;
-        Some(format!("{} coincides with {other}", harmonic.name))
-    });
-    let first = hidden.next().unwrap_or_default();
-    let others = hidden.count();
-    format!(
-        "Fewer than {LEAST_FREE} of the first harmonics are free of other lines: {first}, and {others} others do so. Only a window that is long enough to separate them would tell."
-    )
 }
 
 /// Strength of a comb whose harmonics count with the sidebands that are seen. The load sees a flaw of the inner race once a revolution, or

@@ -5,9 +5,9 @@ use super::line_spectrum::LineSpectrum;
 
 /// A line takes so many times the resolution to each side; a strong one, whose foot stands above the floor, one more.
 const HALF_WIDTH: f64 = 1.5;
-const STRONG_HALF_WIDTH: f64 = 2.5;
+pub(super) const STRONG_HALF_WIDTH: f64 = 2.5;
 /// Lines of a short window, tapered less, are narrower by this.
-const SHORT_WIDTH: f64 = 0.8;
+pub(super) const SHORT_WIDTH: f64 = 0.8;
 /// Power over the floor of a strong line, 13 dB: the Hann window's foot is 15 dB lower at 1.5 bins, 32 dB at 2.5.
 const STRONG: f64 = 20.0;
 /// Relative uncertainty of an explained line's order: slip that varies within the window.

@@ -40,6 +40,7 @@ mod line_spectrum;
 mod order_spectrum;
 mod ratio_interval;
 mod rounding;
+mod separation;
 mod shaft_speed;
 mod stretch_spectrum;
 mod strictly_periodic;

@@ -115,6 +115,7 @@ impl ShaftSpeed {
         let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
         let shown = sharpened(
             &grid,
+            orders,
             &[
                 (signal.start_s(), signal.step_s(), signal.values()),
                 (envelope.start_s, envelope.step_s, &magnitude),
@@ -125,9 +126,10 @@ impl ShaftSpeed {
 }
 
 /// Sharpens the speed by the comb of the shaft's multiples in the spectra of `series` (start and step in s, values). `None` where the
-/// window is short or the lines do not show.
+/// window is short or the lines do not show: those among them that are no part's at a speed nearby, as every third is at BPFO = 3.05.
 fn sharpened(
     grid: &AngleGrid,
+    orders: &FaultOrders,
     series: &[(f64, f64, &[f64])],
 ) -> Result<Option<ShaftSpeed>, DiagnosisError> {
     if grid.turns() < FEWEST_REVOLUTIONS {
@@ -152,18 +154,17 @@ fn sharpened(
         });
         levels.sum::<f64>()
     };
-    // multiples of an order, or what lies halfway between them
-    let score = |order: f64, offset: f64| {
-        let teeth = (1..=MULTIPLES).map(|k| level((f64::from(k) - offset) * order));
+    let score = |order: f64, teeth: &[f64]| {
+        let teeth = teeth.iter().map(|tooth| level(tooth * order));
         teeth.sum::<f64>()
     };
     let step = resolution / (f64::from(MULTIPLES) * PLACES);
-    let best = |centre: f64, offset: f64, reach: f64| {
+    let best = |centre: f64, teeth: &[f64], reach: f64| {
         let steps = (reach * centre / step).ceil();
         let places = -(steps as i32)..=steps as i32;
         let fits = places.map(|place| {
             let order = centre * (1.0 + reach * f64::from(place) / steps);
-            (score(order, offset), order)
+            (score(order, teeth), order)
         });
         let fits: Vec<(f64, f64)> = fits.collect();
         let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
@@ -175,25 +176,34 @@ fn sharpened(
         (most, low, high)
     };
     // probability that chance finds as good a comb in as wide a search
-    let chance = |most: f64, offset: f64, reach: f64| {
-        let scores = controls().map(|centre| best(centre, offset, reach).0);
+    let chance = |most: f64, teeth: &[f64], reach: f64| {
+        let scores = controls().map(|centre| best(centre, teeth, reach).0);
         ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
     };
-    let (most, low, high) = best(1.0, 0.0, LARGEST_ERROR);
-    let error = (0.5 * (high - low)).max(resolution / f64::from(MULTIPLES));
-    let factor = 0.5 * (low + high);
-    // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
-    let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
-    let clear = sharper && high - low < LARGEST_ERROR;
-    if !clear || chance(most, 0.0, LARGEST_ERROR) >= SEEN_BELOW {
-        return Ok(None);
-    }
-    let seen = |centre: f64, offset: f64, reach: f64| {
-        chance(best(centre, offset, reach).0, offset, reach) < SEEN_BELOW
+    let fit = |teeth: &[f64]| {
+        let highest_tooth = teeth.last()?;
+        let (most, low, high) = best(1.0, teeth, LARGEST_ERROR);
+        let error = (0.5 * (high - low)).max(resolution / highest_tooth);
+        let factor = 0.5 * (low + high);
+        // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+        let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
+        let clear = sharper && high - low < LARGEST_ERROR;
+        (clear && chance(most, teeth, LARGEST_ERROR) < SEEN_BELOW).then_some((factor, error))
     };
-    let source = if seen(1.0, 0.5, LARGEST_ERROR) {
+    let seen = |centre: f64, teeth: &[f64], reach: f64| {
+        chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW
+    };
+    // every multiple together is sharpest, where those show too that no part's lines can be taken for
+    let free = free_multiples(orders);
+    let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
+    let shown = fit(&every).filter(|&(factor, error)| seen(factor, &free, error));
+    let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
+        return Ok(None);
+    };
+    let halves: Vec<f64> = every.iter().map(|tooth| tooth - 0.5).collect();
+    let source = if seen(1.0, &halves, LARGEST_ERROR) {
         SpeedSource::EverySecond
-    } else if seen(2.0 * factor, 0.0, error) && !seen(2.0 * factor, 0.5, error) {
+    } else if seen(2.0 * factor, &every, error) && !seen(2.0 * factor, &halves, error) {
         SpeedSource::EvenOnly
     } else {
         SpeedSource::Sharpened
@@ -203,6 +213,21 @@ fn sharpened(
         error,
         source,
     }))
+}
+
+/// Multiples of the shaft's order that are no part's line at a speed within the largest error.
+fn free_multiples(orders: &FaultOrders) -> Vec<f64> {
+    let parts = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
+    let parts: Vec<f64> = parts
+        .iter()
+        .filter_map(|&part| orders.order(part))
+        .collect();
+    let free = |multiple: &f64| {
+        let nearest = |part: &f64| (multiple / part).round().max(1.0) * part;
+        let mut parts = parts.iter();
+        parts.all(|part| (multiple / nearest(part) - 1.0).abs() > LARGEST_ERROR)
+    };
+    (1..=MULTIPLES).map(f64::from).filter(free).collect()
 }
 
 /// Orders, related to no simple ratio of the shaft's, at which its comb is tried for what it scores by chance.

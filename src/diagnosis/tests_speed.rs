@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::tests::{RATE, bearing, judged, named, steady, struck, with_noise};
 use super::*;
+use crate::closed_form::race::BallRow;
 
 /// A nominal speed 1.2 % above the true one: the shaft's own lines say so.
 #[test]
@@ -107,4 +108,52 @@ fn a_changed_speed_is_said_and_own_lines_hold_the_given_one() {
         both.speed_hz
     );
     assert_eq!(both.speed_change(), None);
+}
+
+/// 626 and 6202: every harmonic of the outer race, 3.045 a turn, is a multiple of a shaft that turns 1.5 % faster.
+#[test]
+fn lines_of_a_race_are_not_taken_for_the_shafts() {
+    let orders = BallRow::new(8, 3.175e-3, 13.3e-3, 0.0).unwrap().orders();
+    assert!((orders.outer - 3.0451).abs() < 1e-4, "{}", orders.outer);
+    for seconds in [2.1, 4.4] {
+        let outer = with_noise(&struck(seconds, steady, orders.outer, |_| 1.0), 0.1, 27);
+        let found = judged(&outer, steady, &orders, 0.01);
+        assert!((found.speed_hz - 25.0).abs() < 0.05, "{}", found.speed_hz);
+        assert_eq!(named(&found), [Fault::OuterRace], "{}", found.sentence());
+    }
+    // the shaft's own lines beside them are found
+    let mut values = struck(8.8, steady, orders.outer, |_| 1.0);
+    shaft_lines(&mut values, 25.0, 1.0);
+    let found = judged(
+        &with_noise(&values, 0.3, 28),
+        |t| 1.01 * steady(t),
+        &orders,
+        0.01,
+    );
+    assert_eq!(found.speed_source, SpeedSource::Sharpened);
+    assert!(
+        (found.speed_hz / 25.0 - 1.0).abs() < 2e-3,
+        "{}",
+        found.speed_hz
+    );
+}
+
+/// In twelve revolutions the first two harmonics of that race lie within what the shaft's lines take.
+#[test]
+fn a_part_whose_lines_the_shafts_hide_says_how_long_a_window_shows_it() {
+    let orders = BallRow::new(8, 3.175e-3, 13.3e-3, 0.0).unwrap().orders();
+    let found = |seconds: f64| {
+        let values = struck(seconds, steady, orders.outer, |_| 1.0);
+        judged(&with_noise(&values, 0.1, 29), steady, &orders, 0.0)
+    };
+    let short = found(0.48);
+    let hidden: Vec<Fault> = short.not_judged().map(|verdict| verdict.fault).collect();
+    assert_eq!(hidden, [Fault::OuterRace], "{}", short.sentence());
+    let why = &super::tests::verdict(&short, Fault::OuterRace).why;
+    assert!(
+        why.contains("A window of 23 revolutions") && why.contains("this one has 12"),
+        "{why}"
+    );
+    // one revolution more, since a window has whole samples
+    assert_eq!(named(&found(0.96)), [Fault::OuterRace]);
 }

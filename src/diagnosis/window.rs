@@ -37,6 +37,8 @@ pub struct Diagnosis {
     pub faults: Vec<FaultVerdict>,
     /// Impacts that belong to no part.
     pub unexplained: Vec<UnexplainedImpacts>,
+    /// Faults that the signal alone indicates and something else speaks against, [`doubt`](Self::doubt).
+    pub by_signal_alone: Vec<Fault>,
 }
 
 impl Diagnosis {
@@ -133,6 +135,7 @@ impl Diagnosis {
             spectrum: EnvelopeOrderSpectrum::new(&shown, shown_window, sharp, highest)?,
             faults: found.faults,
             unexplained: found.unexplained,
+            by_signal_alone: Vec::new(),
         })
     }
 
@@ -150,7 +153,14 @@ impl Diagnosis {
         if let Some(verdict) = self.faults.iter_mut().find(indicated) {
             verdict.conclusion = Conclusion::NotEnough;
             verdict.why = format!("{} {reason}", verdict.why);
+            self.by_signal_alone.push(fault);
         }
+    }
+
+    /// Parts on which nothing can be said: the window is too short, or lines that have another reason hide theirs.
+    pub fn not_judged(&self) -> impl Iterator<Item = &FaultVerdict> {
+        let faults = self.faults.iter();
+        faults.filter(|verdict| verdict.false_alarm.is_none())
     }
 
     /// Whether any part was judged: the window is long enough, and lines are free.
@@ -220,6 +230,15 @@ impl Diagnosis {
         let mut parts: Vec<String> = parts
             .map(|(faults, word)| format!("{word}: {}", faults.join(", ")))
             .collect();
+        let alone = self.by_signal_alone.iter().map(|fault| fault.name());
+        let alone: Vec<&str> = alone.collect();
+        if !alone.is_empty() {
+            parts.push(format!(
+                "by the signal alone {}: {}",
+                Conclusion::Named.words(),
+                alone.join(", ")
+            ));
+        }
         parts.extend(self.unexplained.iter().map(|impacts| {
             format!(
                 "impacts at {:.2} Hz with {} harmonics belong to no part of this bearing",

@@ -13,6 +13,9 @@ pub const HALF_LENGTH_OUTPUTS: usize = 14;
 /// Outputs that one input contributes to: 14 before it, 14 at or after it.
 const ACCUMULATORS: usize = 2 * HALF_LENGTH_OUTPUTS;
 
+/// Share of the output rate up to which signals pass unchanged; above it they fade, and what folds back is added.
+pub const PASSED: f64 = 0.4;
+
 /// Transition band from 0.4 to 0.6 of the output rate, in radians per output interval.
 const TRANSITION: f64 = 2.0 * PI * 0.2;
 

@@ -10,7 +10,7 @@ mod kaiser;
 mod statistics;
 mod time_series;
 
-pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS};
+pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
 pub use error::SeriesError;
 pub use kaiser::{KaiserInterpolation, KaiserLowPass};
 pub(crate) use statistics::root_mean_square;

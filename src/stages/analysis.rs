@@ -5,7 +5,7 @@ use super::{AskedBand, Kinematics, StageError, UsedBand, WindowChange};
 use crate::case::Case;
 use crate::diagnosis::{Diagnosis, Fault, FaultOrders};
 use crate::report::{Curve, Thinner};
-use crate::series::{TimeSeries, TimeWindow};
+use crate::series::{PASSED, TimeSeries, TimeWindow};
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
     PeakSearch, band_limit, envelope_peaks, squared, whiten,
@@ -33,6 +33,8 @@ pub struct AnalysisSettings {
     pub whiten: bool,
     /// Windows, s.
     pub windows: Vec<TimeWindow>,
+    /// Frequency up to which a simulated signal is accurate, Hz; `None`: a measured one.
+    pub good_to_hz: Option<f64>,
     /// Parts of a simulated bearing of which a signal may not indicate a fault, and why.
     pub no_signs: Vec<(Fault, String)>,
 }
@@ -52,9 +54,16 @@ impl AnalysisSettings {
                     to: window.to,
                 })
                 .collect(),
+            good_to_hz: good_to_hz(case),
             no_signs: no_signs(case),
         }
     }
+}
+
+/// Frequency up to which a case's recorded signals are accurate, Hz: the end of its band, or what the recording filter passes.
+fn good_to_hz(case: &Case) -> Option<f64> {
+    let passed = PASSED * case.transient.as_ref()?.output_hz;
+    Some(case.band_hz()?[1].min(passed))
 }
 
 /// A window of the signal, analysed.
@@ -146,7 +155,7 @@ pub fn analyse(
             let turns = |time| kinematics.turns(time);
             let mut diagnosis = Diagnosis::of(
                 &stretch,
-                band.judged_hz(settings.band),
+                band.judged_hz(settings.band, settings.good_to_hz),
                 window,
                 turns,
                 &orders,

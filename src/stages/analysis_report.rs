@@ -64,6 +64,19 @@ pub(super) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
                 },
                 (true, false, None) => "too short for a verdict".to_owned(),
             };
+            let names = |faults: Vec<Fault>| {
+                let names = faults.into_iter().map(Fault::name);
+                names.collect::<Vec<_>>().join(", ")
+            };
+            let not_judged: Vec<Fault> = diagnosis.not_judged().map(|v| v.fault).collect();
+            let mut text = text;
+            if diagnosis.is_judged() && !not_judged.is_empty() {
+                text = format!("{text}; not judged: {}", names(not_judged));
+            }
+            if !diagnosis.by_signal_alone.is_empty() {
+                let alone = names(diagnosis.by_signal_alone.clone());
+                text = format!("{text}; by the signal alone: {alone}");
+            }
             let what = format!(
                 "{}, {}-{} s",
                 window.sensor,
@@ -100,7 +113,7 @@ fn round(time: f64) -> String {
 
 /// All about a window.
 pub(super) fn window_section(window: &WindowAnalysis) -> Section {
-    let amount = |value: f64| format!("{} {}", significant(value, 4), window.unit);
+    let amount = |value: f64| format!("{} {}", significant(value, 3), window.unit);
     let mut section = Section::new(format!(
         "{}, {}-{} s",
         window.sensor,

@@ -145,13 +145,19 @@ impl UsedBand {
             .or(asked.map(<[f64; 2]>::from))
     }
 
-    /// The band that a verdict is sought in, Hz: what was asked for and found; `None`: all.
+    /// The band that a verdict is sought in, Hz: what was asked for and found, of a simulated signal no higher than `good_to_hz`, where it
+    /// is accurate, unless that end was asked for. `None`: all.
     #[must_use]
-    pub fn judged_hz(&self, asked: Option<AskedBand>) -> Option<[f64; 2]> {
-        match asked? {
-            AskedBand::HighPass(corner) => Some([corner, f64::INFINITY]),
-            AskedBand::Between(edges) => Some(edges),
-            AskedBand::Kurtogram => self.band_hz(),
+    pub fn judged_hz(&self, asked: Option<AskedBand>, good_to_hz: Option<f64>) -> Option<[f64; 2]> {
+        let end_hz = good_to_hz.unwrap_or(f64::INFINITY);
+        match asked {
+            None => good_to_hz.map(|end_hz| [0.0, end_hz]),
+            Some(AskedBand::HighPass(corner)) => Some([corner, end_hz]),
+            Some(AskedBand::Between(edges)) => Some(edges),
+            Some(AskedBand::Kurtogram) => {
+                let [from, to] = self.band_hz()?;
+                Some([from, to.min(end_hz)])
+            }
         }
     }
 

@@ -187,3 +187,16 @@ fn what_is_asked_for_is_used() {
         assert!((asked.corner_hz(8e3) - corner_hz).abs() < 1e-9);
     }
 }
+
+/// A simulated signal is not judged where it is not accurate, unless that end is asked for.
+#[test]
+fn a_verdict_looks_no_higher_than_a_simulated_signal_is_good_for() {
+    let judged = |asked, good_to_hz| UsedBand::default().judged_hz(asked, good_to_hz);
+    let above = Some(AskedBand::HighPass(5e3));
+    assert_eq!(judged(above, Some(40e3)), Some([5e3, 40e3]));
+    assert_eq!(judged(above, None), Some([5e3, f64::INFINITY]));
+    assert_eq!(judged(None, Some(40e3)), Some([0.0, 40e3]));
+    assert_eq!(judged(None, None), None);
+    let between = Some(AskedBand::Between([5e3, 45e3]));
+    assert_eq!(judged(between, Some(40e3)), Some([5e3, 45e3]));
+}

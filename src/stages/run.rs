@@ -134,7 +134,7 @@ impl<R: Recording> RunResult<R> {
             return "the error of the signals is not estimated".to_owned();
         };
         format!(
-            "estimated error of the signals in the band: {} (target {}{}), {}",
+            "estimated error of the signals in the band: {} of their RMS (target {}{}), {}",
             significant(error, 2),
             significant(choice.target, 2),
             if error > choice.target {

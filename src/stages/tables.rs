@@ -1,7 +1,7 @@
 //! Tables and texts that both reports show.
 
 use super::{ExpectedMode, StructureStage};
-use crate::case::Case;
+use crate::case::{Bond, Case, Damping, PlaneAssumption, RadiusRule, RingElement};
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
@@ -34,8 +34,11 @@ pub(crate) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) 
         facts.push(Fact::new(
             "Element",
             format!(
-                "{:?}, shear {}, rotary inertia {}",
-                asked.element,
+                "{}, shear {}, rotary inertia {}",
+                match asked.element {
+                    RingElement::ExactArc => "exact circular arc",
+                    RingElement::Raveendranath => "Raveendranath's polynomials",
+                },
                 on(asked.shear),
                 on(asked.rotary_inertia)
             ),
@@ -176,6 +179,26 @@ pub(super) fn expected_table(expected: &[ExpectedMode]) -> Table {
     table
 }
 
+/// Damping in words, with units.
+fn damping_words(damping: &Damping) -> String {
+    let percent = |ratio: f64| format!("{} % of critical", significant(100.0 * ratio, 3));
+    match damping {
+        Damping::Ratios([low, high]) => format!(
+            "{} at {} Hz and {} at {} Hz (Rayleigh)",
+            percent(low.ratio),
+            significant(low.frequency_hz, 4),
+            percent(high.ratio),
+            significant(high.frequency_hz, 4)
+        ),
+        Damping::Rayleigh { alpha, beta } => format!(
+            "Rayleigh, {} 1/s times the mass and {} s times the stiffness",
+            significant(*alpha, 4),
+            significant(*beta, 4)
+        ),
+        Damping::Modal(ratio) => format!("{} in every mode", percent(*ratio)),
+    }
+}
+
 /// What a reader must know to judge the numbers.
 pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<String> {
     let mut list = Vec::new();
@@ -190,8 +213,8 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
         }
         if setup.contact_damping > 0.0 {
             list.push(format!(
-                "Contact damping (Hunt-Crossley) {} s/m: a choice, the source has none and does not say its damping.",
-                setup.contact_damping
+                "Contact damping (Hunt-Crossley) {} s/m.",
+                significant(setup.contact_damping, 4)
             ));
         }
         if !setup.race_defects.is_empty() || !setup.flats.is_empty() {
@@ -209,14 +232,22 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
     }
     if let Some(damping) = &case.damping {
         list.push(format!(
-            "Damping of ring and housing: {damping:?}; a choice, the source does not give it."
+            "Damping of ring and housing: {}.",
+            damping_words(damping)
         ));
     }
     if let Some(ring) = &case.ring {
         if ring.sections.len() > 1 {
             list.push(format!(
-                "Rings in one section: bond {:?}, radius rule {:?}.",
-                ring.bond, ring.radius_rule
+                "Rings in one section: {}, {}.",
+                match ring.bond {
+                    Bond::Slip => "in radial contact, free to slide",
+                    Bond::Composite => "one body",
+                },
+                match ring.radius_rule {
+                    RadiusRule::Own => "each bends on its own radius",
+                    RadiusRule::CommonCentroid => "all bend on their common centroid",
+                }
             ));
         }
         if ring.tie.is_some() {
@@ -225,8 +256,11 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
     }
     if let Some(plane) = case.meshed_housing().and_then(|housing| housing.plane) {
         list.push(format!(
-            "Housing in plane {:?}, {} mm thick.",
-            plane.assumption,
+            "Housing in plane {}, {} mm thick.",
+            match plane.assumption {
+                PlaneAssumption::Stress => "stress",
+                PlaneAssumption::Strain => "strain",
+            },
             significant(plane.thickness * 1e3, 4)
         ));
     }

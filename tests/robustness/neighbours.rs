@@ -185,7 +185,12 @@ fn a_run_does_not_go_on_with_other_rows_than_it_had() {
 fn links_in_a_folder_for_results_lead_nowhere() {
     let folder = folder("links");
     let elsewhere = folder.join("elsewhere");
-    for name in ["figures", "tables", ".run.partial"] {
+    for (name, flag) in [
+        ("figures", "--force"),
+        ("tables", "--force"),
+        (".run.partial", "--force"),
+        (".run.partial", "--resume"),
+    ] {
         let _ = fs::remove_dir_all(folder.join("out"));
         fs::create_dir_all(folder.join("out")).unwrap();
         fs::create_dir_all(&elsewhere).unwrap();
@@ -194,8 +199,8 @@ fn links_in_a_folder_for_results_lead_nowhere() {
             fs::write(elsewhere.join(file), "kept").unwrap();
         }
         symlink(&elsewhere, folder.join("out").join(name)).unwrap();
-        let output = plummer(&folder, &words(&format!("{RUN} --force")));
-        assert_ne!(output.status.code(), Some(0), "{name}");
+        let output = plummer(&folder, &words(&format!("{RUN} {flag}")));
+        assert_ne!(output.status.code(), Some(0), "{name} {flag}");
         assert!(
             errors(&output).contains("expected no symbolic link"),
             "{name}: {}",

@@ -102,7 +102,9 @@ impl Baseline {
                 window: self.window(source, earlier, window),
                 kinematics: &before,
             };
-            let within_hz = window.band.judged_hz(source.settings.band);
+            let within_hz = window
+                .band
+                .judged_hz(source.settings.band, source.settings.good_to_hz);
             let compared = compare_window(window, within_hz, signal, &kinematics, &earlier);
             compared.map_err(|error| AnalyzeError::Baseline {
                 baseline: self.path.clone(),

@@ -40,21 +40,31 @@ const LARGEST_COUPLING: f64 = 1e-4;
 impl EigenProblem {
     /// The `count` lowest pairs: the first by one search, which knows rigid motions, those beyond slice by slice.
     pub(super) fn lowest_in_slices(&self, count: usize) -> Result<EigenPairs, LinalgError> {
-        // a first search that ends in a crowd takes more, until it ends behind it
+        // the gap behind the first pairs may lie some pairs further: these are asked for too. A search that ends in a crowd takes more,
+        // until it ends behind it
         let mut asked = FIRST;
-        let first = loop {
+        let mut cut: Option<Cut> = None;
+        let (first, start) = loop {
             let first = self.lowest_at_once(asked)?;
-            let counted = first.count_check.counted;
-            if counted == first.values.len() {
-                break first;
+            let check = first.count_check;
+            let own = (check.below, check.counted);
+            let closed = |cut: &Cut| {
+                let last = first.values.last();
+                cut.1 == first.values.len() && last.is_some_and(|last| *last < cut.0)
+            };
+            if let Some(cut) = [Some(own), cut].into_iter().flatten().find(closed) {
+                break (first, cut);
             }
-            asked = counted.max(asked + 1 + asked / 8);
+            asked = if own.1 > asked {
+                cut = Some(own);
+                own.1
+            } else {
+                asked + 1 + asked / 8
+            };
             if asked > count {
                 return Err(LinalgError::NoGap { asked: count });
             }
         };
-        let check = first.count_check;
-        let start = (check.below, check.counted);
         let (slices, end) = self.slices(start, count, None)?;
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;

@@ -66,7 +66,7 @@ pub enum FrfError {
     },
     /// A resonance without damping at this frequency.
     #[error(
-        "at {hz} Hz the structure is in resonance without damping (at 0 Hz: it is held by nothing): its response is without bound; give it damping, or leave this frequency out"
+        "at {hz} Hz the structure is in resonance without damping (at 0 Hz: it is held by nothing, or so softly that round-off hides it): its response is without bound; give it damping, or leave this frequency out"
     )]
     Unbounded {
         /// The frequency, Hz.

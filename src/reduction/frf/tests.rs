@@ -283,7 +283,7 @@ fn an_undamped_resonance_and_a_free_body_are_errors() {
     };
     let unbounded = |hz: f64| {
         format!(
-            "at {hz} Hz the structure is in resonance without damping (at 0 Hz: it is held by nothing): its response is without bound; give it damping, or leave this frequency out"
+            "at {hz} Hz the structure is in resonance without damping (at 0 Hz: it is held by nothing, or so softly that round-off hides it): its response is without bound; give it damping, or leave this frequency out"
         )
     };
     let modal = sum(&system, &basis);

@@ -77,7 +77,7 @@ pub struct ChosenPart {
 }
 
 impl ModelChoice {
-    /// That the model errs by more than the target, strikes of the balls apart, with its largest part and what helps, in a sentence.
+    /// That the model errs by more than the target, with its largest part and what helps, in a sentence.
     pub fn warnings(&self) -> Vec<String> {
         let target = self.target;
         let parts = self.parts.iter();
@@ -86,13 +86,20 @@ impl ModelChoice {
         let (Some(together), Some((part, error))) = (self.estimated_error, largest) else {
             return Vec::new();
         };
-        if together <= self.growth * target {
+        if together <= target {
             return Vec::new();
         }
+        // what the program chooses keeps the linear estimate below the target
+        let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {
             SUPERELEMENT | CONDENSATION => {
                 "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency"
             }
+            _ if grown && !part.why.starts_with("given") => &format!(
+                "errors grow up to {} times as balls strike, and the model is chosen without that; accuracy.target = {} takes that in",
+                significant(self.growth, 2),
+                significant(target / self.growth, 2)
+            ),
             "modes" => "raise transient.modes",
             "balls" => "set bearing.balls_inertia = \"dynamic\"",
             _ => {

@@ -12,6 +12,7 @@ mod error;
 mod frame;
 mod groups;
 mod page;
+mod run_text;
 mod scene;
 mod sensor;
 #[cfg(test)]
@@ -32,7 +33,7 @@ use self::groups::{Groups, usable};
 use self::scene::{BearingNumbers, RingNumbers};
 use super::Inspection;
 use crate::catalogue::CatalogueBearing;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshError};
 use crate::units::LengthUnit;
 
 /// What is asked for.
@@ -164,6 +165,18 @@ fn find<'a>(
         bore.as_ref().map(|bore| bore.group.as_str()),
     );
     if groups.parts.is_empty() {
+        // a name that two groups share is no name
+        let solids = mesh
+            .groups
+            .iter()
+            .filter(|group| group.dimension == dimension);
+        let named = solids.map(|group| mesh.group(&group.name));
+        if let Some(shared) = named
+            .filter_map(Result::err)
+            .find(|error| matches!(error, MeshError::AmbiguousGroup { .. }))
+        {
+            return Err(shared.into());
+        }
         let what = if plane { "surfaces" } else { "volumes" };
         return Err(DraftError::NoPart { path: path(), what });
     }

@@ -1,6 +1,7 @@
 //! The case file's text, and the findings in sentences.
 
 use super::page::{Page, list, number, numbers, quoted};
+use super::run_text::run;
 use super::scene::{BALANCE, BearingNumbers, SHAFT_LENGTHS, SPEED_HZ, shaft};
 use super::{Draft, Found, FoundCylinder, UnitFrom};
 
@@ -22,7 +23,7 @@ pub(super) fn write(found: &Found<'_>) -> Draft {
     bearing(&mut page, found);
     motion(&mut page, found);
     sensors(&mut page, found);
-    run(&mut page);
+    run(&mut page, found);
     let parts = found.groups.parts.iter();
     Draft {
         length_unit: found.unit,
@@ -527,47 +528,5 @@ fn sensors(page: &mut Page, found: &Found<'_>) {
         "direction",
         numbers(&found.directions.up, DIGITS, 1e-9),
         "up",
-    );
-}
-
-fn run(page: &mut Page) {
-    page.table("[modes]");
-    page.value_from("count", "12", "the lowest so many");
-    page.note("with the bearing's contacts at rest under the shaft's weight (needs [bearing] and a support):");
-    page.line("#linearise = \"static\"");
-    page.table("[accuracy]");
-    page.value_from(
-        "band_hz",
-        "[0, 20000]",
-        "guess: frequencies that the signals are to be good for",
-    );
-    page.value_from("target", "0.01", "usual: relative error");
-    page.table("[transient]");
-    page.value_from("start", "0", "s, in equilibrium at that time's speed");
-    page.value_from(
-        "end",
-        "0.6",
-        "guess, s: 15 turns, of which the first settle",
-    );
-    page.value_from(
-        "method",
-        "\"auto\"",
-        "the program's choice; plummer run --explain says which",
-    );
-    page.value_from(
-        "output_hz",
-        "51200",
-        "usual for recorders; more than twice the band",
-    );
-    page.table("[analysis]");
-    page.value_from(
-        "high_pass_hz",
-        "3000",
-        "guess: above it the housing rings, below it the shaft turns",
-    );
-    page.value_from(
-        "envelope",
-        "[{ from = 0.1, to = 0.6 }]",
-        "12 turns, enough to name a part",
     );
 }
