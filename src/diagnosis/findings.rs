@@ -6,7 +6,7 @@ use super::explain::{Candidate, Search, turns_needed};
 use super::fault::Fault;
 use super::known::{KnownLine, coincidence, line_name};
 use super::line_spectrum::LineSpectrum;
-use super::verdict::{Evidence, FaultVerdict, Harmonic, SideLine, conclude};
+use super::verdict::{Conclusion, Evidence, FaultVerdict, Harmonic, SideLine, conclude};
 
 /// Side lines that are looked at: to so many spacings on each side of so many harmonics.
 const SIDES: i32 = 2;
@@ -87,16 +87,23 @@ impl Search<'_> {
         };
         let shown = hidden.iter().take(2).map(String::as_str);
         let shown: Vec<&str> = shown.collect();
-        let hint = match self.orders.turns_to_judge(fault) {
-            Some(turns) if turns > self.turns => format!(
-                "A window of {:.0} revolutions at one speed separates them from the shaft's; this one has {:.0}.",
+        let hint = self
+            .beside_the_shafts(fault)
+            .unwrap_or_else(|| "Lines that have another reason hide them.".to_owned());
+        format!("No verdict: {too_few} ({}). {hint}", shown.join(", "))
+    }
+
+    /// That the window is too short to tell a part's lines from the shaft's, and which one is not.
+    fn beside_the_shafts(&self, fault: Fault) -> Option<String> {
+        match self.orders.turns_to_judge(fault) {
+            Some(turns) if turns > self.turns => Some(format!(
+                "A window of {:.0} revolutions separates these lines from the shaft's; this one has {:.0}.",
                 turns.ceil(),
                 self.turns
-            ),
-            Some(_) => "Lines that have another reason hide them.".to_owned(),
-            None => "No window separates them from the shaft's.".to_owned(),
-        };
-        format!("No verdict: {too_few} ({}). {hint}", shown.join(", "))
+            )),
+            Some(_) => None,
+            None => Some("No window separates these lines from the shaft's.".to_owned()),
+        }
     }
 
     pub(super) fn verdict(
@@ -130,6 +137,12 @@ impl Search<'_> {
             ..self.empty(fault, expected)
         };
         (verdict.conclusion, verdict.why) = conclude(&verdict, &evidence, chance);
+        if verdict.conclusion == Conclusion::NotSeen
+            && let Some(reason) = self.beside_the_shafts(fault)
+        {
+            verdict.conclusion = Conclusion::NotEnough;
+            verdict.why = format!("{} {reason}", verdict.why);
+        }
         verdict
     }
 

@@ -20,16 +20,9 @@ impl FaultOrders {
         let first = distances[0].max(distances[1]);
         distances.sort_by(|a, b| b.total_cmp(a));
         let least = distances[LEAST_FREE - 1].min(first);
+        // of longer windows stretches of 64 revolutions are averaged, which are no finer
         let apart = SHORT_WIDTH * STRONG_HALF_WIDTH / least;
-        let longest = 1.5 * REVOLUTIONS;
-        let apart = if apart < longest {
-            apart
-        } else if least > STRONG_HALF_WIDTH / REVOLUTIONS {
-            longest
-        } else {
-            return None;
-        };
-        Some(apart.max(turns_needed(order)))
+        (apart < 1.5 * REVOLUTIONS).then(|| apart.max(turns_needed(order)))
     }
 }
 
@@ -49,6 +42,8 @@ mod tests {
         assert!((turns(3.585).unwrap() - 5.88).abs() < 0.05);
         // the floor decides, 16 / 2.4
         assert!((turns(2.4).unwrap() - 6.67).abs() < 0.01);
+        // the ball of 6203: 2 / 0.026
+        assert!((turns(3.987).unwrap() - 76.9).abs() < 0.1);
         assert_eq!(turns(3.005), None);
         assert_eq!(turns(4.0), None);
         let orders = FaultOrders::new([None; 4], 0.0).unwrap();
