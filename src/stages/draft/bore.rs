@@ -8,6 +8,9 @@ use crate::mesh::{BoundaryFace, Mesh, PhysicalGroup};
 /// Largest distance of a node from the cylinder, relative to its radius: what the ring's tie accepts.
 pub(super) const TOLERANCE: f64 = 0.01;
 
+/// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
+const LEAST_TURN: f64 = 1.0 / 12.0;
+
 /// Parts of names that a bore has.
 const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
 
@@ -125,7 +128,7 @@ pub(super) fn cylinders(
         let Some(cylinder) = fit(&facets(mesh, rim, group), &nodes) else {
             continue;
         };
-        if cylinder.farthest > TOLERANCE * cylinder.radius {
+        if cylinder.farthest > TOLERANCE * cylinder.radius || cylinder.turn < LEAST_TURN {
             continue;
         }
         let group = group.name.clone();

@@ -214,3 +214,27 @@ fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
     assert_eq!(groups.supports.len(), 0);
     assert_eq!(notes(&groups), [("base", "looks like a support")]);
 }
+
+/// The middle node of the lower side is 1e-6 off: on an arc of a radius of 5e5 sides.
+#[test]
+fn a_straight_side_is_no_hole() {
+    let mut mesh = squares(
+        "2 1 \"plate\"\n1 2 \"side\"\n",
+        &[
+            "1 3 2 1 1 1 2 5 4",
+            "2 3 2 1 1 2 3 6 5",
+            "3 1 2 2 2 1 2",
+            "4 1 2 2 2 2 3",
+        ],
+    );
+    let found = |mesh: &Mesh| {
+        let rim = super::bore::Rim::of(mesh, 2);
+        super::bore::cylinders(mesh, 2, &rim, |_| true)
+    };
+    mesh.nodes[1][1] = 1e-6;
+    let flat = found(&mesh);
+    assert_eq!((flat.bore, flat.outside.len()), (None, 0));
+    // a deep one is round: 87 degrees of a circle of 1.45 sides
+    mesh.nodes[1][1] = 0.4;
+    assert!(found(&mesh).bore.is_some());
+}
