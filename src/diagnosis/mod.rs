@@ -33,6 +33,7 @@ mod error;
 mod explain;
 mod fault;
 mod findings;
+mod inner_race_lines;
 mod known;
 mod level_change;
 mod line_change;

@@ -7,6 +7,7 @@ use super::bands::{BandSpectrum, searched_band};
 use super::comb::SHOWN_HARMONICS;
 use super::control::ByChance;
 use super::fault::{Fault, FaultOrders};
+use super::inner_race_lines::InnerRaceLines;
 use super::line_spectrum::LineSpectrum;
 use super::verdict::FaultVerdict;
 use super::{Conclusion, DiagnosisError, LEAST_SHORT_HARMONICS};
@@ -200,6 +201,11 @@ fn sharpened(
     let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
         return Ok(None);
     };
+    let moved = (factor - 1.0).abs() > UNSEEN_ERROR;
+    let inner = InnerRaceLines::of(orders, UNSEEN_ERROR, LARGEST_ERROR);
+    if moved && inner.explain_more(best(factor, &every, error).0, &every, step, &level) {
+        return Ok(None);
+    }
     let halves: Vec<f64> = every.iter().map(|tooth| tooth - 0.5).collect();
     let source = if seen(1.0, &halves, LARGEST_ERROR) {
         SpeedSource::EverySecond

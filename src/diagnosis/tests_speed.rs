@@ -138,6 +138,22 @@ fn lines_of_a_race_are_not_taken_for_the_shafts() {
     );
 }
 
+/// 6202: harmonics of the inner race, 4.95 a turn, and its sidebands are nearly multiples of a shaft that turns 1 % slower.
+#[test]
+fn sidebands_of_an_inner_race_are_not_taken_for_the_shafts() {
+    let orders = BallRow::new(8, 3.175e-3, 13.3e-3, 0.0).unwrap().orders();
+    assert!((orders.inner - 4.9549).abs() < 1e-4, "{}", orders.inner);
+    for (seconds, given) in [(4.4, 1.0), (4.4, 1.005), (8.8, 1.0)] {
+        let in_the_load = |turn: f64| (0.2 + (TAU * turn).cos()).max(0.0);
+        let inner = struck(seconds, steady, orders.inner, in_the_load);
+        let series = with_noise(&inner, 0.1, 41);
+        let found = judged(&series, |t| given * steady(t), &orders, 0.01);
+        let off = found.speed_hz / (25.0 * given) - 1.0;
+        assert!(off.abs() < 3e-3, "{seconds}: {}", found.speed_hz);
+        assert_eq!(named(&found), [Fault::InnerRace], "{}", found.sentence());
+    }
+}
+
 /// In twelve revolutions the first two harmonics of that race lie within what the shaft's lines take.
 #[test]
 fn a_part_whose_lines_the_shafts_hide_says_how_long_a_window_shows_it() {

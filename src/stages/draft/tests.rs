@@ -215,26 +215,42 @@ fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
     assert_eq!(notes(&groups), [("base", "looks like a support")]);
 }
 
-/// The middle node of the lower side is 1e-6 off: on an arc of a radius of 5e5 sides.
-#[test]
-fn a_straight_side_is_no_hole() {
-    let mut mesh = squares(
-        "2 1 \"plate\"\n1 2 \"side\"\n",
-        &[
-            "1 3 2 1 1 1 2 5 4",
-            "2 3 2 1 1 2 3 6 5",
-            "3 1 2 2 2 1 2",
-            "4 1 2 2 2 2 3",
-        ],
+/// A strip of five squares whose lower side bulges by the sagitta `deep`, in sides.
+fn bulging(deep: f64) -> Mesh {
+    let mut nodes = Vec::new();
+    for k in 0..6 {
+        let off = f64::from(k) / 2.5 - 1.0;
+        nodes.push([f64::from(k), -deep * (1.0 - off * off)]);
+        nodes.push([f64::from(k), 1.0]);
+    }
+    let mut text = String::from(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"plate\"\n1 2 \"side\"\n$EndPhysicalNames\n$Nodes\n12\n",
     );
-    let found = |mesh: &Mesh| {
-        let rim = super::bore::Rim::of(mesh, 2);
-        super::bore::cylinders(mesh, 2, &rim, |_| true)
+    for (node, [x, y]) in nodes.iter().enumerate() {
+        text += &format!("{} {x} {y} 0\n", node + 1);
+    }
+    text += "$EndNodes\n$Elements\n10\n";
+    for k in 0..5 {
+        let first = 2 * k + 1;
+        let (second, upper, left) = (first + 2, first + 3, first + 1);
+        text += &format!("{} 3 2 1 1 {first} {second} {upper} {left}\n", first);
+        text += &format!("{} 1 2 2 2 {first} {second}\n", first + 1);
+    }
+    text += "$EndElements\n";
+    Mesh::from_gmsh_bytes(text.as_bytes(), Path::new("strip.msh"), LengthUnit::Metre).unwrap()
+}
+
+/// Coordinates that were rounded put a straight side on an arc of a radius of millions of sides.
+#[test]
+fn a_straight_side_is_no_round_surface() {
+    let outside = |deep: f64| {
+        let mesh = bulging(deep);
+        let rim = super::bore::Rim::of(&mesh, 2);
+        let found = super::bore::cylinders(&mesh, 2, &rim, |_| true);
+        assert_eq!(found.bore, None);
+        found.outside.len()
     };
-    mesh.nodes[1][1] = 1e-6;
-    let flat = found(&mesh);
-    assert_eq!((flat.bore, flat.outside.len()), (None, 0));
-    // a deep one is round: 87 degrees of a circle of 1.45 sides
-    mesh.nodes[1][1] = 0.4;
-    assert!(found(&mesh).bore.is_some());
+    assert_eq!(outside(1e-6), 0);
+    // 0.7 sides deep in five: 63 degrees of a circle
+    assert_eq!(outside(0.7), 1);
 }
