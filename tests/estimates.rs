@@ -9,6 +9,7 @@
 //!
 //! ```text
 //! cargo test --release --test estimates -- --ignored --nocapture
+//! PLUMMER_SEED=7 cargo test --release --test estimates -- --ignored --nocapture
 //! ```
 
 use plummer::case::Case;
@@ -22,7 +23,8 @@ use rayon::prelude::*;
 /// Scenes of the table.
 const SCENES: u64 = 40;
 
-/// Seed of the first scene's numbers; the others follow it.
+/// Seed of the first scene's numbers, unless `PLUMMER_SEED` gives another; the other scenes follow it. The factors of the estimate were found on
+/// the scenes of this one.
 const SEED: u64 = 20_261_124;
 
 /// Steps of the reference, s: the longest one, how often it is halved, and how often at most while there is no reference yet.
@@ -71,9 +73,13 @@ struct Drawn {
     text: String,
 }
 
+fn seed() -> u64 {
+    std::env::var("PLUMMER_SEED").map_or(SEED, |seed| seed.parse().unwrap())
+}
+
 /// Draws scene `number`.
 fn draw(number: u64) -> Drawn {
-    let mut numbers = Numbers(SEED.wrapping_add(number.wrapping_mul(0x1234_5678_9ABC_DEF1)));
+    let mut numbers = Numbers(seed().wrapping_add(number.wrapping_mul(0x1234_5678_9ABC_DEF1)));
     let load = numbers.scale(0.1, 100.0);
     let by_mass = numbers.chance(0.5);
     let play = numbers.between(-10e-6, 10e-6);
@@ -316,8 +322,10 @@ fn estimates_hold() {
         (held, holds.len())
     };
     let (smooth, others) = (of(true), of(false));
-    // of the forty, 15 and 20 can be compared with a reference; other round-off may move one
-    assert!(smooth.1 >= 14 && others.1 >= 19, "{smooth:?} {others:?}");
+    // of the forty of the seed above, 15 and 20 can be compared with a reference; other round-off may move one
+    if seed() == SEED {
+        assert!(smooth.1 >= 14 && others.1 >= 19, "{smooth:?} {others:?}");
+    }
     assert_eq!(smooth.0, smooth.1);
     assert!(others.0 as f64 >= 0.95 * others.1 as f64);
 }

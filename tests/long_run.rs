@@ -19,24 +19,30 @@ const DENT: &str = "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,wi
 struct Run {
     folder: PathBuf,
     end: &'static str,
+    step: &'static str,
 }
 
 impl Run {
     fn new(name: &str, end: &'static str) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
         let _ = fs::remove_dir_all(&folder);
-        Self { folder, end }
+        Self {
+            folder,
+            end,
+            step: "2.5e-7",
+        }
     }
 
     fn command(&self, more: &[&str]) -> Command {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let end = format!("transient.end={}", self.end);
+        let step = format!("transient.step={}", self.step);
         let mut command = Command::new(env!("CARGO_BIN_EXE_plummer"));
         command
             .arg("run")
             .arg(root.join("examples/scenes/smooth.toml"))
             .args(["--set", DENT, "--set", "bearing.radial_play=2.5e-6"])
-            .args(["--set", "transient.step=2.5e-7", "--set", &end])
+            .args(["--set", &step, "--set", &end])
             .args(["--checkpoint-every", "0", "--out"])
             .arg(&self.folder)
             .args(more)
@@ -183,8 +189,11 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
 
 #[test]
 fn a_run_that_blows_up_leaves_what_it_had_and_names_a_step() {
-    let run = Run::new("blown-up", "0.01");
-    let (code, text) = run.ended(&["--set", "transient.step=2.5e-6"]);
+    let run = Run {
+        step: "2.5e-6",
+        ..Run::new("blown-up", "0.01")
+    };
+    let (code, text) = run.ended(&[]);
     assert_eq!(code, 1, "{text}");
     assert!(
         text.starts_with("error: the solution blew up at t = "),

@@ -84,7 +84,7 @@ pub use ring::{
     Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
 };
 pub use sensor::{Sensor, SensorSpot};
-pub use set::{SetProblem, split_argument};
+pub use set::{SetProblem, replaced_argument, split_argument};
 pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
 pub use transient::{
     Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient, Window,

@@ -88,6 +88,39 @@ pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), S
     Ok(())
 }
 
+/// The first argument of which a later one leaves nothing, and that one: it sets the same key, or a table or array around it.
+///
+/// ```
+/// use plummer::case::replaced_argument;
+///
+/// let set = ["shaft.mass=1", "modes={count=3}", "modes.count=4"].map(str::to_owned);
+/// assert_eq!(replaced_argument(&set), None);
+/// let set = ["modes.count=4", "modes={up_to_hz=1e4}"].map(str::to_owned);
+/// assert_eq!(replaced_argument(&set), Some(set));
+/// ```
+#[must_use]
+pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
+    let names = |argument: &String| -> Option<Vec<String>> {
+        let (key, _) = split_argument(argument)?;
+        let name = |step: Step| match step {
+            Step::Key(key) => key,
+            Step::Index(index) => index.to_string(),
+        };
+        Some(parse_path(key)?.into_iter().map(name).collect())
+    };
+    let keys: Vec<_> = arguments.iter().map(names).collect();
+    for (place, later) in keys.iter().enumerate() {
+        let Some(later) = later else { continue };
+        let earlier = keys[..place].iter().position(|earlier| {
+            (earlier.as_ref()).is_some_and(|earlier| earlier.starts_with(later))
+        });
+        if let Some(earlier) = earlier {
+            return Some([arguments[earlier].clone(), arguments[place].clone()]);
+        }
+    }
+    None
+}
+
 /// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
 #[must_use]
 pub fn split_argument(argument: &str) -> Option<(&str, &str)> {

@@ -20,6 +20,22 @@ pub enum CliError {
     /// The case file or a `--set` argument is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// `--set` beside a command that reads no case.
+    #[error("--set {argument}: `plummer {command}` reads no case that it could change")]
+    SetWithoutCase {
+        /// The first argument.
+        argument: String,
+        /// The command.
+        command: &'static str,
+    },
+    /// A `--set` argument that a later one replaces.
+    #[error("--set {later} replaces --set {earlier}: expected each key once")]
+    SetTwice {
+        /// The argument of which nothing would be left.
+        earlier: String,
+        /// The one that replaces it.
+        later: String,
+    },
     /// The folder holds a result of the same command.
     #[error("{} is the result of an earlier run", path.display())]
     ResultExists {
@@ -176,6 +192,8 @@ impl CliError {
             | Self::Results(_)
             | Self::Folder { .. }
             | Self::Finished { .. }
+            | Self::SetWithoutCase { .. }
+            | Self::SetTwice { .. }
             | Self::ResumeAnew => 2,
             Self::Stage(error) if error.is_input() => 2,
             Self::Export(error) if error.is_input() => 2,
@@ -219,6 +237,10 @@ impl CliError {
             }
             Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
+            Self::SetWithoutCase { .. } => Some(
+                "leave it out; the command has options of its own, which --help lists".to_owned(),
+            ),
+            Self::SetTwice { .. } => Some("leave one of the two out".to_owned()),
             Self::BadAnswer { help, .. } | Self::WrongInput { help, .. } => help.clone(),
             Self::Threads(_) => Some(
                 "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"

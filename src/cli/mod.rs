@@ -24,6 +24,7 @@ mod report;
 mod report_files;
 mod results;
 mod run;
+mod set_arguments;
 mod shell;
 mod stability;
 mod sweep;
@@ -106,6 +107,7 @@ fn on_arguments() -> ExitCode {
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
+    set_arguments::check_set(arguments)?;
     let options = &arguments.options;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

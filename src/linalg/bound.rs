@@ -11,7 +11,7 @@ const CLUSTER: f64 = 1e-3;
 
 /// Round-off of `x^T K x` in units of eps times the scatter of its terms: an entry of K is a sum over thirty elements,
 /// each a sum over its integration points. Two orders of assembly of the same solid differ by a twentieth of it.
-const ROUNDING: f64 = 32.0;
+pub(super) const ROUNDING: f64 = 32.0;
 
 /// What is known of computed eigenpairs.
 #[derive(Debug, Clone)]

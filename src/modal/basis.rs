@@ -82,6 +82,72 @@ impl ModalBasis {
         Ok(Self::new(pairs))
     }
 
+    /// The modes of a problem with those near zero [sharpened](Self::sharpen): their whole space is computed where the range cuts it, for
+    /// a part of it is a mixture of all. What lies beyond the range is left out then, and rigid modes of a range from above zero.
+    /// `products` gives `Phi^T K Phi` [count x count] of shapes Phi [n x count] without assembling K.
+    ///
+    /// # Errors
+    /// [`LinalgError`] of factorisation, iteration or proof, and what `products` reports.
+    pub fn sharpened<E: From<LinalgError>>(
+        problem: &EigenProblem,
+        range: ModeRange,
+        products: impl FnOnce(&DenseMatrix) -> Result<DenseMatrix, E>,
+    ) -> Result<Self, E> {
+        let near = hz(NEAR_ZERO * problem.rounding_of_zero());
+        let computed = match range {
+            ModeRange::UpToHz(high) | ModeRange::BandHz([_, high]) if high < near => {
+                ModeRange::UpToHz(near)
+            }
+            ModeRange::BandHz([low, high]) if low < near => ModeRange::UpToHz(high),
+            _ => range,
+        };
+        let mut basis = Self::of(problem, computed)?;
+        let counted = basis.count_check.counted;
+        if basis.near_zero() == basis.count()
+            && matches!(range, ModeRange::Count(count) if count < counted)
+        {
+            basis = Self::of(problem, ModeRange::Count(counted))?;
+        }
+        basis.sharpen(products)?;
+        basis.keep(range);
+        Ok(basis)
+    }
+
+    /// Leaves out what lies beyond a range.
+    fn keep(&mut self, range: ModeRange) {
+        let squared = |hz: f64| (TAU * hz).powi(2);
+        let lies_in = |mode: &usize| {
+            let (value, bound) = (self.eigenvalues[*mode], self.bounds[*mode]);
+            match range {
+                ModeRange::Count(count) => *mode < count,
+                ModeRange::UpToHz(high) => value - bound <= squared(high),
+                ModeRange::BandHz([low, high]) => {
+                    let begins =
+                        low <= 0.0 || *mode >= self.rigid_modes && value + bound >= squared(low);
+                    begins && value - bound <= squared(high)
+                }
+            }
+        };
+        let kept: Vec<usize> = (0..self.count()).filter(lies_in).collect();
+        if kept.len() == self.count() {
+            return;
+        }
+        let numbers = [
+            &mut self.eigenvalues,
+            &mut self.bounds,
+            &mut self.rounding,
+            &mut self.residuals,
+        ];
+        for numbers in numbers {
+            *numbers = kept.iter().map(|&mode| numbers[mode]).collect();
+        }
+        let shapes = &self.shapes;
+        self.shapes = DenseMatrix::from_fn(shapes.nrows(), kept.len(), |row, mode| {
+            shapes[(row, kept[mode])]
+        });
+        self.judge();
+    }
+
     fn new(pairs: EigenPairs) -> Self {
         let check = pairs.count_check;
         let mut basis = Self {
@@ -137,9 +203,7 @@ impl ModalBasis {
         &mut self,
         products: impl FnOnce(&DenseMatrix) -> Result<DenseMatrix, E>,
     ) -> Result<(), E> {
-        let near = |(value, bound): &(&f64, &f64)| value.abs() <= NEAR_ZERO * **bound;
-        let both = self.eigenvalues.iter().zip(&self.bounds);
-        let count = both.take_while(near).count();
+        let count = self.near_zero();
         if count == 0 {
             return Ok(());
         }
@@ -183,6 +247,13 @@ impl ModalBasis {
         }
         self.judge();
         Ok(())
+    }
+
+    /// How many of the first eigenvalues the matrices do not tell well from zero.
+    fn near_zero(&self) -> usize {
+        let near = |(value, bound): &(&f64, &f64)| value.abs() <= NEAR_ZERO * **bound;
+        let both = self.eigenvalues.iter().zip(&self.bounds);
+        both.take_while(near).count()
     }
 
     /// An eigenvalue that all after the first `count` reach, 1/s^2; zero if nothing is known of them.

@@ -33,7 +33,7 @@ pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
 pub use housing_modes::housing_modes;
 pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
-pub use mechanisms::{Body, Joint, Mechanisms, Piece};
+pub use mechanisms::{Body, Joint, Mechanisms, Piece, pieces_at};
 pub use motions::{over_all_dofs, rigid_motions, ring_motions};
 pub use participation::Participation;
 pub use strain_products::strain_products;

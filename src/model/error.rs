@@ -191,7 +191,7 @@ pub enum ModelError {
     },
     /// A bore node that a link ties elsewhere.
     #[error(
-        "{path}: node {tag} of the bore \"{bore}\" is tied to the ring and, by a link, to another part: keep the bore out of the linked surfaces"
+        "{path}: node {tag} of the bore \"{bore}\" is tied to the ring and, by a link, to another part: keep the bore out of the linked surfaces, or join the parts by stiff springs (spring in the place of tie)"
     )]
     TiedTwice {
         /// The mesh file.

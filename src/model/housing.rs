@@ -193,9 +193,7 @@ impl HousingModel {
             linked[node] = true;
         }
         let (bodies, linked) = (self.bodies(), |node| linked[node]);
-        let touching = bodies.touching(linked);
-        let crossings = bodies.crossings(linked, &self.overlaps, &touching);
-        (self.touching, self.crossings) = (touching, crossings);
+        (self.touching, self.crossings) = bodies.unconnected(linked, &self.overlaps);
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {

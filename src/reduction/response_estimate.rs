@@ -41,13 +41,15 @@ pub struct ResponseEstimate {
 impl ResponseEstimate {
     /// Estimates the errors on `paths` of a condensed housing in a system, whose coordinates begin with those of the
     /// superelement, at ascending frequencies. `structural` is the imaginary part of the stiffness of the housing's lossy
-    /// parts over its degrees of freedom, N/m.
+    /// parts over its degrees of freedom, N/m. `mass_damping` is alpha of `C = alpha M`, 1/s: what it takes of the interior adds to
+    /// inertia, `(w^2 - i w alpha) M x`. Damping in proportion to stiffness leaves nothing in the interior that statics lack.
     ///
     /// # Errors
     /// What [`ModalSuperposition`] refuses.
     pub fn new(
         condensed: &CraigBampton,
         structural: Option<&SparseMatrix>,
+        mass_damping: f64,
         system: &ReducedSystem,
         modes: &ModalBasis,
         paths: &FrfPaths,
@@ -59,8 +61,9 @@ impl ResponseEstimate {
         let forces = beside(&inertia, losses.as_ref());
         let (substructure, basis) = (&condensed.substructure, &condensed.basis);
         let flexibility = ResidualFlexibility::new(substructure, basis, forces.clone())?;
+        let inertial = |hz: f64| c64::new((TAU * hz).powi(2), -TAU * hz * mass_damping);
         let residual = |place: usize, end: usize| -> Vec<c64> {
-            let squared = (TAU * frequencies_hz[place]).powi(2);
+            let squared = inertial(frequencies_hz[place]);
             let amplitudes = ends.amplitudes(place, end);
             let lossy = losses.iter().flat_map(|_| &amplitudes);
             let lossy = lossy.map(|amplitude| -c64::i() * amplitude);
@@ -82,7 +85,7 @@ impl ResponseEstimate {
                         continue;
                     }
                     let pulled = residual(place, sensor);
-                    let lacks = flexibility.missing((TAU * hz).powi(2), &pushed, &pulled);
+                    let lacks = flexibility.missing(inertial(hz).norm(), &pushed, &pulled);
                     let relative = lacks.norm() / ends.level(place, load, sensor);
                     if relative > largest {
                         largest = relative;

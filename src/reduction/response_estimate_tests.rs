@@ -65,7 +65,7 @@ fn errors(condensed: &CraigBampton) -> (ResponseEstimate, Vec<f64>) {
     let (system, paths) = reduced(condensed);
     let modes = ModalBasis::new(&system).expect("finite");
     let hz = frequencies();
-    let estimate = ResponseEstimate::new(condensed, None, &system, &modes, &paths, &hz);
+    let estimate = ResponseEstimate::new(condensed, None, 0.0, &system, &modes, &paths, &hz);
     let rod = rod(NODES);
     let full = self::system(dense(&rod.stiffness), dense(&rod.mass));
     let full = direct_response(&full, &full_paths(), &hz).expect("damped");

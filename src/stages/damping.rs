@@ -66,6 +66,17 @@ pub(super) fn modal_damping(case: &Case) -> Result<ModalDamping, StageError> {
     })
 }
 
+/// Alpha of a case's `C = alpha M + beta K`, 1/s; zero for damping mode by mode.
+///
+/// # Errors
+/// As [`damping`].
+pub(super) fn mass_damping(case: &Case) -> Result<f64, StageError> {
+    Ok(match damping(case)? {
+        ModeDamping::Rayleigh { alpha, .. } => alpha,
+        ModeDamping::Modal(_) => 0.0,
+    })
+}
+
 /// Viscous damping matrix [n x n] of matrices k and m with the case's damping, N s/m.
 ///
 /// # Errors

@@ -8,6 +8,7 @@ use super::structure::layer;
 use super::{StageError, Unwatched, race_contacts};
 use crate::case::{self, Case};
 use crate::mesh::Mesh;
+use crate::modal::pieces_at;
 use crate::model::HousingModel;
 use crate::system::{BearingSetup, Equilibrium};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -30,6 +31,18 @@ const APART: f64 = 0.5;
 /// Densities of balls, kg/m^3: those of solids, from plastics to tungsten.
 const BALL_DENSITIES: [f64; 2] = [800.0, 20_000.0];
 
+/// Bar speeds of sound of solids, `sqrt(E / rho)`, m/s: soft rubber has 30, steel 5200, diamond 18 000.
+const SPEEDS_OF_SOUND: [f64; 2] = [10.0, 20_000.0];
+
+/// Densities of solids, kg/m^3: from foams to osmium (22 590).
+const DENSITIES: [f64; 2] = [5.0, 23_000.0];
+
+/// Distance between the faces of two neighbouring sections that is told, over the lower one's height.
+const GAP: f64 = 0.5;
+
+/// Width of a section over the outer diameter of its ring that is told: rings and housings about a bearing are narrower.
+const WIDTH: f64 = 2.0;
+
 /// The doubts about a case: of its housing, of how the ring sits in it, and of the bearing under the load at rest.
 ///
 /// # Errors
@@ -39,11 +52,12 @@ pub fn doubts(
     housing: Option<(&Mesh, &HousingModel)>,
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
 ) -> Result<Vec<String>, StageError> {
-    let mut found = Vec::new();
+    let mut found = material_doubts(case);
     if let Some((_, model)) = housing {
         found.extend(housing_doubts(model));
     }
     if let Some(ring) = &case.ring {
+        found.extend(section_doubts(case, ring)?);
         found.extend(ring_doubts(case, ring, housing)?);
     }
     if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
@@ -114,6 +128,71 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     tied.chain(shared).chain(flat).collect()
 }
 
+/// Materials that no solid is, which a value in another unit makes.
+fn material_doubts(case: &Case) -> Vec<String> {
+    let told = case.materials.iter().filter_map(|(name, material)| {
+        let density = material.density();
+        let (least, most) = match material {
+            case::Material::Isotropic(material) => (material.young, material.young),
+            case::Material::Orthotropic(material) => {
+                let along = material.young.iter();
+                along.fold((f64::INFINITY, 0.0), |(least, most), young| {
+                    (young.min(least), young.max(most))
+                })
+            }
+        };
+        let speeds = [least, most].map(|young| (young / density).sqrt());
+        let solid = |[low, high]: [f64; 2], value: &f64| (low..=high).contains(value);
+        if solid(DENSITIES, &density) && speeds.iter().all(|speed| solid(SPEEDS_OF_SOUND, speed)) {
+            return None;
+        }
+        Some(format!(
+            "materials.{name}: young = {least:.4e} Pa and density = {density:.4e} kg/m^3 give a speed of sound of {:.3e} m/s, and no solid has these; steel has 2.1e11 Pa, 7850 kg/m^3 and 5.2e3 m/s: check the units (Pa and kg/m^3, with meshes in mm too)",
+            speeds[0]
+        ))
+    });
+    told.collect()
+}
+
+/// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.
+fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, StageError> {
+    let mut sections = Vec::new();
+    for (index, section) in ring.sections.iter().enumerate() {
+        let layer = layer(case, section)?;
+        sections.push((index, layer.radius, layer.rectangle()));
+    }
+    sections.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut found = Vec::new();
+    for (index, radius, [height, width]) in &sections {
+        if *width > WIDTH * (2.0 * radius + height) {
+            found.push(format!(
+                "ring.sections[{index}] is about {width:.3e} m wide by its area and inertia, and {height:.3e} m high at a radius of {radius:.3e} m: no ring is as wide; check area (m^2) and inertia (m^4)"
+            ));
+        }
+    }
+    for pair in sections.windows(2) {
+        let [
+            (inner, low, [inner_height, _]),
+            (outer, high, [outer_height, _]),
+        ] = pair
+        else {
+            continue;
+        };
+        let gap = (high - 0.5 * outer_height) - (low + 0.5 * inner_height);
+        if gap.abs() > GAP * inner_height.min(*outer_height) {
+            let how = match gap > 0.0 {
+                true => "lie apart by",
+                false => "reach into each other by",
+            };
+            found.push(format!(
+                "ring.sections[{inner}] and ring.sections[{outer}] {how} about {:.3e} m by their radii, areas and inertias: rings that are fitted into each other touch; check radius (m), area (m^2) and inertia (m^4)",
+                gap.abs()
+            ));
+        }
+    }
+    Ok(found)
+}
+
 /// How the ring sits in the housing.
 fn ring_doubts(
     case: &Case,
@@ -143,6 +222,7 @@ fn ring_doubts(
             seat.free_turn.to_degrees()
         ));
     }
+    found.extend(bore_in_pieces(mesh, model, &tie.group)?);
     if model.dimension() == 3 {
         let outside = seat.share_outside(width);
         if outside > OVERHANG {
@@ -163,6 +243,29 @@ fn ring_doubts(
         ));
     }
     Ok(found)
+}
+
+/// Whether the bore is of bodies that nothing but the ring joins.
+fn bore_in_pieces(
+    mesh: &Mesh,
+    model: &HousingModel,
+    bore: &str,
+) -> Result<Option<String>, StageError> {
+    let group = model.group_on_housing(mesh, bore, "the tie")?;
+    // bodies that are too many to be looked at are told with the modes
+    let pieces = pieces_at(mesh, model, &group.nodes).unwrap_or_default();
+    if pieces.len() < 2 {
+        return Ok(None);
+    }
+    let named: Vec<String> = pieces
+        .iter()
+        .map(|parts| format!("\"{}\"", parts.join("\", \"")))
+        .collect();
+    Ok(Some(format!(
+        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add a link to housing.links",
+        pieces.len(),
+        named.join(" and ")
+    )))
 }
 
 /// Whether the outer race is in the innermost section of its ring.

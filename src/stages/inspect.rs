@@ -85,7 +85,8 @@ impl Inspection {
     pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
         let bodies = Bodies::of_mesh(mesh);
-        let (overlapping, touching) = (bodies.overlaps(), bodies.touching(|_| false));
+        let overlapping = bodies.overlaps();
+        let (touching, crossing) = bodies.unconnected(|_| false, &overlapping);
         let mut found = Self {
             length_unit: unit,
             size: 0.0,
@@ -95,7 +96,7 @@ impl Inspection {
             invalid: Vec::new(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
-            crossing: bodies.crossings(|_| false, &overlapping, &touching),
+            crossing,
             overlapping,
             touching,
             inventory,

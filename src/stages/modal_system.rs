@@ -96,6 +96,26 @@ impl FullModes {
         extent: ModeExtent,
         watch: &impl Watch,
     ) -> Result<Self, StageError> {
+        let solve = |problem: &EigenProblem, range, _: &CoupledMotions, _: &[usize], _| {
+            Ok(ModalBasis::of(problem, range)?)
+        };
+        Self::by(matrices, extent, solve, watch)
+    }
+
+    /// Modes as `solve` finds them: from the problem over the free rows and the range, with what the coordinates mean, the free rows and the
+    /// number of all.
+    fn by(
+        matrices: CoupledMatrices,
+        extent: ModeExtent,
+        solve: impl FnOnce(
+            &EigenProblem,
+            ModeRange,
+            &CoupledMotions,
+            &[usize],
+            usize,
+        ) -> Result<ModalBasis, StageError>,
+        watch: &impl Watch,
+    ) -> Result<Self, StageError> {
         let CoupledMatrices {
             stiffness,
             mass,
@@ -107,7 +127,7 @@ impl FullModes {
         let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
         drop((stiffness, mass));
         watch.stage("eigen");
-        let basis = ModalBasis::of(&problem, range(extent, free.len()))?;
+        let basis = solve(&problem, range(extent, free.len()), &motions, &free, rows)?;
         if basis.count() == 0 {
             return Err(StageError::NoModes { extent });
         }
@@ -132,8 +152,13 @@ impl FullModes {
         watch: &impl Watch,
     ) -> Result<(Self, DenseMatrix, Participation), StageError> {
         let moved = sparse_times_dense(&matrices.mass, rigid);
-        let mut modes = Self::of(matrices, extent, watch)?;
-        modes.sharpen(products)?;
+        let solve =
+            |problem: &EigenProblem, range, motions: &CoupledMotions, free: &[usize], rows| {
+                ModalBasis::sharpened(problem, range, |shapes| {
+                    products(motions, &scattered_rows(shapes, free, rows))
+                })
+            };
+        let modes = Self::by(matrices, extent, solve, watch)?;
         let all = modes.over_all_rows();
         let participation = Participation::of_normalised(&moved, &all, rigid)?;
         Ok((modes, all, participation))

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TransientError {
     /// The time span, the step or a parameter of the method does not make sense.
-    #[error("{what} must be {rule}, found {value}")]
+    #[error("{what} must be {rule}, found {value:?}")]
     Schedule {
         /// Which quantity.
         what: &'static str,

@@ -276,7 +276,7 @@ fn parts_that_reach_into_one_another_by_little_are_said() {
     blocks.write(&folder, &["a", "b"], "");
     for output in [modes(&folder), inspect(&folder)] {
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
-        let words = "18 faces on 1.000e-2 m^2, at most 1.3e-3 m apart or into one another";
+        let words = "the parts \"a\" and \"b\" reach into one another: 9 pairs of elements do, by up to 1.3e-3 m";
         assert!(text(&output).contains(words), "{}", text(&output));
     }
 }

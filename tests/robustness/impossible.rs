@@ -72,6 +72,10 @@ fn impossible_bearings_are_refused() {
             ["outer face of the ring", "0.009"],
         ),
         (
+            &["ring.sections[1].inertia=9e-9"],
+            ["ring.sections[1].inertia", "reaches the ring's axis"],
+        ),
+        (
             &["bearing.waviness=[{on='outer',order=9,amplitude=1e-3}]"],
             ["amplitude", "a tenth of the ball's radius"],
         ),
@@ -96,6 +100,34 @@ fn bearings_in_doubt_are_said() {
                 "bearing.balls=5",
             ],
             &["innermost of ring.sections"],
+        ),
+        (
+            &["ring.sections[1].radius=7.5"],
+            &["ring.sections[0] and ring.sections[1] lie apart by about 7.492e0 m"],
+        ),
+        (
+            &["ring.sections[1].radius=6e-3"],
+            &["reach into each other by about 1.518e-3 m"],
+        ),
+        (
+            &[
+                "ring.sections[1].area=12e-3",
+                "ring.sections[1].inertia=9e-9",
+            ],
+            &["ring.sections[1] is about 4.000e0 m wide"],
+        ),
+        (
+            &["materials.steel.young=210e3"],
+            &[
+                "materials.steel: young = 2.1000e5 Pa and density = 7.8500e3 kg/m^3 give a speed of sound of 5.172e0 m/s",
+            ],
+        ),
+        (
+            &[
+                "materials.steel.density=7.85e-9",
+                "materials.steel.young=210e3",
+            ],
+            &["speed of sound of 5.172e6 m/s"],
         ),
         (&[], &[]),
     ] {

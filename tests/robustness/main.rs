@@ -6,6 +6,7 @@
 //!
 //!     cargo test --release --test robustness -- --ignored --nocapture --test-threads 1
 
+mod attacks;
 mod bodies;
 mod disk;
 mod doubled;

@@ -6,8 +6,8 @@ use super::super::{
     RadiusRule, Ring, RingSupport, Spring,
 };
 use super::range::{
-    above, above_zero, degrees, density, direction, each_once, known_isotropic, known_material,
-    loss_factor, modulus, not_empty, poisson, share, zero_or_more,
+    above, above_zero, below, degrees, density, direction, each_once, known_isotropic,
+    known_material, loss_factor, modulus, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::material::MaterialError;
@@ -168,6 +168,12 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
             }
         }
         above_zero(at("radius"), section.radius)?;
+        below(
+            at("inertia"),
+            section.inertia,
+            "area radius^2 / 3, that of a section which reaches the ring's axis",
+            section.area * section.radius.powi(2) / 3.0,
+        )?;
         share(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
             above(

@@ -119,13 +119,17 @@ impl Source<'_> {
         Ok(read.values)
     }
 
-    /// The one number of an array, if it is there and above zero.
+    /// The one number of an array, above zero; `None` for an array that is not there or empty.
     fn positive(&mut self, name: &str) -> Result<Option<f64>, NpzReadError> {
         let values = match self.npz.has(name) {
             true => self.list(name)?,
             false => Vec::new(),
         };
-        Ok(values.first().copied().filter(|value| *value > 0.0))
+        match values[..] {
+            [] => Ok(None),
+            [value] if value > 0.0 && value.is_finite() => Ok(Some(value)),
+            _ => Err(self.wrong(name, "one number above zero", format!("{values:?}"))),
+        }
     }
 
     fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, NpzReadError> {

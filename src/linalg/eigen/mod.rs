@@ -8,7 +8,7 @@ mod slices;
 
 pub use pairs::{EigenPairs, EigenTimes};
 
-use super::bound::Quality;
+use super::bound::{Quality, ROUNDING};
 use super::count::CountCheck;
 use super::factor::Factor;
 use super::lowest::{Ritz, largest_basis};
@@ -151,6 +151,17 @@ impl EigenProblem {
     /// Number of degrees of freedom.
     pub fn order(&self) -> usize {
         self.stiffness.order()
+    }
+
+    /// Round-off of `x^T K x` where zero should be, 1/s^2: that of the motion in which all unknowns are equal, of unit mass, as far as there
+    /// is mass. Motions of a rigid body have as much to an order of magnitude.
+    pub fn rounding_of_zero(&self) -> f64 {
+        let n = self.order();
+        let ones = DenseMatrix::from_fn(n, 1, |_, _| 1.0);
+        let mass: f64 = self.mass.times(ones.as_ref()).col_as_slice(0).iter().sum();
+        let scatter: f64 = self.stiffness.energy_scatters(ones.as_ref()).iter().sum();
+        let rounding = ROUNDING * f64::EPSILON * scatter / mass;
+        if rounding.is_finite() { rounding } else { 0.0 }
     }
 
     /// `K X` for `X` [n x k].

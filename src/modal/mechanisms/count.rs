@@ -232,6 +232,32 @@ impl Mechanisms {
     }
 }
 
+/// The pieces of a housing that have some of these nodes: the parts of each.
+///
+/// # Errors
+/// As [`Mechanisms::find`].
+pub fn pieces_at(
+    mesh: &Mesh,
+    model: &HousingModel,
+    nodes: &[usize],
+) -> Result<Vec<Vec<String>>, ModalError> {
+    let found = Mechanisms::find(mesh, model)?;
+    let map = BodyMap::new(model);
+    let at_nodes: BTreeSet<usize> = nodes.iter().filter_map(|&node| map.of_node(node)).collect();
+    let pieces: BTreeSet<usize> = at_nodes
+        .iter()
+        .map(|&body| found.bodies[body].piece)
+        .collect();
+    let parts_of = |piece: &usize| {
+        let members = found.pieces[*piece].bodies.iter();
+        let parts: BTreeSet<&String> = members
+            .flat_map(|&body| &found.bodies[body].parts)
+            .collect();
+        parts.into_iter().cloned().collect()
+    };
+    Ok(pieces.iter().map(parts_of).collect())
+}
+
 fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Body>, ModalError> {
     let membership = Membership::new(mesh, model)?;
     let mut parts = vec![BTreeSet::new(); map.extents.len()];

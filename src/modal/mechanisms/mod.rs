@@ -11,7 +11,7 @@ mod count;
 mod rows;
 mod sentences;
 
-pub use count::{Body, Joint, Mechanisms, Piece};
+pub use count::{Body, Joint, Mechanisms, Piece, pieces_at};
 
 #[cfg(test)]
 mod ring_tests;

@@ -44,12 +44,28 @@ impl Crossing {
 }
 
 impl Bodies<'_> {
+    /// What is not connected by nodes and has nodes that are not `linked`: faces on each other, and bodies that reach into one another by more
+    /// than what flat faces miss, known `overlaps` left out.
+    pub fn unconnected(
+        &self,
+        linked: impl Fn(usize) -> bool + Sync,
+        overlaps: &[Overlap],
+    ) -> (Vec<Touching>, Vec<Crossing>) {
+        let mut touching = self.touching(&linked);
+        let crossings = self.crossings(linked, overlaps, &touching);
+        let crosses = |touching: &Touching| {
+            { crossings.iter() }.any(|crossing| crossing.parts == touching.parts)
+        };
+        touching.retain(|touching| !crosses(touching));
+        (touching, crossings)
+    }
+
     /// Elements of different bodies without common nodes that fill common space, by pairs of parts. Left out are pairs of
-    /// which each has a node that is `linked`, and pairs of parts that are known to overlap or touch.
+    /// which each has a node that is `linked`, and pairs of parts that are known to overlap, or to touch without reaching into one another.
     ///
     /// An element stands for the convex hull of its corners: the separating axis theorem (Gottschalk, Lin and Manocha, SIGGRAPH
     /// 1996) says how far one must move to be clear of the other.
-    pub fn crossings(
+    fn crossings(
         &self,
         linked: impl Fn(usize) -> bool + Sync,
         overlaps: &[Overlap],
@@ -118,7 +134,11 @@ impl Bodies<'_> {
             });
         let known = overlaps.iter().map(|overlap| &overlap.parts);
         let known: Vec<_> = known
-            .chain(touching.iter().map(|touching| &touching.parts))
+            .chain(
+                { touching.iter() }
+                    .filter(|touching| !touching.sunk)
+                    .map(|touching| &touching.parts),
+            )
             .collect();
         found
             .filter(|crossing| !known.contains(&&crossing.parts))

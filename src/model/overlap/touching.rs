@@ -31,6 +31,9 @@ pub struct Touching {
     pub place: [f64; 3],
     /// 2 or 3.
     pub dimension: usize,
+    /// Whether one body has sunk into the other by more than what flat faces miss.
+    #[serde(skip)]
+    pub(super) sunk: bool,
 }
 
 impl Touching {
@@ -55,12 +58,23 @@ impl Touching {
     }
 }
 
+/// The facet that the centre of another one lies on.
+#[derive(Debug, Clone, Copy)]
+struct Behind {
+    facet: usize,
+    /// From its plane, m.
+    distance: f64,
+    /// Whether that is behind it, and more than what flat faces miss.
+    sunk: bool,
+}
+
 struct Sum {
     faces: usize,
     sizes: [f64; 2],
     gap: f64,
     node_pairs: Vec<[usize; 2]>,
     place: Vector3<f64>,
+    sunk: bool,
 }
 
 impl Bodies<'_> {
@@ -81,18 +95,18 @@ impl Bodies<'_> {
         });
         let tree = BoxTree::new(bounds.collect());
         let order = tree.order().par_iter();
-        let mut on: Vec<(usize, usize, f64)> = order
+        let mut on: Vec<(usize, Behind)> = order
             .filter_map(|&index| {
-                let (other, distance) = self.lies_on(&facets, index as usize, &tree)?;
-                Some((index as usize, other, distance))
+                let behind = self.lies_on(&facets, index as usize, &tree)?;
+                Some((index as usize, behind))
             })
             .collect();
         on.sort_unstable_by_key(|pair| pair.0);
         let mut sums: BTreeMap<[usize; 2], Sum> = BTreeMap::new();
         let is_linked = |facet: &Facet| facet.corners.iter().all(|&node| linked(node));
         let pairs = on.into_iter();
-        let pairs = pairs.map(|(index, other, gap)| (&facets[index], &facets[other], gap));
-        for (facet, other, gap) in pairs.filter(|(a, b, _)| !is_linked(a) && !is_linked(b)) {
+        let pairs = pairs.map(|(index, behind)| (&facets[index], &facets[behind.facet], behind));
+        for (facet, other, behind) in pairs.filter(|(a, b, _)| !is_linked(a) && !is_linked(b)) {
             let [part, of_other] = [facet, other].map(|facet| self.solids[facet.solid].part);
             let sum = sums
                 .entry([part.min(of_other), part.max(of_other)])
@@ -102,9 +116,11 @@ impl Bodies<'_> {
                     gap: 0.0,
                     node_pairs: Vec::new(),
                     place: facet.centre,
+                    sunk: false,
                 });
             sum.faces += 1;
-            sum.gap = sum.gap.max(gap);
+            sum.gap = sum.gap.max(behind.distance);
+            sum.sunk |= behind.sunk;
             sum.sizes[usize::from(part > of_other)] += facet.size;
             sum.node_pairs.extend(self.node_pairs(facet, other));
         }
@@ -125,16 +141,16 @@ impl Bodies<'_> {
                     .solids
                     .first()
                     .map_or(3, |solid| solid.kind.dimension()),
+                sunk: sum.sunk,
             }
         });
         found.collect()
     }
 
-    /// The nearest facet that looks the other way and that the centre of this one lies on or is sunk behind, and its
-    /// distance, m.
-    fn lies_on(&self, facets: &[Facet], index: usize, tree: &BoxTree) -> Option<(usize, f64)> {
+    /// The nearest facet that looks the other way and that the centre of this one lies on or is sunk behind.
+    fn lies_on(&self, facets: &[Facet], index: usize, tree: &BoxTree) -> Option<Behind> {
         let facet = &facets[index];
-        let mut best: Option<(f64, usize)> = None;
+        let mut best: Option<Behind> = None;
         let reach = facet.reach + self.tolerance;
         tree.visit(facet.centre.into(), reach, |number| {
             let other = &facets[number];
@@ -148,13 +164,19 @@ impl Bodies<'_> {
             let Some(height) = self.height(other, &facet.centre) else {
                 return;
             };
-            let nearer = best.is_none_or(|best| (height.abs(), number) < best);
+            let nearer =
+                best.is_none_or(|best| (height.abs(), number) < (best.distance, best.facet));
+            let touches = height.abs() <= limit;
             let sunk = || other.body != facet.body && height < 0.0 && self.is_within(facet, other);
-            if nearer && (height.abs() <= limit || sunk()) {
-                best = Some((height.abs(), number));
+            if nearer && (touches || sunk()) {
+                best = Some(Behind {
+                    facet: number,
+                    distance: height.abs(),
+                    sunk: !touches,
+                });
             }
         });
-        best.map(|(distance, number)| (number, distance))
+        best
     }
 
     /// Whether the centre of a facet lies within the element behind another one.

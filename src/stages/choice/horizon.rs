@@ -98,6 +98,9 @@ impl Horizon {
                 format!("passed within {} ms; then {later}", ms(self.looked_s))
             }
             (true, _) => format!("{place}; later, {later}"),
+            (false, true) if self.strikes => {
+                format!("{place}, as far as it was looked at; at some time later, {later}")
+            }
             (false, true) => format!("{place} at least"),
             (false, false) => "over the whole run".to_owned(),
         }

@@ -145,9 +145,19 @@ impl ModelChoice {
         };
         let (method, mut method_part) = stepping::method(asked, &model, target);
         model.method = method;
-        let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
+        let (step, mut step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
         model.step = step;
-        match pilot::measured(asked, &model, scene, band_hz) {
+        let mut measured = pilot::measured(asked, &model, scene, band_hz);
+        while let Ok(Some(error)) = measured
+            && let Some(shorter) = stepping::shorter(asked, &model, error, target, step)
+        {
+            model.step = shorter;
+            step_part.chosen = format!("{} s", significant(shorter, 3));
+            "by the target, from the error that longer ones made on a stretch"
+                .clone_into(&mut step_part.why);
+            measured = pilot::measured(asked, &model, scene, band_hz);
+        }
+        match measured {
             Ok(Some(measured)) => method_part.estimated_error = Some(measured),
             Ok(None) => {}
             Err(why) => {

@@ -17,6 +17,10 @@ pub(super) const ADAMS_ORDER: f64 = 0.75;
 /// Part of the target that the steps may take.
 const SHARE: f64 = 0.8;
 
+/// Shortest steps that the program chooses for the exponential method, in units of those that resolve the contacts: where shorter ones do not help,
+/// such a motion cannot be predicted.
+const SHORTEST: f64 = 1.0 / 32.0;
+
 /// Largest phase of the highest kept mode in a step: exponential-adams lets energy creep through modes that it does not
 /// resolve, and with a tolerance halves its steps where that shows.
 const MODE_PHASE: f64 = 2.0;
@@ -153,6 +157,23 @@ pub(super) fn step(
         estimated_error: Some(0.0),
     };
     Ok((step, part))
+}
+
+/// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of
+/// `model` does not: the error falls with the square of the step, as long as it is above `resolved` times [`SHORTEST`].
+pub(super) fn shorter(
+    asked: &case::Transient,
+    model: &RunModel,
+    error: f64,
+    target: f64,
+    resolved: f64,
+) -> Option<f64> {
+    let chosen = asked.step == StepLength::Auto && model.method == Method::Exponential;
+    let least = SHORTEST * resolved;
+    if !chosen || error <= SHARE * target || model.step <= least {
+        return None;
+    }
+    Some((0.9 * model.step * (SHARE * target / error).sqrt()).max(least))
 }
 
 /// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers

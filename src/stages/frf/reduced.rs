@@ -10,7 +10,7 @@ use crate::reduction::frf::{
 };
 use crate::reduction::{BasisChoice, BasisSize, ResponseEstimate};
 use crate::stages::condensed::{CondensedStage, basis_choice};
-use crate::stages::damping::viscous_matrix;
+use crate::stages::damping::{mass_damping, viscous_matrix};
 use crate::stages::places::Place;
 use crate::stages::{StageError, Watch};
 
@@ -137,6 +137,7 @@ impl<'c> ReducedPaths<'c> {
             FrfHousing::Mesh(stage) => Some(ResponseEstimate::new(
                 &stage.condensed,
                 stage.structural.as_ref(),
+                mass_damping(asked.case)?,
                 &system,
                 &basis,
                 &paths,

@@ -87,6 +87,27 @@ fn estimates_are_those_of_the_full_model() {
     assert!(judged >= 12, "{judged}");
 }
 
+/// Damping in proportion to mass takes forces of the interior as inertia does: at 1e6 /s it is 16 times as large at 10 kHz.
+#[test]
+fn strong_mass_damping_is_estimated() {
+    let check = "frf.check_hz=[1000, 9000, 17000, 25000, 33000, 41000, 49000, 57000]";
+    for alpha in ["1e5", "1e6"] {
+        let damping = format!("damping={{alpha={alpha},beta=0}}");
+        let set = ["condense.fixed_interface_modes=20", check, &damping];
+        let found = result(&accuracy("0.01"), &set);
+        for at in &found.compared {
+            let factor = at.estimated.unwrap() / at.difference;
+            if (1e-9..0.1).contains(&at.difference) {
+                assert!((0.5..5.0).contains(&factor), "{alpha}: {at:?}");
+            }
+        }
+        assert!(
+            found.compared.iter().any(|at| at.difference > 1e-9),
+            "{alpha}"
+        );
+    }
+}
+
 #[test]
 fn a_basis_that_is_too_small_does_not_pass() {
     let small = [

@@ -149,7 +149,7 @@ fn what_no_step_is_short_enough_for_is_said() {
     };
     assert_eq!(
         run(&mut system, 0.0),
-        "tolerance must be at least 1e-14 and below 1, found 0"
+        "tolerance must be at least 1e-14 and below 1, found 0.0"
     );
     assert!(run(&mut system, f64::NAN).contains("found NaN"));
     assert!(run(&mut system, 1e-3).contains("no step is short enough for the tolerance"));
