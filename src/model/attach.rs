@@ -3,7 +3,7 @@
 use super::ModelError;
 use super::housing::{HousingModel, NodalMatrix, NodalSource};
 use super::spread::{Share, shares};
-use super::support::{Constraint, SpringStiffness, SupportShare};
+use super::support::{Constraint, PointMass, SpringStiffness, SupportShare};
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
@@ -20,6 +20,22 @@ impl HousingModel {
             });
         }
         Ok(())
+    }
+
+    /// Point masses on nodes that supports hold in every direction.
+    pub fn held_masses(&self) -> impl Iterator<Item = &PointMass> {
+        let is_held = |node: &usize| {
+            self.fixed[*node][..self.dimension]
+                .iter()
+                .all(Option::is_some)
+        };
+        let numbered = self.point_masses.iter().enumerate();
+        let held = numbered.filter(move |(index, _)| {
+            let of_mass = |matrix: &&NodalMatrix| matches!(matrix.source, NodalSource::Mass(own) if own == *index);
+            let mut nodes = self.masses.iter().filter(of_mass).flat_map(|matrix| &matrix.nodes);
+            nodes.all(is_held)
+        });
+        held.map(|(_, mass)| mass)
     }
 
     pub(super) fn attach_support(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {

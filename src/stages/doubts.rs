@@ -124,8 +124,14 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
             flat.faces, flat.flatness, flat.tag
         )
     });
+    let held = model.held_masses().map(|mass| {
+        format!(
+            "the mass of {} kg on the group \"{}\" is where supports hold every direction: it counts in the mass of the model and moves nothing",
+            mass.mass, mass.group
+        )
+    });
     let tied = overlaps.chain(touching).chain(crossings).chain(apart);
-    tied.chain(shared).chain(flat).collect()
+    tied.chain(shared).chain(flat).chain(held).collect()
 }
 
 /// Materials that no solid is, which a value in another unit makes.

@@ -16,6 +16,10 @@ const LARGEST_DENSE: usize = 1300;
 /// Entries of a stiffness, as a divisor of all places, up to which it is factorised as a sparse matrix.
 const SPARSE: usize = 10;
 
+/// Smallest pivot of a held structure, relative to its diagonal entry and to the number of rows: a motion without force moves all rows, and
+/// round-off of each of them adds to its last pivot.
+const SINGULAR: f64 = 8.0 * f64::EPSILON;
+
 /// Relative error of static responses by a sparse factor above which a structure counts as free.
 const LARGEST_CONTRACTION: f64 = 1e-4;
 
@@ -234,7 +238,7 @@ impl Structure {
         }
         DenseCholesky::new(&self.stiffness)
             .ok()
-            .filter(|factor| factor.reciprocal_condition() >= 1e-14)
+            .filter(|factor| factor.reciprocal_condition() >= SINGULAR * order as f64)
             .map(StaticFactor::Dense)
     }
 }

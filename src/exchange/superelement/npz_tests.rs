@@ -136,7 +136,7 @@ fn what_does_not_fit_is_told_with_file_and_array() {
     let path = folder.path().join("s.npz");
     let whole: [f64; 6] = [1.0; 6];
     let near = [3.0, 1e-3, 0.0, 16.0];
-    let cases: [(&[Array], &str); 11] = [
+    let cases: [(&[Array], &str); 12] = [
         (
             &[("k", &[2, 3], &whole), ("m", &[2, 2], &M)],
             "array \"k\": expected a square matrix of at least one row, found 2 x 3",
@@ -193,6 +193,14 @@ fn what_does_not_fit_is_told_with_file_and_array() {
                 ("weight", &[2, 2], &K),
             ],
             "array \"weight\": expected 2 x 3, found 2 x 2",
+        ),
+        (
+            &[
+                ("k", &[2, 2], &K),
+                ("m", &[2, 2], &M),
+                ("band_hz", &[1], &[-1.0]),
+            ],
+            "array \"band_hz\": expected one number above zero, found [-1.0]",
         ),
         (
             &[("k", &[2, 2], &K)],

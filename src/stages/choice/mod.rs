@@ -244,7 +244,11 @@ fn modes(
     let (all, known) = (scene.stage.structure.dof(), scene.stage.modes.count());
     let (selection, why) = match asked.modes {
         ModesKept::All => (ModeSelection::All, "given".to_owned()),
-        ModesKept::Count(count) => (ModeSelection::Count(count.min(known)), "given".to_owned()),
+        ModesKept::Count(count) if count > known => (
+            ModeSelection::Count(known),
+            format!("given: {count}, of which there are {known}"),
+        ),
+        ModesKept::Count(count) => (ModeSelection::Count(count), "given".to_owned()),
         ModesKept::Auto if whole => (
             ModeSelection::All,
             "the equations or the method need all displacements of the ring".to_owned(),
