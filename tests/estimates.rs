@@ -9,12 +9,14 @@
 //!
 //! ```text
 //! cargo test --release --test estimates -- --ignored --nocapture
-//! PLUMMER_SEED=7 cargo test --release --test estimates -- --ignored --nocapture
+//! PLUMMER_SEED=7 PLUMMER_KIND=smooth cargo test --release --test estimates -- --ignored --nocapture
 //! ```
+//!
+//! Where balls strike, references take most of the time: `PLUMMER_KIND=smooth` leaves these scenes out.
 
 use plummer::case::Case;
 use plummer::chart::Trace;
-use plummer::signal::{band_limit, band_limit_edge_s};
+use plummer::signal::{band_limit_edge_s, band_limit_from_rest};
 use plummer::stages::{Horizon, ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched};
 use plummer::system::{BallsInertia, ModeSelection};
 use plummer::transient::Method;
@@ -161,7 +163,7 @@ fn signals(scene: &Scene, model: &RunModel, drawn: &Drawn) -> Result<Trace, Stri
     }
     let signals = (0..run.record.sensors.len()).map(|sensor| {
         let signal = run.signal(sensor).map_err(|error| error.to_string())?;
-        band_limit(&signal, drawn.band_hz).map_err(|error| error.to_string())
+        band_limit_from_rest(&signal, drawn.band_hz).map_err(|error| error.to_string())
     });
     Ok(Trace::of(signals.collect::<Result<_, _>>()?))
 }
@@ -238,6 +240,12 @@ fn row(number: u64) -> Result<Row, String> {
     let estimate = choice.estimated_error.ok_or("no estimate")?;
     let held =
         Horizon::of(&case, &scene, &choice).ok_or("the estimate's horizon was not measured")?;
+    let balls = scene.equilibrium.balls.iter();
+    let pressed = { balls }.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
+    let strikes = drawn.fault || !pressed;
+    if strikes && std::env::var("PLUMMER_KIND").is_ok_and(|kind| kind == "smooth") {
+        return Err("left out: balls strike".to_owned());
+    }
     let (truth, horizon) = reference(&scene, &drawn, case.target())?;
     let [start, stop] = inside(&drawn)?;
     if horizon <= start {
@@ -250,8 +258,7 @@ fn row(number: u64) -> Result<Row, String> {
             1e3 * held.held_s
         ));
     }
-    // since the start, as `accuracy.target` is meant but with what the filter's end brings in from above the band; and without that beginning,
-    // in which little has gone wrong yet
+    // since the start, as `accuracy.target` is meant, and without the beginning, in which little has gone wrong yet: the larger one is judged
     let errors = |model: &RunModel| -> Result<[f64; 2], String> {
         let signals = signals(&scene, model, &drawn)?;
         let error = |from: f64| {
@@ -267,16 +274,14 @@ fn row(number: u64) -> Result<Row, String> {
         step: 0.5 * FIRST_STEP,
         ..choice.model
     });
-    let balls = scene.equilibrium.balls.iter();
-    let pressed = { balls }.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    let smooth = pressed && !drawn.fault && horizon >= stop;
+    let smooth = !strikes && horizon >= stop;
     let part = |what: &str| choice.parts.iter().find(|part| part.what == what);
     let chosen = |what: &str| part(what).map_or("", |part| &part.chosen);
     let [modes, balls, method] =
         ["modes", "balls", "method"].map(|what| part(what).and_then(|part| part.estimated_error));
     let number_of =
         |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1e}"));
-    let holds = inner <= estimate;
+    let holds = whole.max(inner) <= estimate;
     let text = format!(
         "| {number} | {} | {} | {:.1} | {} {} | {} | {} | {} | {estimate:.1e} | {:.1} of {:.1} | {inner:.1e} | {whole:.1e} | {} | {} |",
         drawn.text,

@@ -187,7 +187,10 @@ impl Case {
                     ("[housing]", self.housing.is_some()),
                     ("[frf]", self.frf.is_some()),
                     ("[[sensors]]", !self.sensors.is_empty()),
-                    ("[damping]", self.damping.is_some()),
+                    (
+                        "[damping], or loss_factor of a material",
+                        self.damping.is_some() || self.has_loss_factor(),
+                    ),
                     (
                         "ring.tie, or condense.interface = { nodes = [TAGS] }",
                         tied || self.superelement().is_some()
@@ -241,6 +244,18 @@ impl Case {
                 needed_by,
             }),
         }
+    }
+
+    /// Whether a part of the housing is of a material with a loss factor.
+    fn has_loss_factor(&self) -> bool {
+        let mut parts = self
+            .meshed_housing()
+            .into_iter()
+            .flat_map(|housing| &housing.parts);
+        parts.any(|part| {
+            let material = self.material(&part.material);
+            material.is_some_and(|material| material.loss_factor() > 0.0)
+        })
     }
 
     /// Checks that the mesh has every physical group that the case names.

@@ -126,7 +126,7 @@ Files:
   uff  modes.uff, ring.uff: nodes, elements, mode shapes (universal file, datasets 2411, 2412, 55)
   mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
   npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
-  op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA of the condensed housing, interface first (pyyeti.nastran.op4)
+  op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA, K4AA of the condensed housing, interface first (pyyeti.nastran.op4)
   mbdyn  superelement.fem: data of MBDyn's modal joint";
 
 const SWEEP_EXAMPLE: &str = "\

@@ -5,6 +5,12 @@ use crate::reduction::substructure::dense;
 use crate::reduction::{BasisChoice, BasisSize, craig_bampton};
 
 const NODES: usize = 80;
+/// Of stiffness-proportional damping statics lack nothing.
+const UNDAMPED: InteriorDamping<'_> = InteriorDamping {
+    structural: None,
+    mass: 0.0,
+    by_mode: false,
+};
 /// Stiffness-proportional damping: 0.6 % at 0.02 Hz.
 const BETA: f64 = 0.1;
 
@@ -65,7 +71,7 @@ fn errors(condensed: &CraigBampton) -> (ResponseEstimate, Vec<f64>) {
     let (system, paths) = reduced(condensed);
     let modes = ModalBasis::new(&system).expect("finite");
     let hz = frequencies();
-    let estimate = ResponseEstimate::new(condensed, None, 0.0, &system, &modes, &paths, &hz);
+    let estimate = ResponseEstimate::new(condensed, UNDAMPED, &system, &modes, &paths, &hz);
     let rod = rod(NODES);
     let full = self::system(dense(&rod.stiffness), dense(&rod.mass));
     let full = direct_response(&full, &full_paths(), &hz).expect("damped");

@@ -9,6 +9,11 @@ use super::SeriesError;
 /// 1e-9 for 10 s at 1 MHz) and far below anything one could mean.
 const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
 
+/// Steps by which an instant may miss a sample: round-off counts where time has its origin far away, as seconds since 1970 do.
+fn tolerance_steps(latest_s: f64, step_s: f64) -> f64 {
+    INSTANT_TOLERANCE_STEPS + 4.0 * f64::EPSILON * latest_s / step_s
+}
+
 /// Samples x_k = x(start + k step), k = 0 .. n-1, all finite, n >= 1, in one unit.
 ///
 /// ```
@@ -52,9 +57,8 @@ impl TimeWindow {
         }
         let position = |t: f64| (t - start_s) / step_s;
         let samples = samples as f64;
-        if position(from_s) < -INSTANT_TOLERANCE_STEPS
-            || position(to_s) > samples + INSTANT_TOLERANCE_STEPS
-        {
+        let tolerance = tolerance_steps(start_s.abs().max(to_s.abs()), step_s);
+        if position(from_s) < -tolerance || position(to_s) > samples + tolerance {
             return Err(SeriesError::WindowOutside {
                 from_s,
                 to_s,
@@ -171,7 +175,7 @@ impl TimeSeries {
         let position = |t: f64| (t - self.start_s) / self.step_s;
         let samples = samples as f64;
         let index = |t: f64| {
-            (position(t) - INSTANT_TOLERANCE_STEPS)
+            (position(t) - tolerance_steps(self.start_s.abs().max(t.abs()), self.step_s))
                 .ceil()
                 .clamp(0.0, samples) as usize
         };
@@ -245,6 +249,18 @@ mod tests {
         let series = ramp(-0.3, 0.1, 7);
         let span = series.span();
         assert_eq!(series.window(span.from, span.to).expect("inside"), series);
+    }
+
+    /// Seconds since 1970 have steps of 2.4e-7 s, 3e-3 of a sample at 12 kHz.
+    #[test]
+    fn a_window_may_begin_far_from_the_origin() {
+        let series = TimeSeries::new(1.7e9, 1.0 / 12e3, "V", vec![0.0; 120_000]).expect("valid");
+        let span = series.span();
+        let whole = series.window(span.from, span.to).expect("inside");
+        assert_eq!(whole.values().len(), 120_000);
+        let part = series.window(1.7e9 + 1.0, 1.7e9 + 2.0).expect("inside");
+        assert_eq!(part.values().len(), 12_000);
+        assert!(series.window(span.from, span.to + 1e-4).is_err());
     }
 
     #[test]

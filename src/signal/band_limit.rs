@@ -20,6 +20,25 @@ const STOP_OVER_PASS: f64 = 1.1;
 /// # Errors
 /// [`SignalError::CutOff`]; [`SignalError::TooShort`] if the series is not longer than the filter reaches to one side.
 pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
+    let first = series.values()[0];
+    limited(series, up_to_hz, |v| 2.0 * first - v)
+}
+
+/// [`band_limit`] for a series that is zero before its start, as accelerations of a run from rest are. A reflection would
+/// turn what lies above the band at the first sample into a step in the band.
+///
+/// # Errors
+/// As [`band_limit`].
+pub fn band_limit_from_rest(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
+    limited(series, up_to_hz, |_| 0.0)
+}
+
+/// The filtered series; `before` makes the value at -t of the one at t.
+fn limited(
+    series: &TimeSeries,
+    up_to_hz: f64,
+    before: impl Fn(f64) -> f64,
+) -> Result<TimeSeries, SignalError> {
     let filter = filter(series.step_s(), up_to_hz)?;
     let (x, half) = (series.values(), filter.half_length());
     let samples = x.len();
@@ -29,8 +48,8 @@ pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, Sign
             needed: half + 1,
         });
     }
-    let (first, last) = (x[0], x[samples - 1]);
-    let before = x[1..=half].iter().rev().map(|v| 2.0 * first - v);
+    let last = x[samples - 1];
+    let before = x[1..=half].iter().rev().map(|v| before(*v));
     let after = x[samples - 1 - half..samples - 1]
         .iter()
         .rev()
@@ -145,6 +164,23 @@ mod tests {
             );
         }
         assert_eq!(y, band_limit(&x, 30e3).expect("filter"));
+    }
+
+    /// A tone above the band that begins at the start is nothing in the band but where it begins; its reflection about a first
+    /// sample that is not zero is a step there.
+    #[test]
+    fn a_start_from_rest_brings_no_step_into_the_band() {
+        let values = (0..4000).map(|k| (2.0 * PI * 40e3 * f64::from(k) * 1e-5).cos());
+        let x = TimeSeries::new(0.0, 1e-5, "m/s^2", values.collect()).expect("a valid series");
+        let first = |y: TimeSeries| y.values()[0].abs();
+        let reflected = first(band_limit(&x, 2e3).expect("filter"));
+        let from_rest = first(band_limit_from_rest(&x, 2e3).expect("filter"));
+        assert!((reflected - 1.0).abs() < 1e-3, "{reflected}");
+        // half of the filter's weight at the one sample that has no partner: 2.1 kHz of 100 kHz
+        assert!(from_rest < 0.03, "{from_rest}");
+        let edge = band_limit_edge_s(1e-5, 2e3).expect("a valid band");
+        let [a, b] = [band_limit(&x, 2e3), band_limit_from_rest(&x, 2e3)].map(Result::unwrap);
+        assert!(worst(&a, b.values(), edge) < 1e-12);
     }
 
     #[test]

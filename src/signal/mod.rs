@@ -44,7 +44,7 @@ mod whitening;
 mod window_function;
 
 pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
-pub use band_limit::{band_limit, band_limit_edge_s};
+pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
 pub use envelope::{envelope, squared};

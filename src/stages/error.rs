@@ -213,13 +213,15 @@ pub enum StageError {
         /// Its loss factor.
         loss_factor: f64,
     },
-    /// A sensor that points out of the plane.
+    /// A sensor or a force that points out of the plane of a plane model.
     #[error(
-        "sensor \"{name}\": direction has no part in the bearing's plane, in which plane housings and places on the ring (ring_deg) are measured; give direction = [0, 1, 0] or the like"
+        "{name}: direction has a part across the bearing's plane, {across}: a plane model moves in its plane alone; give direction = [0, 1, 0] or the like"
     )]
     SensorDirection {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
+        /// The unit vector's part across the plane.
+        across: f64,
     },
     /// Speed profile.
     #[error("speed.profile: {0}")]
@@ -232,11 +234,11 @@ pub enum StageError {
     Slip(#[from] SlipError),
     /// A sensor that is nowhere.
     #[error(
-        "sensor \"{name}\": the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
+        "{name}: the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
         x = point[0], y = point[1], z = point[2]
     )]
     SensorPlace {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
         /// Where it should be, m.
         point: [f64; 3],
@@ -245,39 +247,37 @@ pub enum StageError {
     },
     /// A sensor that cannot move.
     #[error(
-        "sensor \"{name}\" stands where the support \"{support}\" holds the housing in its direction, so that it measures zero: expected a place that moves; give another place or direction, or another support"
+        "{name} stands where the support \"{support}\" holds the housing in its direction, so that it measures zero: expected a place that moves; give another place or direction, or another support"
     )]
     SensorHeld {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
         /// Group of the support.
         support: String,
     },
     /// A sensor on a group without a housing.
     #[error(
-        "sensor \"{name}\" stands on {place}, but the case has no housing: use ring_deg for a place on the ring"
+        "{name} stands on {place}, but the case has no housing: use ring_deg for a place on the ring"
     )]
     SensorNeedsHousing {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
         /// What it stands on.
         place: String,
     },
     /// A sensor on a ring that is not there.
-    #[error(
-        "sensor \"{name}\" stands on the ring, but no ring is attached here: give group, node or point"
-    )]
+    #[error("{name} stands on the ring, but no ring is attached here: give group, node or point")]
     SensorNeedsRing {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
     },
     /// A sensor on a node that is not there.
     #[error(
-        "sensor \"{name}\": {} {tag}",
+        "{name}: {} {tag}",
         if *in_mesh { "no element of the housing has node" } else { "the mesh has no node" }
     )]
     SensorNode {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
         /// gmsh's tag.
         tag: u64,

@@ -111,9 +111,9 @@ pub enum ImportError {
         bound: Bound,
     },
     /// A row that is not there.
-    #[error("sensor \"{name}\": expected one of the rows {known}, found \"{row}\"")]
+    #[error("{name}: expected one of the rows {known}, found \"{row}\"")]
     Sensor {
-        /// Name of the sensor.
+        /// What stands there, with its name.
         name: String,
         /// Row that it asks for.
         row: String,

@@ -1,8 +1,8 @@
 //! A superelement from a file in the housing's place.
 
 use super::free_system::of_ring;
-use super::places::{Place, PlaceBodies};
-use super::structure::ring;
+use super::places::{Named, Place, PlaceBodies};
+use super::structure::{complete_for, ring};
 use super::{ImportError, StageError};
 use crate::case::{self, Case, SensorSpot};
 use crate::exchange::{
@@ -23,6 +23,10 @@ const POSITION: f64 = 1e-3;
 
 /// Largest difference of a unit vector's component: a millionth of a radian counts as one direction.
 const AXIS: f64 = 1e-6;
+
+/// Largest ratio of a mode's frequency to the one below that is taken for two modes of an interior. Residual vectors of a flanged housing
+/// follow its last mode, at 22.8 kHz, by factors of 1.3 and more.
+const CLOSE: f64 = 1.2;
 
 /// A condensed housing of which nothing but the file is known.
 #[derive(Debug, Clone)]
@@ -103,14 +107,24 @@ impl ImportedHousing {
         }
     }
 
+    /// Up to which frequency the file has all vectors of the housing's interior, Hz: as the file says, else the band that it was condensed for,
+    /// else the highest vector that follows the one before it closely. Residual vectors are far above the last mode, and far from each other.
+    pub fn complete_hz(&self) -> f64 {
+        let said = self.record.complete_hz.or(self.record.band_hz);
+        said.unwrap_or_else(|| last_mode_hz(&self.record.modal_hz))
+    }
+
     /// What is to be said of results up to a frequency: nothing within the band that the file was condensed for. A file that does not
-    /// say its band is taken for good up to two thirds of its highest vector, the usual rule for a fixed interface (R. R. Craig, A. J. Kurdila,
+    /// say its band is taken for good up to two thirds of its last mode, the usual rule for a fixed interface (R. R. Craig, A. J. Kurdila,
     /// *Fundamentals of Structural Dynamics*, 2006, chapter 17).
     pub fn doubt(&self, top_hz: f64) -> Option<String> {
-        let highest = self.record.modal_hz.iter().copied().reduce(f64::max);
         let (end, whose) = match self.record.band_hz {
             Some(band) => (band, "the band that it was condensed for"),
-            None => (highest? / 1.5, "two thirds of its highest vector"),
+            None if self.record.modal_hz.is_empty() => return None,
+            None => (
+                last_mode_hz(&self.record.modal_hz) / 1.5,
+                "two thirds of its last vector that is close to others",
+            ),
         };
         (top_hz > end * (1.0 + ROUND_OFF)).then(|| {
             format!(
@@ -118,6 +132,20 @@ impl ImportedHousing {
                 self.path.display(),
                 significant(end, 5),
                 significant(top_hz, 5)
+            )
+        })
+    }
+
+    /// What is to be said of responses up to a frequency (Hz) whose estimated error is above the target.
+    pub(super) fn coarse(&self, top_hz: f64, error: f64, target: f64) -> Option<String> {
+        let enough = complete_for(top_hz, target);
+        (error > target).then(|| {
+            format!(
+                "The responses from {} may err by {} of their size, where accuracy.target is {}: condensing keeps the frequencies of its band, and responses need the vectors far above it.                  Condense it with accuracy.band_hz up to some {} kHz, or use the mesh, of which `frf` knows the error.",
+                self.path.display(),
+                significant(error, 2),
+                significant(target, 2),
+                significant(enough / 1e3, 2)
             )
         })
     }
@@ -142,7 +170,10 @@ impl ImportedHousing {
     pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, StageError> {
         let sensors = case.sensors.iter();
         sensors
-            .map(|sensor| self.row(&sensor.name, &sensor.spot, sensor.direction, ring))
+            .map(|sensor| {
+                let name = Named::Sensor(&sensor.name);
+                self.row(name, &sensor.spot, sensor.direction, ring)
+            })
             .collect()
     }
 
@@ -150,9 +181,9 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring; each names `name`.
-    pub fn row(
+    pub(super) fn row(
         &self,
-        name: &str,
+        name: Named<'_>,
         spot: &SensorSpot,
         direction: [f64; 3],
         ring: &Ring,
@@ -172,14 +203,14 @@ impl ImportedHousing {
         }
     }
 
-    fn recovered(&self, name: &str, row: &str) -> Result<Vec<f64>, StageError> {
+    fn recovered(&self, name: Named<'_>, row: &str) -> Result<Vec<f64>, StageError> {
         let sensors = &self.record.sensors;
         if let Some(found) = sensors.iter().find(|sensor| sensor.name == row) {
             return Ok(found.row.clone());
         }
         let names: Vec<String> = sensors.iter().map(|s| format!("\"{}\"", s.name)).collect();
         Err(self.fault(ImportError::Sensor {
-            name: name.to_owned(),
+            name: name.to_string(),
             row: row.to_owned(),
             known: match names.is_empty() {
                 true => "of array \"sensors\", which the file lacks".to_owned(),
@@ -194,6 +225,15 @@ impl ImportedHousing {
             source: Box::new(source),
         }
     }
+}
+
+/// The highest of some frequencies (Hz) that lies within [`CLOSE`] of the next lower one; the lowest where none does, zero without any.
+fn last_mode_hz(modal_hz: &[f64]) -> f64 {
+    let mut sorted = modal_hz.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let close = sorted.windows(2).filter(|pair| pair[1] <= CLOSE * pair[0]);
+    let last = close.last().map(|pair| pair[1]);
+    last.or(sorted.first().copied()).unwrap_or(0.0)
 }
 
 /// A file's content, its interface as long as that of a ring of so many nodes.

@@ -398,9 +398,9 @@ fn a_run_says_what_its_superelement_leaves_out() {
         let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
         let part = choice.parts.last().unwrap();
         let imported = scene.stage.imported.as_ref().unwrap();
-        let highest = imported.record.modal_hz.iter().copied().fold(0.0, f64::max);
+        let complete = imported.record.complete_hz.unwrap();
         let growth = choice.growth;
-        let expected = growth * super::structure::left_out(20e3, highest);
+        let expected = growth * super::structure::left_out(20e3, complete);
         assert_eq!(part.what, "superelement");
         assert!((part.estimated_error.unwrap() / expected - 1.0).abs() < 1e-12);
         let warnings = choice.warnings();
@@ -430,11 +430,11 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
     let told = "10.000 Hz, the band that it was condensed for";
     assert!(doubts(Some(10.0)).contains(told), "{}", doubts(Some(10.0)));
     assert!(!doubts(Some(1e9)).contains("superelement"));
-    // a file that does not say its band: two thirds of its highest vector, and the twelve modes go up to 237 kHz
-    let highest = |hz: f64| {
+    // a file that does not say its band: two thirds of its last vector close to others, and the twelve modes go up to 237 kHz
+    let highest = |modal_hz: &[f64]| {
         let record = SuperelementRecord {
             band_hz: None,
-            modal_hz: vec![hz],
+            modal_hz: modal_hz.to_vec(),
             ..record.clone()
         };
         let asked = imported(&path, nodes, REST, "");
@@ -444,12 +444,13 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
         housing.record = record;
         housing.doubt(237e3)
     };
-    assert!(highest(4e5).is_none());
-    assert!(
-        highest(3e5)
-            .unwrap()
-            .contains("two thirds of its highest vector")
-    );
+    assert!(highest(&[4e5]).is_none());
+    assert!(highest(&[2e5, 3.6e5, 4e5]).is_none());
+    // two residual vectors beyond the last mode
+    for modes in [&[3e5][..], &[2.4e5, 2.5e5, 3.9e5, 4.8e5]] {
+        let doubt = highest(modes).unwrap();
+        assert!(doubt.contains("two thirds of its last vector"), "{doubt}");
+    }
 }
 
 #[test]

@@ -91,7 +91,7 @@ pub use analysis_table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures,
 pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
 pub use bearing_table::bearing_table;
-pub use choice::{ChosenPart, Horizon, ModelChoice};
+pub use choice::{ChosenPart, Horizon, Measured, ModelChoice};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub use condense::{Comparison, CondenseResult, FullComparison, compute_condense};
 pub use condense_report::condense_report;

@@ -7,12 +7,43 @@ use crate::case::{self, SensorSpot};
 use crate::mesh::BoundingBox;
 use crate::model::{Ring, RingFrame, RingTie};
 use crate::reduction::CraigBampton;
+use std::fmt;
 
 /// Farthest that a node may be from a point, relative to the housing's size.
 const TOLERANCE: f64 = 0.02;
 
 /// Share of a direction that is round-off.
 const NOTHING: f64 = 1e-12;
+
+/// Part of a unit vector across a plane that numbers with six digits may leave.
+const ACROSS: f64 = 1e-6;
+
+/// What stands at a place, as messages call it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Named<'a> {
+    /// A sensor.
+    Sensor(&'a str),
+    /// A force.
+    Force(&'a str),
+}
+
+impl<'a> Named<'a> {
+    /// The name alone.
+    pub fn name(self) -> &'a str {
+        match self {
+            Self::Sensor(name) | Self::Force(name) => name,
+        }
+    }
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sensor(name) => write!(f, "sensor \"{name}\""),
+            Self::Force(name) => write!(f, "force \"{name}\""),
+        }
+    }
+}
 
 /// A displacement component at a place: pairs (degree of freedom, factor).
 #[derive(Debug, Clone, PartialEq)]
@@ -53,29 +84,33 @@ impl Place {
     /// As [`Place::new`].
     pub fn of_sensor(stage: &CondensedStage, sensor: &case::Sensor) -> Result<Self, StageError> {
         let bodies = PlaceBodies::of(stage);
-        Self::new(bodies, &sensor.name, &sensor.spot, sensor.direction)
+        let name = Named::Sensor(&sensor.name);
+        Self::new(bodies, name, &sensor.spot, sensor.direction)
     }
 
     /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
     ///
     /// # Errors
-    /// [`StageError`] for a place that is not there or cannot move, and a direction out of the plane; each names `name`.
+    /// [`StageError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names `name`.
     pub fn new(
         bodies: PlaceBodies<'_>,
-        name: &str,
+        name: Named<'_>,
         spot: &SensorSpot,
         direction: [f64; 3],
     ) -> Result<Self, StageError> {
         let needs_housing = |place: String| StageError::SensorNeedsHousing {
-            name: name.to_owned(),
+            name: name.to_string(),
             place,
         };
         let (nodes, housing) = match (spot, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
                 let ring = bodies.ring.ok_or_else(|| StageError::SensorNeedsRing {
-                    name: name.to_owned(),
+                    name: name.to_string(),
                 })?;
-                let direction = in_plane(name, bodies.frame.vector(direction))?;
+                let direction = unit(bodies.frame.vector(direction));
+                if !ring.is_in_space() {
+                    in_plane(name, direction)?;
+                }
                 return Ok(Self::Ring(
                     ring.displacement_row(degrees.to_radians(), direction),
                 ));
@@ -95,10 +130,7 @@ impl Place {
             }
         };
         let direction = match housing.model.dimension() {
-            2 => {
-                let [x, y] = in_plane(name, direction)?;
-                [x, y, 0.0]
-            }
+            2 => in_plane(name, unit(direction))?,
             _ => unit(direction),
         };
         let share = 1.0 / nodes.len() as f64;
@@ -191,22 +223,22 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x / length, y / length, z / length]
 }
 
-/// Part in the plane of the unit vector along a direction.
-fn in_plane(name: &str, direction: [f64; 3]) -> Result<[f64; 2], StageError> {
-    let [x, y, _] = unit(direction);
-    if x.hypot(y) > 1e-9 {
-        Ok([x, y])
-    } else {
-        Err(StageError::SensorDirection {
-            name: name.to_owned(),
-        })
+/// A unit vector that lies in the plane.
+fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], StageError> {
+    let [x, y, across] = direction;
+    if across.abs() > ACROSS {
+        return Err(StageError::SensorDirection {
+            name: name.to_string(),
+            across: (across * 1e6).round() / 1e6,
+        });
     }
+    Ok([x, y, 0.0])
 }
 
 /// Something in a place's row can move.
 fn check_moves(
     housing: &HousingStage,
-    name: &str,
+    name: Named<'_>,
     entries: &[(usize, f64)],
 ) -> Result<(), StageError> {
     let model = &housing.model;
@@ -221,7 +253,7 @@ fn check_moves(
     match holder {
         None => Ok(()),
         Some(support) => Err(StageError::SensorHeld {
-            name: name.to_owned(),
+            name: name.to_string(),
             support: support.clone(),
         }),
     }
@@ -233,7 +265,7 @@ fn check_moves(
 /// [`StageError`] for a place that is not there.
 pub(super) fn nodes_at(
     housing: &HousingStage,
-    name: &str,
+    name: Named<'_>,
     spot: &SensorSpot,
 ) -> Result<Vec<usize>, StageError> {
     match spot {
@@ -252,7 +284,7 @@ fn of_group(housing: &HousingStage, group: &str) -> Result<Vec<usize>, StageErro
     Ok(group.nodes.iter().copied().filter(used).collect())
 }
 
-fn tagged_node(housing: &HousingStage, name: &str, tag: u64) -> Result<usize, StageError> {
+fn tagged_node(housing: &HousingStage, name: Named<'_>, tag: u64) -> Result<usize, StageError> {
     let place = housing
         .model
         .node_tags
@@ -261,13 +293,17 @@ fn tagged_node(housing: &HousingStage, name: &str, tag: u64) -> Result<usize, St
     place
         .filter(|&node| housing.model.is_used(node))
         .ok_or_else(|| StageError::SensorNode {
-            name: name.to_owned(),
+            name: name.to_string(),
             tag,
             in_mesh: place.is_some(),
         })
 }
 
-fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<usize, StageError> {
+fn nearest_node(
+    housing: &HousingStage,
+    name: Named<'_>,
+    point: &[f64; 3],
+) -> Result<usize, StageError> {
     let across = housing.model.dimension() == 3;
     let distance = |node: &[f64; 3]| {
         let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
@@ -291,7 +327,7 @@ fn nearest_node(housing: &HousingStage, name: &str, point: &[f64; 3]) -> Result<
         }
     }
     let missed = |distance| StageError::SensorPlace {
-        name: name.to_owned(),
+        name: name.to_string(),
         point: *point,
         distance,
     };

@@ -3,7 +3,7 @@
 use super::condensed::{Boundary, CondensedStage, basis_choice};
 use super::housing::material;
 use super::imported::ImportedHousing;
-use super::places::{Place, PlaceBodies};
+use super::places::{Named, Place, PlaceBodies};
 use super::{HousingStage, StageError, Watch};
 use crate::case::{self, Case, Interface, ModesKept};
 use crate::element::curved_beam::RingInterpolation;
@@ -35,6 +35,11 @@ pub(super) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
     (LEFT_OUT * (band_hz / complete_hz).powi(3)).min(1.0)
 }
 
+/// Up to which frequency (Hz) vectors must be complete for an error in the band up to `band_hz`.
+pub(super) fn complete_for(band_hz: f64, error: f64) -> f64 {
+    band_hz * (LEFT_OUT / error).cbrt()
+}
+
 /// The linear model of a case.
 #[derive(Debug, Clone)]
 pub struct StructureStage {
@@ -46,8 +51,8 @@ pub struct StructureStage {
     pub tie: Option<RingTie>,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
-    /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement of the highest that it has;
-    /// infinite without a housing.
+    /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement by
+    /// [`ImportedHousing::complete_hz`]; infinite without a housing.
     pub complete_hz: f64,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,
@@ -98,8 +103,8 @@ impl StructureStage {
             band_hz: MODELLED * asked_basis.band_hz,
             size: match (asked_basis.size, &case.transient) {
                 (BasisSize::Auto(target), Some(_)) => {
-                    let over_band = (LEFT_OUT / (LEFT_OUT_SHARE * target)).cbrt();
-                    BasisSize::AtMost(over_band.max(MODELLED) * asked_basis.band_hz, MOST_NUMBERS)
+                    let complete = complete_for(asked_basis.band_hz, LEFT_OUT_SHARE * target);
+                    BasisSize::AtMost(complete.max(MODELLED * asked_basis.band_hz), MOST_NUMBERS)
                 }
                 (size, _) => size,
             },
@@ -116,7 +121,8 @@ impl StructureStage {
             };
             let mut rows = Vec::with_capacity(case.sensors.len());
             for sensor in &case.sensors {
-                let place = Place::new(bodies, &sensor.name, &sensor.spot, sensor.direction)?;
+                let name = Named::Sensor(&sensor.name);
+                let place = Place::new(bodies, name, &sensor.spot, sensor.direction)?;
                 rows.push(place.on_ring(structure.dof()));
             }
             add_sensors(&mut structure, &case.sensors, rows)?;
@@ -167,8 +173,7 @@ impl StructureStage {
             Around::Nothing => {}
             Around::Imported(imported) => {
                 stage.fixed_interface_modes = imported.element.modal_dof();
-                let vectors = imported.record.modal_hz.iter().copied();
-                stage.complete_hz = vectors.fold(f64::MIN_POSITIVE, f64::max);
+                stage.complete_hz = imported.complete_hz().max(f64::MIN_POSITIVE);
                 stage.imported = Some(imported);
             }
             Around::Housing(parts) => {

@@ -3,7 +3,7 @@
 use super::StageError;
 use super::condensed::{Boundary, CondensedStage, basis_choice};
 use super::damping::viscous_matrix;
-use super::places::{Place, nodes_at};
+use super::places::{Named, Place, nodes_at};
 use crate::case::Case;
 use crate::exchange::{DofLabel, FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
 use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
@@ -109,6 +109,8 @@ impl Coordinates<'_> {
             interface_recovery,
             modal_hz: values.iter().map(|value| value.sqrt() / TAU).collect(),
             band_hz: Some(basis_choice(case).band_hz),
+            complete_hz: Some(stage.condensed.basis.complete_below().sqrt() / TAU)
+                .filter(|hz| hz.is_finite()),
             outer_radius: match &stage.boundary {
                 Boundary::Ring(_) => case.ring.as_ref().and_then(|ring| ring.outer_radius),
                 _ => None,
@@ -131,7 +133,11 @@ impl Coordinates<'_> {
         let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
         let mut of_sensors = BTreeSet::new();
         for sensor in &case.sensors {
-            of_sensors.extend(nodes_at(housing, &sensor.name, &sensor.spot)?);
+            of_sensors.extend(nodes_at(
+                housing,
+                Named::Sensor(&sensor.name),
+                &sensor.spot,
+            )?);
         }
         let driven = stage.boundary.partition().driven.iter();
         let with_bore: BTreeSet<usize> = driven

@@ -136,9 +136,9 @@ impl Structure {
     }
 
     /// A sensor on the ring at an angle (rad) in a direction of the plane, at the node radius.
-    pub fn ring_sensor(&self, name: &str, angle: f64, direction: [f64; 2]) -> Sensor {
+    pub fn ring_sensor(&self, name: &str, angle: f64, [x, y]: [f64; 2]) -> Sensor {
         let mut row = vec![0.0; self.dof()];
-        for (dof, factor) in self.ring.displacement_row(angle, direction) {
+        for (dof, factor) in self.ring.displacement_row(angle, [x, y, 0.0]) {
             row[dof] += factor;
         }
         Sensor {

@@ -61,7 +61,8 @@ impl GivenOrders {
         Ok(Self(orders))
     }
 
-    /// What is to be said of orders that can hardly be a bearing's: two within each other's uncertainty, races whose sum is no whole
+    /// What is to be said of orders that can hardly be a bearing's: two within each other's uncertainty, races that are exchanged, a cage as fast as
+    /// half the shaft, races whose sum is no whole
     /// number of balls, an order of the ball that is half or twice what the orders of the races give: the spin was taken for
     /// what strikes, or the other way round. With gamma = (inner - outer) / (inner + outer) it is (1 - gamma^2) / gamma, times the
     /// cosine of the contact angle.
@@ -75,9 +76,20 @@ impl GivenOrders {
                 100.0 * NEAR
             ));
         }
-        let [Some(outer), Some(inner), ball, _] = self.0 else {
-            return None;
-        };
+        let [outer, inner, ball, cage] = self.0;
+        if let Some((outer, inner)) = outer.zip(inner)
+            && outer > inner
+        {
+            return Some(format!(
+                "BPFO={outer} of --orders is above BPFI={inner}: a ball passes the inner race more often, unless the outer ring turns; are the two exchanged?"
+            ));
+        }
+        if let Some(cage) = cage.filter(|cage| *cage >= 0.5) {
+            return Some(format!(
+                "FTF={cage} of --orders is half a revolution of the shaft or more: a cage turns more slowly, unless the outer ring turns"
+            ));
+        }
+        let (outer, inner) = outer.zip(inner)?;
         let balls = outer + inner;
         if (balls / balls.round() - 1.0).abs() > WHOLE {
             return Some(format!(
@@ -150,6 +162,16 @@ mod tests {
         let some = read("Inner=5.4,OUTER=3.6");
         assert_eq!(some.0, [Some(3.6), Some(5.4), None, None]);
         assert_eq!(some.to_string(), "outer=3.6,inner=5.4");
+    }
+
+    #[test]
+    fn exchanged_races_and_a_fast_cage_are_doubted() {
+        let doubt = |text: &str| GivenOrders::parse(text).unwrap().doubt();
+        let exchanged = doubt("BPFO=5.415,BPFI=3.585,FTF=0.398").unwrap();
+        assert!(exchanged.contains("are the two exchanged?"), "{exchanged}");
+        let fast = doubt("BPFO=3.585,BPFI=5.415,FTF=0.6").unwrap();
+        assert!(fast.contains("FTF=0.6 of --orders"), "{fast}");
+        assert_eq!(doubt("BPFO=3.585,BPFI=5.415,FTF=0.398"), None);
     }
 
     #[test]

@@ -49,10 +49,14 @@ pub(super) fn op4(
         )?)
     };
     write()?;
-    let matrices = match &record.damping {
-        Some(_) => "KAA, MAA, BAA",
-        None => "KAA, MAA",
-    };
+    let damping = record.damping.as_ref().map(|_| "BAA");
+    let structural = record.structural.as_ref().map(|_| "K4AA");
+    let matrices: Vec<&str> = ["KAA", "MAA"]
+        .into_iter()
+        .chain(damping)
+        .chain(structural)
+        .collect();
+    let matrices = matrices.join(", ");
     let order = record.order();
     let of_matrices = format!(
         "{matrices} [{order} x {order}] of the condensed housing, interface first, SI; binary OUTPUT4"

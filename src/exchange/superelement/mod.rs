@@ -56,6 +56,8 @@ pub struct SuperelementRecord {
     pub modal_hz: Vec<f64>,
     /// Top of the band that it was condensed for, Hz; `None` where the file does not say.
     pub band_hz: Option<f64>,
+    /// Frequency of the first vector of the interior that was left out, Hz; `None` where the file does not say, and where none was.
+    pub complete_hz: Option<f64>,
     /// Radius of the bore that a ring is tied to, m; `None` for other interfaces, and where the file does not say.
     pub outer_radius: Option<f64>,
     /// Mass times unit accelerations along the mesh's x, y, z \[n x 3\], kg for a displacement.
@@ -114,6 +116,7 @@ impl SuperelementRecord {
             interface_recovery: None,
             modal_hz: Vec::new(),
             band_hz: None,
+            complete_hz: None,
             outer_radius: None,
             weight: None,
             sensors: Vec::new(),

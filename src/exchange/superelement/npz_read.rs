@@ -44,6 +44,7 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
         record.modal_hz = file.list("modal_hz")?;
     }
     record.band_hz = file.positive("band_hz")?;
+    record.complete_hz = file.positive("complete_hz")?;
     record.outer_radius = file.positive("outer_radius")?;
     record.interface_recovery = file.interface_recovery(record.interface.len())?;
     record.sensors = file.sensors(order)?;

@@ -20,6 +20,7 @@ use crate::linalg::DenseMatrix;
 /// | `recovered_dofs`, `_bodies`, `_positions`, `_axes` | as above for d | what these displacements are |
 /// | `modal_hz` | \[n - b\] | Hz |
 /// | `band_hz` | \[1\] | top of the band that it was condensed for, Hz |
+/// | `complete_hz` | \[1\] | frequency of the first vector of the interior that was left out, Hz |
 /// | `outer_radius` | \[1\] | radius of the bore that the ring is tied to, m |
 /// | `weight` | \[n x 3\] | mass times unit accelerations along x, y, z |
 /// | `sensors`, `sensor_names` | \[s x n\], \[s\] | displacement a unit of each coordinate |
@@ -52,6 +53,7 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
     npz.array("modal_hz", &record.modal_hz)?;
     for (name, value) in [
         ("band_hz", record.band_hz),
+        ("complete_hz", record.complete_hz),
         ("outer_radius", record.outer_radius),
     ] {
         if let Some(value) = value {

@@ -7,6 +7,10 @@ use crate::exchange::DofLabel;
 use crate::exchange::op4::{Op4Error, Op4Format, Op4Matrix, read_op4, write_op4};
 use crate::linalg::DenseMatrix;
 
+/// Names of 1 x 1 matrices: top of the band that it was condensed for, and the first vector that was left out, Hz.
+const BAND: &str = "BANDHZ";
+const COMPLETE: &str = "COMPLHZ";
+
 /// Stiffness between modes, relative to both diagonals, that is round-off of a computation.
 const BLOCK: f64 = 1e-8;
 
@@ -48,6 +52,12 @@ pub fn read_superelement_op4(
     let labels = (0..count as u64).map(DofLabel::interface).collect();
     let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels).map_err(fault)?;
     (record.damping, record.structural) = (dense("BAA")?, dense("K4AA")?);
+    let frequency = |name: &str| -> Result<Option<f64>, Op4Error> {
+        let matrix = dense(name)?.filter(|matrix| matrix.nrows() == 1 && matrix.ncols() == 1);
+        let value = matrix.map(|matrix| matrix[(0, 0)]);
+        Ok(value.filter(|hz| *hz > 0.0 && hz.is_finite()))
+    };
+    (record.band_hz, record.complete_hz) = (frequency(BAND)?, frequency(COMPLETE)?);
     record.check().map_err(fault)?;
     record.symmetrise();
     Ok(record)
@@ -72,7 +82,8 @@ fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
 }
 
 /// Writes the matrices \[n x n\] of a superelement, whole or not at all: `KAA` (stiffness), `MAA` (mass) and, where there
-/// are any, `BAA` (viscous damping) and `K4AA` (imaginary part of the stiffness). Rows are those of
+/// are any, `BAA` (viscous damping) and `K4AA` (imaginary part of the stiffness), and as 1 x 1 matrices what is known of `BANDHZ` (top of the band that
+/// it was condensed for, Hz) and `COMPLHZ` (the first vector that was left out, Hz). Rows are those of
 /// [`SuperelementRecord::labels`]: the boundary set first, then the modes, as Nastran's external superelements have them.
 ///
 /// # Errors
@@ -89,5 +100,10 @@ pub fn write_superelement_op4(
     let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
     matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
     matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));
+    let frequencies = [(BAND, record.band_hz), (COMPLETE, record.complete_hz)];
+    let frequencies =
+        frequencies.map(|(name, hz)| (name, hz.map(|hz| DenseMatrix::full(1, 1, hz))));
+    let said = frequencies.iter();
+    matrices.extend(said.filter_map(|(name, hz)| Some((*name, hz.as_ref()?))));
     write_op4(path, &matrices, format)
 }

@@ -40,6 +40,7 @@ pub(crate) fn record() -> SuperelementRecord {
         interface_recovery: None,
         modal_hz: vec![2e3 / TAU, 3e3 / TAU],
         band_hz: Some(250.0),
+        complete_hz: Some(310.0),
         outer_radius: Some(0.031),
         weight: Some(dense(&[
             [1.5, 0.0, 0.25],

@@ -23,19 +23,25 @@ impl Ring {
         self.rows_in_element(index, phi)
     }
 
-    /// The row of a displacement of the centroid line at an angle (rad) in a direction of the plane: pairs (degree of
-    /// freedom, factor).
-    pub fn displacement_row(&self, angle: f64, direction: [f64; 2]) -> Vec<(usize, f64)> {
+    /// The row of a displacement of the centroid line at an angle (rad) in a direction of the ring's frame: pairs (degree of
+    /// freedom, factor). A ring in its plane takes what of the direction lies in the plane.
+    pub fn displacement_row(&self, angle: f64, [x, y, z]: [f64; 3]) -> Vec<(usize, f64)> {
         let rows = self.rows_at(angle);
         let (sin, cos) = angle.sin_cos();
-        let radial = direction[0] * cos + direction[1] * sin;
-        let tangential = direction[1] * cos - direction[0] * sin;
-        (0..6)
-            .map(|k| {
-                let factor = radial * rows.radial[k] + tangential * rows.tangential[k];
-                (rows.dofs[k], factor)
-            })
-            .collect()
+        let (radial, tangential) = (x * cos + y * sin, y * cos - x * sin);
+        let in_plane = (0..6).map(|k| {
+            let factor = radial * rows.radial[k] + tangential * rows.tangential[k];
+            (rows.dofs[k], factor)
+        });
+        let mut row: Vec<(usize, f64)> = in_plane.collect();
+        // directions in the plane have rows of the plane alone
+        if z.abs() > 0.0
+            && let Some(space) = self.space_rows_at(angle)
+        {
+            let axial = space.dofs.into_iter().zip(space.axial).skip(6);
+            row.extend(axial.map(|(dof, factor)| (dof, z * factor)));
+        }
+        row
     }
 
     /// Interpolation in element `index` at the angle `phi` from its middle, rad.

@@ -5,13 +5,13 @@
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
 use super::super::{Scene, Span};
-use super::pilot::{Compared, begin, finer, stretch_s};
+use super::pilot::{Compared, LONG, finer, long_begin, stretch_s};
 use super::{CONDENSATION, ModelChoice, SUPERELEMENT, USUAL_BAND};
 use crate::case::Case;
 use crate::report::significant;
 
 /// How far is looked in units of the pilot's stretch: at first, and where the estimate holds so long.
-const LENGTHS: [f64; 2] = [3.0, 10.0];
+const LENGTHS: [f64; 2] = [3.0, LONG];
 
 /// How long an estimated error was seen to hold, s from [`from_s`](Self::from_s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,20 +31,27 @@ pub struct Horizon {
 }
 
 impl Horizon {
-    /// Steps the beginning of a run by its model and by a finer one; `None` for a model whose error of modes and steps is not measured,
-    /// or a stretch that cannot be stepped.
+    /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already. `None` for a
+    /// model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
     pub fn of(case: &Case, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
         let asked = case.transient.as_ref()?;
+        let (start_s, run_s) = (asked.start, asked.end - asked.start);
+        if choice.growth <= 1.0 {
+            let measured = choice.measured?;
+            return Some(Self {
+                from_s: measured.from_s,
+                held_s: measured.length_s,
+                looked_s: measured.length_s,
+                start_s,
+                run_s,
+                strikes: false,
+            });
+        }
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let finer = finer(&choice.model, scene)?;
         let most = choice.share_of_steps()?;
-        let run_s = asked.end - asked.start;
         let first_s = stretch_s(asked, band_hz);
-        let longest_s = LENGTHS[1] * first_s;
-        let from_s = match run_s <= longest_s {
-            true => asked.start,
-            false => begin(asked, scene, run_s - longest_s),
-        };
+        let from_s = long_begin(asked, scene, LENGTHS[1] * first_s);
         let mut horizon = None;
         for length in LENGTHS {
             let looked_s = (length * first_s).min(run_s);
@@ -59,11 +66,11 @@ impl Horizon {
             let held_s = compared.held_s(most, first_s);
             horizon = Some(Self {
                 from_s,
-                start_s: asked.start,
+                start_s,
                 held_s: held_s.min(looked_s),
                 looked_s,
                 run_s,
-                strikes: choice.growth > 1.0,
+                strikes: true,
             });
             if held_s < looked_s || looked_s >= run_s {
                 break;
@@ -118,8 +125,7 @@ impl ModelChoice {
         let measured = part("method")?;
         let unseen = [SUPERELEMENT, CONDENSATION].map(|what| part(what).unwrap_or(0.0));
         let unseen = unseen[0].hypot(unseen[1]);
-        // without strikes differences do not grow
-        if self.growth <= 1.0 || measured <= 0.0 {
+        if measured <= 0.0 {
             return Some(together);
         }
         Some(together * measured / measured.hypot(unseen))

@@ -21,6 +21,7 @@ use crate::transient::Method;
 pub use horizon::Horizon;
 use loaded_errors::LoadedErrors;
 use mode_errors::{ModeErrors, undamped_ball_hz};
+pub use pilot::Measured;
 use std::f64::consts::TAU;
 
 /// Part of the target that the modes left out may take: their estimate was found within a factor of three of the error on the
@@ -59,6 +60,8 @@ pub struct ModelChoice {
     pub estimated_error: Option<f64>,
     /// How many times the linear estimate of modes and steps it takes, as balls strike.
     pub growth: f64,
+    /// The stretch that showed the error of modes and steps; `None` where it was not measured.
+    pub measured: Option<Measured>,
     /// `accuracy.target`.
     pub target: f64,
 }
@@ -147,18 +150,19 @@ impl ModelChoice {
         model.method = method;
         let (step, mut step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
         model.step = step;
-        let mut measured = pilot::measured(asked, &model, scene, band_hz);
-        while let Ok(Some(error)) = measured
-            && let Some(shorter) = stepping::shorter(asked, &model, error, target, step)
+        let growth = growth(scene, rest);
+        let mut measured = pilot::measured(asked, &model, scene, band_hz, growth > 1.0);
+        while let Ok(Some(found)) = measured
+            && let Some(shorter) = stepping::shorter(asked, &model, found.error, target, step)
         {
             model.step = shorter;
             step_part.chosen = format!("{} s", significant(shorter, 3));
             "by the target, from the error that longer ones made on a stretch"
                 .clone_into(&mut step_part.why);
-            measured = pilot::measured(asked, &model, scene, band_hz);
+            measured = pilot::measured(asked, &model, scene, band_hz, growth > 1.0);
         }
-        match measured {
-            Ok(Some(measured)) => method_part.estimated_error = Some(measured),
+        match &measured {
+            Ok(Some(found)) => method_part.estimated_error = Some(found.error),
             Ok(None) => {}
             Err(why) => {
                 method_part.estimated_error = None;
@@ -166,7 +170,6 @@ impl ModelChoice {
                     &format!("; its error could not be measured before the run: {why}");
             }
         }
-        let growth = growth(scene, rest);
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
         parts.extend(superelement(scene, band_hz));
         parts.extend(condensed(scene, band_hz));
@@ -185,6 +188,7 @@ impl ModelChoice {
             model,
             estimated_error: sum.map(f64::sqrt),
             growth,
+            measured: measured.ok().flatten(),
             target,
             parts,
         })

@@ -13,7 +13,7 @@ use crate::bearing::Race;
 use crate::case;
 use crate::report::significant;
 use crate::series::TimeSeries;
-use crate::signal::{band_limit, relative_difference};
+use crate::signal::{band_limit_from_rest, relative_difference};
 use crate::system::{Equilibrium, ModeSelection, StaticCondition};
 use crate::transient::Method;
 
@@ -40,7 +40,26 @@ const INSTANTS: u32 = 8;
 /// Instants among which the highest speed is looked for.
 const SPEEDS: u32 = 64;
 
-/// Relative error of steps and modes in the band, the worst sensor's in both stretches; `None` for a method whose error is not measured.
+/// Steps of half a first stretch: parts of a long one, of which that with the largest error counts. Contacts that nothing damps take half
+/// of a stretch until their vibration has grown to the tolerance.
+const PARTS: f64 = 2.0;
+
+/// How much longer than the first stretch a run is looked at where no ball strikes: errors of steps add up there.
+pub(super) const LONG: f64 = 10.0;
+
+/// What a stretch showed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Relative error of steps and modes in the band, the worst sensor's.
+    pub error: f64,
+    /// Begin of the stretch, s.
+    pub from_s: f64,
+    /// Its length, s.
+    pub length_s: f64,
+}
+
+/// The error of steps and modes on a stretch, and on a second one where loads change; `None` for a method whose error is not measured.
+/// Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.
 ///
 /// # Errors
 /// Why a stretch says nothing.
@@ -49,33 +68,78 @@ pub(super) fn measured(
     model: &RunModel,
     scene: &Scene,
     band_hz: f64,
-) -> Result<Option<f64>, String> {
+    strikes: bool,
+) -> Result<Option<Measured>, String> {
     let Some(finer) = finer(model, scene) else {
         return Ok(None);
     };
-    let duration = stretch_s(asked, band_hz);
-    let spare = asked.end - asked.start - duration;
+    let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
+    let length_s = if strikes {
+        first_s
+    } else {
+        (LONG * first_s).min(run_s)
+    };
+    let from_s = match strikes {
+        true => begin(asked, scene, run_s - length_s),
+        false => long_begin(asked, scene, length_s),
+    };
     let change = fastest_change(asked, scene).map(|[from, to]| {
-        let begin = from.max(to - duration).min(asked.start + spare);
-        (begin, (AFTER * duration).min(asked.end - begin))
+        let latest = asked.start + run_s - first_s;
+        let begin = from.max(to - first_s).min(latest);
+        (begin, (AFTER * first_s).min(asked.end - begin))
     });
-    let first = (begin(asked, scene, spare), duration);
     let mut most = 0.0_f64;
-    for (begin, duration) in [Some(first), change].into_iter().flatten() {
+    for (begin, duration) in [Some((from_s, length_s)), change].into_iter().flatten() {
         let span = Span {
             duration,
             output_hz: asked.output_hz,
         };
         let [run, finer] = Compared::over(scene, [model, &finer], span, begin, band_hz)?.signals;
         for (run, finer) in run.iter().zip(&finer) {
-            most = most.max(relative_difference(run, finer).map_err(|error| error.to_string())?);
+            let error = relative_difference(run, finer).map_err(|error| error.to_string())?;
+            most = most.max(error);
+            if !strikes {
+                most = most.max(worst_part(run, finer, first_s));
+            }
         }
     }
     let left = match model.method {
         Method::Exponential => SHORTER,
         _ => FINER.powf(ADAMS_ORDER),
     };
-    Ok(Some(most / (1.0 - left)))
+    Ok(Some(Measured {
+        error: most / (1.0 - left),
+        from_s,
+        length_s,
+    }))
+}
+
+/// The largest difference of two series in a part of `first_s / PARTS` relative to the size of the whole second one, or since the start up to the
+/// end of such a part relative to the size until there, from `first_s` (s) on.
+fn worst_part(run: &TimeSeries, finer: &TimeSeries, first_s: f64) -> f64 {
+    let length = ((first_s / PARTS / run.step_s()) as usize).max(1);
+    let size = finer.rms();
+    let (mut most, mut apart, mut so_far) = (0.0_f64, 0.0, 0.0);
+    let parts = run.values().chunks_exact(length);
+    for (number, (run, finer)) in parts.zip(finer.values().chunks_exact(length)).enumerate() {
+        let differences = run.iter().zip(finer).map(|(a, b)| (a - b) * (a - b));
+        let part: f64 = differences.sum();
+        apart += part;
+        so_far += finer.iter().map(|b| b * b).sum::<f64>();
+        most = most.max((part / length as f64).sqrt() / size);
+        if (number + 1) as f64 >= PARTS && so_far > 0.0 {
+            most = most.max((apart / so_far).sqrt());
+        }
+    }
+    most
+}
+
+/// Begin of a long stretch: that of the run where the stretch is as long, else where a shorter one begins.
+pub(super) fn long_begin(asked: &case::Transient, scene: &Scene, length_s: f64) -> f64 {
+    match asked.end - asked.start - length_s {
+        spare if spare > 0.0 => begin(asked, scene, spare),
+        _ => asked.start,
+    }
 }
 
 /// Length of the first stretch, s.
@@ -187,7 +251,7 @@ fn stretch(
     let signals = sensors.map(|sensor| {
         let signal = run.signal(sensor).map_err(|error| error.to_string())?;
         // a band that the sampling or the length of the stretch does not let out is not cut
-        Ok(band_limit(&signal, band_hz).unwrap_or(signal))
+        Ok(band_limit_from_rest(&signal, band_hz).unwrap_or(signal))
     });
     signals.collect()
 }
@@ -245,7 +309,12 @@ mod tests {
             ..choice.model
         };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
-        (measured(asked, &model, &scene, 40e3).unwrap(), begin)
+        (
+            measured(asked, &model, &scene, 40e3, true)
+                .unwrap()
+                .map(|measured| measured.error),
+            begin,
+        )
     }
 
     #[test]

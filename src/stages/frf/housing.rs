@@ -4,7 +4,7 @@ use crate::case::{self, Case};
 use crate::model::Ring;
 use crate::reduction::{Attached, Superelement};
 use crate::stages::condensed::CondensedStage;
-use crate::stages::places::{Place, PlaceBodies};
+use crate::stages::places::{Named, Place, PlaceBodies};
 use crate::stages::{ImportedHousing, StageError};
 
 /// A housing and the ring in it.
@@ -17,7 +17,7 @@ pub enum FrfHousing {
 }
 
 /// Where one end of a path is.
-pub(super) type Spot<'c> = (&'c str, &'c case::SensorSpot, [f64; 3]);
+pub(super) type Spot<'c> = (Named<'c>, &'c case::SensorSpot, [f64; 3]);
 
 impl FrfHousing {
     /// Reads the file of a case.

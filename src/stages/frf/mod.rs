@@ -9,6 +9,7 @@ pub use compared::ComparedResponse;
 pub use housing::FrfHousing;
 pub use ranking::RankedPath;
 
+use super::structure::left_out;
 use super::{StageError, Watch};
 use crate::case::Case;
 use crate::reduction::ResponseEstimate;
@@ -62,6 +63,8 @@ pub struct FrfResult {
     pub response: FrequencyResponse,
     /// Their estimated errors; none of a housing of which no mesh is known.
     pub estimate: Option<ResponseEstimate>,
+    /// What a superelement from a file leaves out of its responses, relative, by its band alone; `None` of a housing with a mesh.
+    pub file_error: Option<f64>,
     /// The paths, sensor by sensor.
     pub paths: Vec<TransferPath>,
     /// Against the full model.
@@ -118,8 +121,13 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         FrfHousing::File(_) => None,
     };
     let mut doubts = super::doubts(case, of_mesh, None)?;
+    let mut file_error = None;
     if let FrfHousing::File(file) = &reduced.housing {
-        doubts.extend(file.0.doubt(reduced.band_hz[1]));
+        let top_hz = reduced.band_hz[1];
+        doubts.extend(file.0.doubt(top_hz));
+        let error = left_out(top_hz, file.0.complete_hz());
+        file_error = Some(error);
+        doubts.extend(file.0.coarse(top_hz, error, case.target()));
     }
     Ok(FrfResult {
         doubts,
@@ -127,6 +135,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         target: case.target(),
         housing: reduced.housing,
         estimate: reduced.estimate,
+        file_error,
         response,
         paths,
         compared,

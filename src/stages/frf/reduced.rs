@@ -8,10 +8,10 @@ use crate::reduction::frf::{
     FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition,
     ReducedSystem, Resonance, direct_response, frequency_list,
 };
-use crate::reduction::{BasisChoice, BasisSize, ResponseEstimate};
+use crate::reduction::{BasisChoice, BasisSize, InteriorDamping, ResponseEstimate, UNCOUPLED};
 use crate::stages::condensed::{CondensedStage, basis_choice};
-use crate::stages::damping::{mass_damping, viscous_matrix};
-use crate::stages::places::Place;
+use crate::stages::damping::{mass_damping, modal_damping, viscous_matrix};
+use crate::stages::places::{Named, Place};
 use crate::stages::{StageError, Watch};
 
 /// Equal intervals of the band in which the response is computed, beside its resonances.
@@ -25,9 +25,6 @@ const ENLARGEMENTS: usize = 60;
 
 /// Modes of which the contribution is kept over frequency.
 const CARRIED: usize = 4;
-
-/// Coupling of modes by damping that is round-off: Rayleigh damping of a ring of beams leaves 1e-13.
-const UNCOUPLED: f64 = 1e-10;
 
 /// The case's damping is in the system's matrices already.
 const NO_MORE: ModalDamping = ModalDamping::Uniform(0.0);
@@ -60,10 +57,10 @@ impl<'c> Asked<'c> {
         let sensors = case.sensors.iter().filter(named);
         let from = frf.from.iter();
         [
-            from.map(|push| (&*push.name, &push.spot, push.direction))
+            from.map(|push| (Named::Force(&push.name), &push.spot, push.direction))
                 .collect(),
             sensors
-                .map(|sensor| (&*sensor.name, &sensor.spot, sensor.direction))
+                .map(|sensor| (Named::Sensor(&sensor.name), &sensor.spot, sensor.direction))
                 .collect(),
         ]
     }
@@ -103,7 +100,7 @@ impl<'c> ReducedPaths<'c> {
             for _ in 0..ENLARGEMENTS {
                 match (reduced.housing, &reduced.estimate) {
                     (FrfHousing::Mesh(stage), Some(estimate))
-                        if largest(estimate) > MARGIN * target =>
+                        if estimate.lacking() > MARGIN * target =>
                     {
                         let stage = stage.with_forces(estimate.forces().clone())?;
                         reduced = Self::of(asked, meshed(stage), band_hz)?;
@@ -136,8 +133,11 @@ impl<'c> ReducedPaths<'c> {
             FrfHousing::File(_) => None,
             FrfHousing::Mesh(stage) => Some(ResponseEstimate::new(
                 &stage.condensed,
-                stage.structural.as_ref(),
-                mass_damping(asked.case)?,
+                InteriorDamping {
+                    structural: stage.structural.as_ref(),
+                    mass: mass_damping(asked.case)?,
+                    by_mode: matches!(modal_damping(asked.case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
+                },
                 &system,
                 &basis,
                 &paths,
@@ -204,8 +204,8 @@ impl<'c> ReducedPaths<'c> {
                         .collect(),
                 });
                 paths.push(TransferPath {
-                    from: (*from).to_owned(),
-                    to: (*to).to_owned(),
+                    from: from.name().to_owned(),
+                    to: to.name().to_owned(),
                     place: (sensor, load),
                     carried: carried.collect(),
                     shares,
@@ -227,10 +227,6 @@ fn first_choice(choice: BasisChoice, band_hz: f64) -> BasisChoice {
         },
         _ => BasisChoice { band_hz, ..choice },
     }
-}
-
-fn largest(estimate: &ResponseEstimate) -> f64 {
-    estimate.largest().map_or(0.0, |(_, error)| error)
 }
 
 /// Equal steps of the band, its resonances, and where the full model is solved.

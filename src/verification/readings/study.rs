@@ -185,7 +185,7 @@ impl Source {
                 .cage
                 .ball_angle(condition.cage_angle, ball as u32);
             let (sin, cos) = angle.sin_cos();
-            for (dof, factor) in structure.ring().displacement_row(angle, [cos, sin]) {
+            for (dof, factor) in structure.ring().displacement_row(angle, [cos, sin, 0.0]) {
                 loads[(dof, ball)] += factor;
             }
         }
