@@ -112,11 +112,6 @@ fn summary(result: &FrfResult) -> String {
             "estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"
         ));
     }
-    if let Some(error) = result.file_error {
-        lines.push(format!(
-            "estimated error of the responses: {error:.1e}, by the band of the superelement alone"
-        ));
-    }
     if let Some(why) = &result.not_compared {
         lines.push(format!("nothing was compared with the full model: {why}"));
     }
@@ -182,7 +177,6 @@ fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
         "full_frequency_hz": result.compared.iter().map(|at| at.frequency_hz).collect::<Vec<_>>(),
         "full_residual": result.compared.iter().map(|at| at.residual).collect::<Vec<_>>(),
         "estimated_error": result.estimate.as_ref().map(|estimate| &estimate.relative_errors),
-        "superelement_error": result.file_error,
         "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
         "target": result.target,
         "not_compared": result.not_compared,

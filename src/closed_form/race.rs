@@ -25,7 +25,7 @@ pub enum RaceError {
     },
     /// The ball is not smaller than the pitch circle, or a diameter is not positive and finite.
     #[error(
-        "ball diameter {ball_diameter} m must be positive and below the pitch diameter {pitch_diameter} m"
+        "ball diameter {ball_diameter} must be positive and below the pitch diameter {pitch_diameter}, in the same unit"
     )]
     Diameters {
         /// Ball diameter, m.
@@ -34,7 +34,7 @@ pub enum RaceError {
         pitch_diameter: f64,
     },
     /// The contact angle is not between zero and a right angle.
-    #[error("contact angle {contact_angle} rad must be at least 0 and below a right angle")]
+    #[error("contact angle {:.4} degrees must be at least 0 and below 90", contact_angle.to_degrees())]
     ContactAngle {
         /// Contact angle, rad.
         contact_angle: f64,
@@ -184,7 +184,7 @@ mod tests {
         );
         assert_eq!(
             BallRow::new(7, 2.0, 2.0, 0.0).unwrap_err().to_string(),
-            "ball diameter 2 m must be positive and below the pitch diameter 2 m"
+            "ball diameter 2 must be positive and below the pitch diameter 2, in the same unit"
         );
         // six on a circle of diameter 1 are sin(pi / 6) = 1 / 2 apart
         assert!(BallRow::new(6, 0.5, 1.0, 0.0).is_ok());
@@ -196,7 +196,7 @@ mod tests {
         assert!(BallRow::new(7, 1.0, f64::INFINITY, 0.0).is_err());
         assert_eq!(
             BallRow::new(7, 1.0, 2.0, 2.0).unwrap_err().to_string(),
-            "contact angle 2 rad must be at least 0 and below a right angle"
+            "contact angle 114.5916 degrees must be at least 0 and below 90"
         );
     }
 }

@@ -51,7 +51,7 @@ pub struct InteriorDamping<'a> {
     pub structural: Option<&'a SparseMatrix>,
     /// Alpha of `C = alpha M`, 1/s.
     pub mass: f64,
-    /// Whether each mode has a ratio. The modes above those of the interior that are complete are the reduced model's own, and what their
+    /// Whether each mode has a ratio. Those far above the band and the interior's complete modes are not those of the full model, and what their
     /// ratios do is taken for the error.
     pub by_mode: bool,
 }
@@ -92,14 +92,16 @@ impl ResponseEstimate {
         let closed = DenseMatrix::from_fn(paths.sensors.nrows(), loads, |sensor, load| {
             ends.closed(load, loads + sensor).unwrap_or(0.0)
         });
-        let complete = condensed.basis.complete_below();
+        let top = TAU * frequencies_hz.last().copied().unwrap_or(0.0);
+        // modes that lie nearer to the band are the interior's own, or nearly so
+        let own = (RESONANT * top)
+            .powi(2)
+            .max(condensed.basis.complete_below());
         let (mut worst, mut lacking) = ((0.0, None), (0.0, None));
         let mut relative_errors = Vec::with_capacity(frequencies_hz.len());
         for (place, &hz) in frequencies_hz.iter().enumerate() {
             let mut largest = 0.0;
-            let by_mode = damping
-                .by_mode
-                .then(|| ends.between.damped_above(complete, hz));
+            let by_mode = damping.by_mode.then(|| ends.between.damped_above(own, hz));
             for load in 0..loads {
                 let pushed = residual(place, load);
                 for sensor in loads..ends.count() {

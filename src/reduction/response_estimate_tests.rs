@@ -1,4 +1,5 @@
 use super::*;
+use crate::linalg::TripletBuilder;
 use crate::reduction::frf::direct_response;
 use crate::reduction::samples::{both_ends, rod};
 use crate::reduction::substructure::dense;
@@ -68,14 +69,24 @@ fn frequencies() -> Vec<f64> {
 
 /// Largest relative errors of the two paths, estimated and true, at each frequency.
 fn errors(condensed: &CraigBampton) -> (ResponseEstimate, Vec<f64>) {
-    let (system, paths) = reduced(condensed);
-    let modes = ModalBasis::new(&system).expect("finite");
-    let hz = frequencies();
-    let estimate = ResponseEstimate::new(condensed, UNDAMPED, &system, &modes, &paths, &hz);
+    let (own, paths) = reduced(condensed);
     let rod = rod(NODES);
     let full = self::system(dense(&rod.stiffness), dense(&rod.mass));
-    let full = direct_response(&full, &full_paths(), &hz).expect("damped");
-    let own = direct_response(&system, &paths, &hz).expect("damped");
+    errors_of(condensed, UNDAMPED, (&own, &paths), &full)
+}
+
+/// The same of a reduced and a full system.
+fn errors_of(
+    condensed: &CraigBampton,
+    damping: InteriorDamping<'_>,
+    (own, paths): (&ReducedSystem, &FrfPaths),
+    full: &ReducedSystem,
+) -> (ResponseEstimate, Vec<f64>) {
+    let modes = ModalBasis::new(own).expect("finite");
+    let hz = frequencies();
+    let estimate = ResponseEstimate::new(condensed, damping, own, &modes, paths, &hz);
+    let full = direct_response(full, &full_paths(), &hz).expect("damped");
+    let own = direct_response(own, paths, &hz).expect("damped");
     let errors = full.receptance().iter().zip(own.receptance());
     let errors = errors.map(|(full, own)| {
         let of = |sensor: usize| {
@@ -85,6 +96,80 @@ fn errors(condensed: &CraigBampton) -> (ResponseEstimate, Vec<f64>) {
         of(0).max(of(1))
     });
     (estimate.expect("finite"), errors.collect())
+}
+
+/// Smallest and largest ratio of estimated to true errors that are no round-off.
+fn range(estimate: &ResponseEstimate, errors: &[f64]) -> [f64; 2] {
+    let pairs = estimate.relative_errors.iter().zip(errors);
+    let ratios = pairs
+        .filter(|(_, error)| **error > 1e-9)
+        .map(|(estimated, error)| estimated / error);
+    ratios.fold([f64::INFINITY, 0.0], |[least, most], ratio| {
+        [least.min(ratio), most.max(ratio)]
+    })
+}
+
+/// A loss factor of 0.2 in one half of the rod and of 0.002 in the other couples its modes.
+#[test]
+fn parts_of_unequal_losses_are_estimated() {
+    let mut losses = TripletBuilder::new(NODES, NODES);
+    for node in 0..NODES - 1 {
+        let loss = if node < NODES / 2 { 0.002 } else { 0.2 };
+        for (row, column, sign) in [(0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)] {
+            losses.add(node + row, node + column, sign * loss);
+        }
+    }
+    let losses = losses.build();
+    let condensed = with_statics(condensed(12)).with_structural(&losses);
+    let element = &condensed.superelement;
+    let own = ReducedSystem::new(element.stiffness.clone(), element.mass.clone()).expect("square");
+    let structural = element.structural.clone().expect("lossy");
+    let own = own.with_structural(structural).expect("square");
+    let rod = rod(NODES);
+    let full = ReducedSystem::new(dense(&rod.stiffness), dense(&rod.mass)).expect("square");
+    let full = full.with_structural(dense(&losses)).expect("square");
+    let damping = InteriorDamping {
+        structural: Some(&losses),
+        ..UNDAMPED
+    };
+    let paths = reduced(&condensed).1;
+    let (estimate, errors) = errors_of(&condensed, damping, (&own, &paths), &full);
+    let [least, most] = range(&estimate, &errors);
+    println!("{least:.2} to {most:.2}");
+    assert!(least > 0.4 && most < 10.0, "{least} {most}");
+}
+
+/// Ratios of 0.3 on modes that the reduced model makes up.
+#[test]
+fn ratios_of_made_up_modes_are_estimated() {
+    let condensed = with_statics(condensed(12));
+    let with_ratios = |system: ReducedSystem| {
+        let modes = ModalBasis::new(&system).expect("finite");
+        let matrix = modes.viscous_matrix(&system, &ModalDamping::Uniform(0.3));
+        system
+            .with_viscous(matrix.expect("damped"))
+            .expect("square")
+    };
+    let element = &condensed.superelement;
+    let own = ReducedSystem::new(element.stiffness.clone(), element.mass.clone());
+    let own = with_ratios(own.expect("square"));
+    let rod = rod(NODES);
+    let full = ReducedSystem::new(dense(&rod.stiffness), dense(&rod.mass));
+    let full = with_ratios(full.expect("square"));
+    let paths = reduced(&condensed).1;
+    let least = |by_mode: bool| {
+        let damping = InteriorDamping {
+            by_mode,
+            ..UNDAMPED
+        };
+        let (estimate, errors) = errors_of(&condensed, damping, (&own, &paths), &full);
+        let [least, most] = range(&estimate, &errors);
+        println!("{by_mode}: {least:.2e} to {most:.2}");
+        least
+    };
+    assert!(least(true) > 0.7);
+    // without what the ratios do nearly nothing is estimated at low frequencies
+    assert!(least(false) < 0.1);
 }
 
 #[test]

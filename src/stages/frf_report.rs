@@ -28,12 +28,7 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
         .document(document);
     let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
     report = match (&result.estimate, result.largest_estimate()) {
-        (None, _) => {
-            let error = result.file_error.map(|error| significant(error, 2));
-            let error = error.unwrap_or_else(|| "not known".to_owned());
-            let name = "Estimated error, by the superelement's band alone";
-            report.headline(name, error, Verdict::None)
-        }
+        (None, _) => report.headline("Estimated error", "not known", Verdict::None),
         (Some(_), largest) => {
             let largest = largest.unwrap_or_default();
             let name = "Largest estimated error of a response";

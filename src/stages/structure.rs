@@ -35,11 +35,6 @@ pub(super) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
     (LEFT_OUT * (band_hz / complete_hz).powi(3)).min(1.0)
 }
 
-/// Up to which frequency (Hz) vectors must be complete for an error in the band up to `band_hz`.
-pub(super) fn complete_for(band_hz: f64, error: f64) -> f64 {
-    band_hz * (LEFT_OUT / error).cbrt()
-}
-
 /// The linear model of a case.
 #[derive(Debug, Clone)]
 pub struct StructureStage {
@@ -103,8 +98,8 @@ impl StructureStage {
             band_hz: MODELLED * asked_basis.band_hz,
             size: match (asked_basis.size, &case.transient) {
                 (BasisSize::Auto(target), Some(_)) => {
-                    let complete = complete_for(asked_basis.band_hz, LEFT_OUT_SHARE * target);
-                    BasisSize::AtMost(complete.max(MODELLED * asked_basis.band_hz), MOST_NUMBERS)
+                    let over_band = (LEFT_OUT / (LEFT_OUT_SHARE * target)).cbrt();
+                    BasisSize::AtMost(over_band.max(MODELLED) * asked_basis.band_hz, MOST_NUMBERS)
                 }
                 (size, _) => size,
             },

@@ -112,15 +112,15 @@ impl Machine {
     pub(super) fn overruled(
         &self,
         signal: &MeasuredSignal,
-        asked_rate: Option<f64>,
+        asked_rate: Option<(&str, f64)>,
     ) -> Vec<String> {
         let differ = |typed: f64, own: f64| (typed / own - 1.0).abs() > SAME;
         let hz = |value: f64| significant(value, 6);
         let rate = asked_rate.zip(signal.own_rate_hz);
-        let rate = rate.filter(|&(typed, own)| differ(typed, own));
-        let rate = rate.map(|(typed, own)| {
+        let rate = rate.filter(|&((_, typed), own)| differ(typed, own));
+        let rate = rate.map(|((option, typed), own)| {
             format!(
-                "--rate takes {} Hz for what the file says are {} Hz",
+                "{option} takes {} Hz for what the file says are {} Hz",
                 hz(typed),
                 hz(own)
             )

@@ -95,11 +95,17 @@ impl Source {
                 }
             }
         }
+        let of_baseline = asked.baseline_rate.is_some() && asked.baseline.as_deref() == Some(input);
+        let option = if of_baseline {
+            "--baseline-rate"
+        } else {
+            "--rate"
+        };
         let settings = settings(asked, case.as_ref().filter(|_| is_run));
         let mut assumptions = read.left_out;
         let mut doubts = Vec::new();
         for signal in &signals {
-            let typed = machine.overruled(signal, asked.rate);
+            let typed = machine.overruled(signal, asked.rate.map(|rate| (option, rate)));
             for text in typed.into_iter().chain(flaws(signal, &settings.windows)) {
                 if !doubts.contains(&text) {
                     doubts.push(text);

@@ -9,7 +9,6 @@ pub use compared::ComparedResponse;
 pub use housing::FrfHousing;
 pub use ranking::RankedPath;
 
-use super::structure::left_out;
 use super::{StageError, Watch};
 use crate::case::Case;
 use crate::reduction::ResponseEstimate;
@@ -63,8 +62,6 @@ pub struct FrfResult {
     pub response: FrequencyResponse,
     /// Their estimated errors; none of a housing of which no mesh is known.
     pub estimate: Option<ResponseEstimate>,
-    /// What a superelement from a file leaves out of its responses, relative, by its band alone; `None` of a housing with a mesh.
-    pub file_error: Option<f64>,
     /// The paths, sensor by sensor.
     pub paths: Vec<TransferPath>,
     /// Against the full model.
@@ -121,13 +118,9 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         FrfHousing::File(_) => None,
     };
     let mut doubts = super::doubts(case, of_mesh, None)?;
-    let mut file_error = None;
     if let FrfHousing::File(file) = &reduced.housing {
-        let top_hz = reduced.band_hz[1];
-        doubts.extend(file.0.doubt(top_hz));
-        let error = left_out(top_hz, file.0.complete_hz());
-        file_error = Some(error);
-        doubts.extend(file.0.coarse(top_hz, error, case.target()));
+        doubts.extend(file.0.doubt(reduced.band_hz[1]));
+        doubts.push(file.0.unknown_error());
     }
     Ok(FrfResult {
         doubts,
@@ -135,7 +128,6 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
         target: case.target(),
         housing: reduced.housing,
         estimate: reduced.estimate,
-        file_error,
         response,
         paths,
         compared,

@@ -68,6 +68,56 @@ fn a_path_that_symmetry_closes_is_told_and_no_error() {
     assert!(!uneven.paths.iter().any(TransferPath::is_closed));
 }
 
+/// The response to a force is the sum of those to its parts, across the ring's plane too.
+#[test]
+fn a_force_on_a_ring_in_space_has_three_parts() {
+    let parts = [
+        [1.0, 0.5, 2.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let from = parts.iter().enumerate().map(|(number, direction)| {
+        format!("{{ name = \"{number}\", ring_deg = 30, direction = {direction:?} }}")
+    });
+    let from = format!("frf.from=[{}]", from.collect::<Vec<_>>().join(","));
+    let sensor = "sensors=[{name='s',ring_deg=100,direction=[0.3,0.4,0.5]}]";
+    let set = [
+        &*from,
+        sensor,
+        "frf.check_hz=[5000, 15000]",
+        "frf.band_hz=[0, 20000]",
+    ];
+    let case = Case::example("transfer/pedestal", &set);
+    let found = compute_frf(&case, &Unwatched).unwrap();
+    assert!(found.passes(), "{:?}", found.largest_difference());
+    for at in found.response.receptance() {
+        let of = |load: usize| at[(0, load)];
+        let sum = of(1) + of(2) * 0.5 + of(3) * 2.0;
+        let whole = of(0) * (5.25_f64).sqrt();
+        assert!((whole - sum).norm() < 1e-9 * sum.norm(), "{whole} {sum}");
+        assert!(of(3).norm() > 1e-3 * of(1).norm());
+    }
+}
+
+#[test]
+fn a_direction_across_a_plane_model_is_refused() {
+    let message = |key: &str| {
+        let case = case(format!("{HOUSING}{}", accuracy("1e-2")), &[key]);
+        compute_frf(&case, &Unwatched).unwrap_err().to_string()
+    };
+    let force = message("frf.from=[{name='axial',ring_deg=270,direction=[0,1,1]}]");
+    assert!(
+        force.starts_with("force \"axial\": direction has a part across"),
+        "{force}"
+    );
+    let sensor = message("sensors.0.direction=[0,1,0.01]");
+    assert!(
+        sensor.starts_with("sensor \"top\": direction has a part across"),
+        "{sensor}"
+    );
+}
+
 #[test]
 fn estimates_are_those_of_the_full_model() {
     let sizes = ["8", "12", "20"].map(|size| format!("condense.fixed_interface_modes={size}"));
