@@ -7,7 +7,7 @@ use super::places::{Named, Place, nodes_at};
 use crate::case::Case;
 use crate::exchange::{DofLabel, FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
 use crate::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
-use crate::reduction::{InterfaceReduction, Superelement};
+use crate::reduction::{InterfaceReduction, InteriorBasis, Superelement};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
@@ -109,8 +109,7 @@ impl Coordinates<'_> {
             interface_recovery,
             modal_hz: values.iter().map(|value| value.sqrt() / TAU).collect(),
             band_hz: Some(basis_choice(case).band_hz),
-            complete_hz: Some(stage.condensed.basis.complete_below().sqrt() / TAU)
-                .filter(|hz| hz.is_finite()),
+            complete_hz: complete_hz(&stage.condensed.basis),
             outer_radius: match &stage.boundary {
                 Boundary::Ring(_) => case.ring.as_ref().and_then(|ring| ring.outer_radius),
                 _ => None,
@@ -178,6 +177,16 @@ impl Coordinates<'_> {
             recovery,
         }))
     }
+}
+
+/// Up to which frequency a basis has all vectors of the interior, Hz: the first that was left out, or the highest of all.
+fn complete_hz(basis: &InteriorBasis) -> Option<f64> {
+    let below = basis.complete_below();
+    let end = match below.is_finite() {
+        true => Some(below),
+        false => basis.values().iter().copied().reduce(f64::max),
+    };
+    end.map(|value| value.sqrt() / TAU)
 }
 
 /// Mass times unit accelerations along the mesh's axes, on the coordinates [order x 3].

@@ -32,6 +32,7 @@ super() {
   sed -e '/^mesh\|^length_unit\|^plane\|^parts\|^supports\|^tie/d' -e 's|^\[housing\]|[housing]\nsuperelement = "c/superelement.npz"|' \
     -e 's|^group = "top"|ring_deg = 90|' "$E/housings/ring.toml" > s.toml
 }
+path() { "$P" frf "$1" --out r --set "frf={from=[{name='f',ring_deg=270,direction=$2}]}" "${@:3}"; }
 fed() { "$P" run s.toml --set transient.end=2e-3 --set analysis.envelope=[] --out r "$@"; }
 "#;
 
@@ -141,6 +142,11 @@ fn rings_that_do_not_fit_their_bore() {
 #[test]
 fn words_that_contradict_each_other() {
     hold("Words that contradict each other");
+}
+
+#[test]
+fn directions_across_a_plane() {
+    hold("Directions across a plane");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::super::superelement::samples::{dense, record};
-use super::super::write_superelement_op4;
+use super::super::{read_superelement_op4, write_superelement_op4};
 use super::*;
 use crate::linalg::DenseMatrix;
 
@@ -53,9 +53,12 @@ fn a_superelement_comes_back_bit_by_bit_under_nastran_s_names() {
         write_superelement_op4(&path, &whole, format).unwrap();
         let matrices = read_op4(&path).unwrap();
         let names: Vec<&str> = matrices.iter().map(Op4Matrix::name).collect();
-        assert_eq!(names, ["KAA", "MAA", "BAA", "K4AA"]);
+        assert_eq!(names, ["KAA", "MAA", "BAA", "K4AA", "BANDHZ", "COMPLHZ"]);
         assert!(matrices.iter().all(|matrix| matrix.form() == 6));
-        let found: Vec<DenseMatrix> = matrices.iter().map(|m| m.dense().unwrap()).collect();
+        let found: Vec<DenseMatrix> = matrices[..4].iter().map(|m| m.dense().unwrap()).collect();
+        let read = read_superelement_op4(&path, &[whole.interface.len()]).unwrap();
+        assert_eq!(read.band_hz, whole.band_hz);
+        assert_eq!(read.complete_hz, whole.complete_hz);
         let damping = whole.damping.clone().unwrap();
         let structural = whole.structural.clone().unwrap();
         let expected = [
@@ -69,6 +72,8 @@ fn a_superelement_comes_back_bit_by_bit_under_nastran_s_names() {
     let bare = super::super::SuperelementRecord {
         damping: None,
         structural: None,
+        band_hz: None,
+        complete_hz: None,
         ..whole.clone()
     };
     write_superelement_op4(&path, &bare, Op4Format::Binary).unwrap();

@@ -56,7 +56,7 @@ pub struct SuperelementRecord {
     pub modal_hz: Vec<f64>,
     /// Top of the band that it was condensed for, Hz; `None` where the file does not say.
     pub band_hz: Option<f64>,
-    /// Frequency of the first vector of the interior that was left out, Hz; `None` where the file does not say, and where none was.
+    /// Frequency of the first vector of the interior that was left out, or of the highest where none was, Hz; `None` where the file does not say.
     pub complete_hz: Option<f64>,
     /// Radius of the bore that a ring is tied to, m; `None` for other interfaces, and where the file does not say.
     pub outer_radius: Option<f64>,

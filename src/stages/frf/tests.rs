@@ -85,6 +85,7 @@ fn a_force_on_a_ring_in_space_has_three_parts() {
     let set = [
         &*from,
         sensor,
+        "frf.to=['s']",
         "frf.check_hz=[5000, 15000]",
         "frf.band_hz=[0, 20000]",
     ];
