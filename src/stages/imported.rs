@@ -128,7 +128,7 @@ impl ImportedHousing {
         };
         (top_hz > end * (1.0 + ROUND_OFF)).then(|| {
             format!(
-                "The superelement of {} is good up to {} Hz, {whose}; results go up to {} Hz. Above, frequencies are too high and modes are missing. Condense it with a higher accuracy.band_hz, or use the mesh.",
+                "The superelement of {} is good up to {} Hz, {whose}; modes or responses are asked for up to {} Hz. Above, frequencies are too high and modes are missing. Condense it with a higher accuracy.band_hz, or use the mesh.",
                 self.path.display(),
                 significant(end, 5),
                 significant(top_hz, 5)
@@ -143,6 +143,11 @@ impl ImportedHousing {
             "No error of the responses from {} is known: it was condensed for frequencies. A mode whose frequency is off by 1 % errs by 1 % over its damping ratio at the resonance, and far more beside zeros. Use the mesh, of which `frf` estimates the error, or condense for several times the band and compare.",
             self.path.display()
         )
+    }
+
+    /// That the case's damping takes the place of the file's, where that has one.
+    pub(super) fn unused_damping(&self) -> Option<String> {
+        unused_damping(&self.path, &self.record)
     }
 
     /// Refuses structural damping, which a simulation over time cannot have.
@@ -339,6 +344,16 @@ fn weight(record: &SuperelementRecord, frame: &RingFrame) -> DenseMatrix {
     })
 }
 
+/// That the case's damping takes the place of the file's.
+fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option<String> {
+    record.damping.as_ref().map(|_| {
+        format!(
+            "The viscous damping in {} is not used: [damping] of the case counts.",
+            path.display()
+        )
+    })
+}
+
 fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
     let file = path.display();
     let mut notes = vec![format!(
@@ -380,11 +395,7 @@ fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
             "{file} has no array \"weight\": the weight of the housing does not act."
         ));
     }
-    if record.damping.is_some() {
-        notes.push(format!(
-            "The viscous damping in {file} is not used: [damping] of the case counts."
-        ));
-    }
+    notes.extend(unused_damping(path, record));
     if record.structural.is_some() {
         notes.push(format!(
             "The structural damping in {file} is not used: modes are undamped."

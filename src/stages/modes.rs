@@ -201,6 +201,11 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
         .iter()
         .copied()
         .fold(0.0, f64::max);
+    let asked_hz = match case.modes.extent {
+        ModeExtent::UpToHz(top_hz) | ModeExtent::BandHz([_, top_hz]) => top_hz,
+        ModeExtent::Count(_) => 0.0,
+    };
+    let top_hz = top_hz.max(asked_hz);
     let beyond = imported.filter_map(|imported| imported.doubt(top_hz));
     let mut doubts = doubts(case, housing, setup.as_ref().zip(at_rest))?;
     doubts.extend(beyond);

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::case::Case;
 use crate::report::{Table, significant};
-use crate::system::{LoadedModes, RunRecord, SystemError};
+use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
 /// (callgrind, seven modes with residual), 0.2 s of the wall's clock then.
@@ -100,7 +100,12 @@ pub fn compute_kept_run<K: Keeper>(
     let told = |done| watch.fraction(done);
     let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
     let mut result = RunResult {
-        warnings: [scene.doubts.clone(), choice.warnings()].concat(),
+        warnings: [
+            scene.doubts.clone(),
+            choice.warnings(),
+            energy_warning(simulation.energy.as_ref()),
+        ]
+        .concat(),
         scene,
         statics,
         choice,
@@ -118,6 +123,22 @@ pub fn compute_kept_run<K: Keeper>(
         result.not_analysed.push(NO_ENERGY.to_owned());
     }
     Ok(result)
+}
+
+/// Energy that does not add up, in units of what was exchanged, from which on a run is doubted. Runs that hold their target miss by 1e-3 at most;
+/// steps that let small motions grow until something holds them, without a blow-up, miss by 0.9.
+const ENERGY_GAP: f64 = 0.1;
+
+fn energy_warning(energy: Option<&EnergyBalance>) -> Vec<String> {
+    let gap = energy.map(EnergyBalance::error);
+    let gap = gap.filter(|gap| gap.abs() > ENERGY_GAP);
+    let text = gap.map(|gap| {
+        format!(
+            "The energy balance misses by {} of all that was exchanged: the steps make energy, and the signals cannot be trusted. Leave transient.step to the program, or shorten it until the balance closes.",
+            significant(gap.abs(), 2)
+        )
+    });
+    text.into_iter().collect()
 }
 
 impl<R: Recording> RunResult<R> {

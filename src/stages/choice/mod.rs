@@ -49,6 +49,9 @@ const IMPACT: f64 = 10.0;
 /// Sensors at most that the estimates of modes look at: each costs some milliseconds.
 const JUDGED_SENSORS: usize = 64;
 
+/// A model, and why its method and its step.
+type Planned = (RunModel, ChosenPart, ChosenPart);
+
 /// A model, and why it is this one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelChoice {
@@ -62,6 +65,8 @@ pub struct ModelChoice {
     pub growth: f64,
     /// The stretch that showed the error of modes and steps; `None` where it was not measured.
     pub measured: Option<Measured>,
+    /// The longest step in which small motions at rest do not grow, s, where the case gives a longer one.
+    pub stable_s: Option<f64>,
     /// `accuracy.target`.
     pub target: f64,
 }
@@ -80,8 +85,20 @@ pub struct ChosenPart {
 }
 
 impl ModelChoice {
-    /// That the model errs by more than the target, with its largest part and what helps, in a sentence.
+    /// That the case's step is beyond the stable one, and that the model errs by more than the target, with its largest part and what helps: a sentence each.
     pub fn warnings(&self) -> Vec<String> {
+        let unstable = self.stable_s.map(|stable_s| {
+            format!(
+                "transient.step = {} s is longer than the {} s up to which {} keeps small motions at rest from growing: what they grow to, contacts may hold without a blow-up, and the signals cannot be trusted. Shorten it, or leave it to the program.",
+                significant(self.model.step, 3),
+                significant(stable_s, 3),
+                self.model.method.name()
+            )
+        });
+        unstable.into_iter().chain(self.missed()).collect()
+    }
+
+    fn missed(&self) -> Vec<String> {
         let target = self.target;
         let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
@@ -138,20 +155,48 @@ impl ModelChoice {
         let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
         let errors = ModeErrors::of(scene, band_hz, &loaded);
         let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
-        let (balls_inertia, balls_part) = balls::chosen(case, scene, band_hz, target, &loaded);
-        let mut model = RunModel {
-            modes,
-            residual: asked.residual,
-            balls_inertia,
-            method: Method::Exponential,
-            step: 0.0,
-        };
-        let (method, mut method_part) = stepping::method(asked, &model, target);
-        model.method = method;
-        let (step, mut step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
-        model.step = step;
+        let (mut balls_inertia, mut balls_part) =
+            balls::chosen(case, scene, band_hz, target, &loaded);
         let growth = growth(scene, rest);
-        let mut measured = pilot::measured(asked, &model, scene, band_hz, growth > 1.0);
+        let planned = |balls_inertia| -> Result<Planned, StageError> {
+            let mut model = RunModel {
+                modes,
+                residual: asked.residual,
+                balls_inertia,
+                method: Method::Exponential,
+                step: 0.0,
+            };
+            let (method, method_part) = stepping::method(asked, &model, target);
+            model.method = method;
+            let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
+            model.step = step;
+            Ok((model, method_part, step_part))
+        };
+        let (mut model, mut method_part, mut step_part) = planned(balls_inertia)?;
+        let beside = |model: &RunModel, whole: &RunModel| {
+            pilot::measured(asked, model, whole, scene, band_hz, growth > 1.0)
+        };
+        let mut measured = match balls_inertia {
+            BallsInertia::Dynamic => beside(&model, &model),
+            // beside balls with inertia
+            BallsInertia::QuasiStatic => {
+                let with_inertia = planned(BallsInertia::Dynamic)?;
+                let found = beside(&model, &with_inertia.0);
+                let error = found
+                    .as_ref()
+                    .ok()
+                    .and_then(|found| found.map(|found| found.error));
+                match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
+                    false if balls::is_free(case) => {
+                        (balls_inertia, balls_part) = balls::needed(error);
+                        (model, method_part, step_part) = with_inertia;
+                        beside(&model, &model)
+                    }
+                    _ => found,
+                }
+            }
+        };
+        let step = model.step;
         while let Ok(Some(found)) = measured
             && let Some(shorter) = stepping::shorter(asked, &model, found.error, target, step)
         {
@@ -159,7 +204,10 @@ impl ModelChoice {
             step_part.chosen = format!("{} s", significant(shorter, 3));
             "by the target, from the error that longer ones made on a stretch"
                 .clone_into(&mut step_part.why);
-            measured = pilot::measured(asked, &model, scene, band_hz, growth > 1.0);
+            measured = match balls_inertia {
+                BallsInertia::Dynamic => beside(&model, &model),
+                BallsInertia::QuasiStatic => beside(&model, &planned(BallsInertia::Dynamic)?.0),
+            };
         }
         match &measured {
             Ok(Some(found)) => method_part.estimated_error = Some(found.error),
@@ -189,6 +237,7 @@ impl ModelChoice {
             estimated_error: sum.map(f64::sqrt),
             growth,
             measured: measured.ok().flatten(),
+            stable_s: stepping::stable_below(asked, &model, scene)?,
             target,
             parts,
         })

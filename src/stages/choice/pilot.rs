@@ -58,7 +58,7 @@ pub struct Measured {
     pub length_s: f64,
 }
 
-/// The error of steps and modes on a stretch, and on a second one where loads change; `None` for a method whose error is not measured.
+/// The error of steps and modes, and of balls without inertia where `whole` has them with it, on a stretch and on a second one where loads change; `None` for a method whose error is not measured.
 /// Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.
 ///
 /// # Errors
@@ -66,11 +66,12 @@ pub struct Measured {
 pub(super) fn measured(
     asked: &case::Transient,
     model: &RunModel,
+    whole: &RunModel,
     scene: &Scene,
     band_hz: f64,
     strikes: bool,
 ) -> Result<Option<Measured>, String> {
-    let Some(finer) = finer(model, scene) else {
+    let Some(finer) = finer(whole, scene) else {
         return Ok(None);
     };
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
@@ -310,7 +311,7 @@ mod tests {
         };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
         (
-            measured(asked, &model, &scene, 40e3, true)
+            measured(asked, &model, &model, &scene, 40e3, true)
                 .unwrap()
                 .map(|measured| measured.error),
             begin,

@@ -159,6 +159,26 @@ pub(super) fn step(
     Ok((step, part))
 }
 
+/// The longest stable step at rest (s), where the case gives a longer one.
+///
+/// # Errors
+/// [`StageError::System`] for a model that does not fit the scene.
+pub(super) fn stable_below(
+    asked: &case::Transient,
+    model: &RunModel,
+    scene: &Scene,
+) -> Result<Option<f64>, StageError> {
+    let StepLength::Seconds(step) = asked.step else {
+        return Ok(None);
+    };
+    let mut system = scene.system(model)?;
+    let rest = scene.at_rest(&system);
+    let limit = model.method.step_limit(&mut system, &rest);
+    Ok(limit
+        .map(|limit| limit.step_s)
+        .filter(|stable| step > *stable))
+}
+
 /// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of
 /// `model` does not: the error falls with the square of the step, as long as it is above `resolved` times [`SHORTEST`].
 pub(super) fn shorter(

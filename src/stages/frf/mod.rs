@@ -121,6 +121,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
     if let FrfHousing::File(file) = &reduced.housing {
         doubts.extend(file.0.doubt(reduced.band_hz[1]));
         doubts.push(file.0.unknown_error());
+        doubts.extend(file.0.unused_damping());
     }
     Ok(FrfResult {
         doubts,
