@@ -20,24 +20,27 @@ const STOP_OVER_PASS: f64 = 1.1;
 /// # Errors
 /// [`SignalError::CutOff`]; [`SignalError::TooShort`] if the series is not longer than the filter reaches to one side.
 pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
-    let first = series.values()[0];
-    limited(series, up_to_hz, |v| 2.0 * first - v)
+    let x = series.values();
+    let (first, last) = (x[0], x[x.len() - 1]);
+    limited(series, up_to_hz, |v| 2.0 * first - v, |v| 2.0 * last - v)
 }
 
 /// [`band_limit`] for a series that is zero before its start, as accelerations of a run from rest are. A reflection would
-/// turn what lies above the band at the first sample into a step in the band.
+/// turn what lies above the band at the first sample into a step in the band. Beyond the end the series goes on mirrored, x_k, for the
+/// same reason.
 ///
 /// # Errors
 /// As [`band_limit`].
 pub fn band_limit_from_rest(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
-    limited(series, up_to_hz, |_| 0.0)
+    limited(series, up_to_hz, |_| 0.0, |v| v)
 }
 
-/// The filtered series; `before` makes the value at -t of the one at t.
+/// The filtered series; `before` and `after` make the value beyond an end of the one as far inside.
 fn limited(
     series: &TimeSeries,
     up_to_hz: f64,
     before: impl Fn(f64) -> f64,
+    after: impl Fn(f64) -> f64,
 ) -> Result<TimeSeries, SignalError> {
     let filter = filter(series.step_s(), up_to_hz)?;
     let (x, half) = (series.values(), filter.half_length());
@@ -48,12 +51,11 @@ fn limited(
             needed: half + 1,
         });
     }
-    let last = x[samples - 1];
     let before = x[1..=half].iter().rev().map(|v| before(*v));
     let after = x[samples - 1 - half..samples - 1]
         .iter()
         .rev()
-        .map(|v| 2.0 * last - v);
+        .map(|v| after(*v));
     let extended: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();
     // Circular convolution: the middle part reaches `half` to each side, never round the end.
     let points = fast_length(extended.len());

@@ -405,11 +405,10 @@ fn a_run_says_what_its_superelement_leaves_out() {
         assert!((part.estimated_error.unwrap() / expected - 1.0).abs() < 1e-12);
         let warnings = choice.warnings();
         println!("{vectors}: {expected:e}, {warnings:?}");
-        assert_eq!(
-            warnings[0].contains("most of it of the superelement"),
-            largest
-        );
-        assert_eq!(warnings[0].contains("as balls strike"), !largest);
+        let told = warnings
+            .iter()
+            .any(|text| text.contains("most of it of the superelement"));
+        assert_eq!(told, largest);
         assert_eq!(expected > choice.target, largest);
     }
 }

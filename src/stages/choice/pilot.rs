@@ -47,6 +47,10 @@ const PARTS: f64 = 2.0;
 /// How much longer than the first stretch a run is looked at where no ball strikes: errors of steps add up there.
 pub(super) const LONG: f64 = 10.0;
 
+/// What the error is taken for where no ball strikes, in units of what the stretch showed. The finer run errs as well: of some 90 preloaded bearings that nobody
+/// had looked at, one erred by 1.04 times the measured error and four by 0.8 times or more.
+const SAFETY: f64 = 1.5;
+
 /// What a stretch showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
@@ -108,8 +112,9 @@ pub(super) fn measured(
         Method::Exponential => SHORTER,
         _ => FINER.powf(ADAMS_ORDER),
     };
+    let safety = if strikes { 1.0 } else { SAFETY };
     Ok(Some(Measured {
-        error: most / (1.0 - left),
+        error: safety * most / (1.0 - left),
         from_s,
         length_s,
     }))
