@@ -95,7 +95,10 @@ impl AnalyzeArguments {
         let speeds = [self.speed.as_ref(), self.baseline_speed.as_ref()];
         let speed = speeds.into_iter().flatten().filter_map(GivenSpeed::doubt);
         let orders = self.orders.as_ref().and_then(GivenOrders::doubt);
-        let wide = self.geometry_error.filter(|error| *error > WIDE);
+        // more than a tenth is refused
+        let wide = self
+            .geometry_error
+            .filter(|error| (WIDE..=0.1).contains(error));
         let wide = wide.map(|error| {
             format!(
                 "--geometry-error {error}: lines of different parts lie within {} % of each other, and a sound part may be named by the damaged one's. Give the bearing's own geometry.",
