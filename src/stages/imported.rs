@@ -231,8 +231,10 @@ impl ImportedHousing {
 fn last_mode_hz(modal_hz: &[f64]) -> f64 {
     let mut sorted = modal_hz.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let close = sorted.windows(2).filter(|pair| pair[1] <= CLOSE * pair[0]);
-    let last = close.last().map(|pair| pair[1]);
+    let mut pairs = sorted.windows(2).rev();
+    let last = pairs
+        .find(|pair| pair[1] <= CLOSE * pair[0])
+        .map(|pair| pair[1]);
     last.or(sorted.first().copied()).unwrap_or(0.0)
 }
 
