@@ -166,7 +166,7 @@ impl ImportedHousing {
     /// Rows of the case's sensors over the coordinates, one \[order\] for each.
     ///
     /// # Errors
-    /// As [`ImportedHousing::row`].
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring.
     pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, StageError> {
         let sensors = case.sensors.iter();
         sensors
