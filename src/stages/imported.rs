@@ -25,7 +25,7 @@ const POSITION: f64 = 1e-3;
 const AXIS: f64 = 1e-6;
 
 /// Largest ratio of a mode's frequency to the one below that is taken for two modes of an interior. Residual vectors of a flanged housing
-/// follow its last mode, at 22.8 kHz, by factors of 1.3 and more.
+/// follow its last mode, at 22.8 kHz, by factors of 1.65 and 1.22: it tells them from modes narrowly.
 const CLOSE: f64 = 1.2;
 
 /// A condensed housing of which nothing but the file is known.
@@ -136,8 +136,8 @@ impl ImportedHousing {
         })
     }
 
-    /// What is to be said of responses: of a flanged housing with 2 % of damping, condensed for one and five times the band of its
-    /// responses, they erred by 200 % and 6 % beside the mesh's.
+    /// What is to be said of responses. Those of a flanged housing that was condensed for their band erred by 196 % beside the mesh's. Those of a coarser
+    /// mesh of it with 2 % of damping, condensed for five times the band, erred by 6 %.
     pub(super) fn unknown_error(&self) -> String {
         format!(
             "No error of the responses from {} is known: it was condensed for frequencies. A mode whose frequency is off by 1 % errs by 1 % over its damping ratio at the resonance, and far more beside zeros. Use the mesh, of which `frf` estimates the error, or condense for several times the band and compare.",

@@ -48,7 +48,7 @@ const PARTS: f64 = 2.0;
 pub(super) const LONG: f64 = 10.0;
 
 /// What the error is taken for where no ball strikes, in units of what the stretch showed. The finer run errs as well: of some 90 preloaded bearings that nobody
-/// had looked at, one erred by 1.04 times the measured error and four by 0.8 times or more.
+/// had looked at, one erred by 1.04 times its estimate and three by 0.83 to 0.97 times.
 const SAFETY: f64 = 1.5;
 
 /// What a stretch showed.
@@ -62,7 +62,8 @@ pub struct Measured {
     pub length_s: f64,
 }
 
-/// The error of steps and modes, and of balls without inertia where `whole` has them with it, on a stretch and on a second one where loads change; `None` for a method whose error is not measured.
+/// The error of `model` on a stretch, and on a second one where loads change. It is that of steps and modes, and of balls without inertia where `whole` has
+/// them with it. `None` for a method whose error is not measured.
 /// Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.
 ///
 /// # Errors
