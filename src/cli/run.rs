@@ -135,7 +135,13 @@ fn again(case: &Case, arguments: &Arguments) -> String {
 
 fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Verdict {
     match &result.simulation.end {
-        RunEnd::Complete => Verdict::Good,
+        RunEnd::Complete => match result.distrust() {
+            None => Verdict::Good,
+            Some(why) => Verdict::Bad {
+                what: format!("the signals cannot be trusted: {why}"),
+                help: Some("the warnings of run.json and of the report say by how much, and what helps; signals.npz has the signals all the same".to_owned()),
+            },
+        },
         RunEnd::BlewUp(blow_up) => Verdict::Bad {
             what: blow_up.to_string(),
             help: Some(format!(

@@ -9,6 +9,7 @@ use super::comb::{Masked, best_fit};
 use super::explain::{Candidate, Search};
 use super::fault::Fault;
 use super::known::{KnownLine, shaft_lines};
+use super::unexplained::has_teeth_between;
 use super::verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB,
     LEAST_HARMONICS, LEAST_STRENGTH_DB, NAMED_BELOW, UnexplainedImpacts, probability,
@@ -19,6 +20,9 @@ const RACE_OVER_CAGE_DB: f64 = 2.0;
 
 /// Orders at which cages of ball bearings turn, `(1 - gamma) / 2`: gamma is 0.08 to 0.4.
 const CAGE_ORDERS: [f64; 2] = [0.3, 0.46];
+
+/// Multiples of the cage's order at which something else may strike.
+const MOST_MULTIPLE: u32 = 4;
 
 impl Search<'_> {
     /// Indicates a ball by the lines of the cage, where no other part shows as clearly: a flaw on a race is struck harder by a ball that
@@ -113,7 +117,7 @@ impl Search<'_> {
         })
     }
 
-    fn fine_search(&self) -> Self {
+    pub(super) fn fine_search(&self) -> Self {
         Self {
             spectra: self.fine,
             ..*self
@@ -136,7 +140,10 @@ impl Search<'_> {
         let clear = chance < BALL_BY_CAGE_BELOW
             && strength_db >= LEAST_CAGE_LINES_DB
             && evidence.seen >= LEAST_HARMONICS
-            && evidence.first;
+            && evidence.first
+            // what strikes at twice to four times the order has every second to fourth of its harmonics alone
+            && (2..=MOST_MULTIPLE).all(|part| has_teeth_between(masked, &best.fit, part))
+            && self.divided(best, known).is_none();
         clear.then_some(CageLines {
             false_alarm: chance,
             order: best.fit.order,

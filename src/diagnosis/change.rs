@@ -8,12 +8,12 @@
 use super::angle_grid::AngleGrid;
 use super::comb_power::{Comb, Sought, Tooth};
 use super::compared_signal::ComparedSignal;
-use super::known::shaft_lines;
+use super::known::{Strikes, shaft_lines};
 use super::line_change::{ChangeConclusion, LineChange};
 use super::ratio_interval::{Scattered, interval_db};
 use super::stretch_spectrum::{StretchSpectrum, stretch_revolutions};
 use super::verdict::{FaultVerdict, Harmonic, UNSEEN_ABOVE, UnexplainedImpacts};
-use super::{Diagnosis, DiagnosisError, Fault};
+use super::{DiagnosisError, Fault};
 use crate::signal::RawSpectrum;
 
 /// Harmonics that are compared.
@@ -22,6 +22,9 @@ const COMPARED_HARMONICS: u32 = 5;
 const LEAST_TEETH: usize = 2;
 /// Fewest revolutions of a window.
 const FEWEST_REVOLUTIONS: f64 = 8.0;
+
+/// Why nothing is compared where multiples of the shaft leave too few lines.
+const COVERED: &str = "Multiples of the shaft's order cover all of its harmonics but one at most in one of the two signals. A longer window separates more.";
 
 /// One of the two signals with what is computed once.
 struct Side<'a> {
@@ -59,13 +62,10 @@ impl Side<'_> {
 pub fn line_changes(
     now: &ComparedSignal<'_>,
     earlier: &ComparedSignal<'_>,
-    diagnosis: &Diagnosis,
 ) -> Result<Vec<LineChange>, DiagnosisError> {
-    let parts = diagnosis
-        .faults
-        .iter()
-        .map(|v| Compared::part(v, now, earlier));
-    let others = diagnosis.unexplained.iter();
+    let parts = now.diagnosis.faults.iter();
+    let parts = parts.map(|verdict| Compared::part(verdict, now, earlier));
+    let others = now.diagnosis.unexplained.iter();
     let others = others.map(|impacts| Compared::impacts(impacts, now, earlier));
     let compared: Vec<Compared> = parts.chain(others).collect();
     let orders = compared.iter().map(|compared| compared.order[0]);
@@ -130,9 +130,6 @@ impl Compared {
             signal.orders.order(fault).unwrap_or(verdict.expected_order)
         };
         let order = [expected(now), expected(earlier)];
-        let reach = |signal: &ComparedSignal<'_>, order: f64| {
-            (signal.orders.error(fault) + signal.speed_error) * order
-        };
         let name = verdict.fault.name();
         Self {
             fault: Some(verdict.fault),
@@ -143,7 +140,7 @@ impl Compared {
             band_hz,
             teeth: free_teeth(harmonics, spacing),
             order,
-            reach: [reach(now, order[0]), reach(earlier, order[1])],
+            reach: [now.error(fault) * order[0], earlier.error(fault) * order[1]],
             cage: cage.filter(|_| fault != Fault::Cage),
             seen: verdict
                 .false_alarm
@@ -157,9 +154,7 @@ impl Compared {
         now: &ComparedSignal<'_>,
         earlier: &ComparedSignal<'_>,
     ) -> Self {
-        let reach = |signal: &ComparedSignal<'_>| {
-            (signal.orders.error(Fault::OuterRace) + signal.speed_error) * impacts.order
-        };
+        let reach = |signal: &ComparedSignal<'_>| signal.error(Fault::OuterRace) * impacts.order;
         let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth {
             harmonic,
             beside: 0.0,
@@ -222,34 +217,81 @@ impl Compared {
                 "The shorter of the two windows has {least_turns:.1} revolutions. At least {FEWEST_REVOLUTIONS} are needed."
             )));
         }
-        let [now, earlier] = [0, 1].map(|place| self.found(&sides[place], place, band_hz, highest));
-        let (Some(now), Some(earlier)) = (now?, earlier?) else {
-            return Ok(self.not_compared(
-                "Multiples of the shaft's order cover its lines in one of the two signals. A longer window separates more.".to_owned(),
-            ));
+        let others = self.others(sides[1].compared);
+        let Some(now) = self.found(&sides[0], 0, &[], band_hz, highest)? else {
+            return Ok(self.not_compared(COVERED.to_owned()));
         };
-        let common: Vec<Tooth> = (self.teeth.iter().enumerate())
-            .filter(|(place, _)| now.comb.free.contains(place) && earlier.comb.free.contains(place))
-            .map(|(_, tooth)| *tooth)
-            .collect();
-        if common.len() < LEAST_TEETH {
-            return Ok(self.not_compared(
-                "Fewer than two of its harmonics are free of the shaft's multiples in both signals. A longer window separates more.".to_owned(),
-            ));
-        }
+        let common = |earlier: &Found| -> Vec<Tooth> {
+            let teeth = self.teeth.iter().enumerate();
+            let free = teeth.filter(|(place, _)| {
+                now.comb.free.contains(place) && earlier.comb.free.contains(place)
+            });
+            free.map(|(_, tooth)| *tooth).collect()
+        };
+        let enough = |earlier: &Found| common(earlier).len() >= LEAST_TEETH;
+        let earlier = self.found(&sides[1], 1, &others, band_hz, highest)?;
+        // what else stands there bounds what the part had
+        let bound = !others.is_empty() && !earlier.as_ref().is_some_and(enough);
+        let earlier = match bound {
+            true => self.found(&sides[1], 1, &[], band_hz, highest)?,
+            false => earlier,
+        };
+        let Some(earlier) = earlier.filter(enough) else {
+            return Ok(self.not_compared(COVERED.to_owned()));
+        };
+        let common = common(&earlier);
         let power = |found: &Found| found.spectrum.comb_power(&common, found.comb.order);
         let (Some(now_power), Some(earlier_power)) = (power(&now), power(&earlier)) else {
             return Ok(self.not_compared(
                 "One of the two signals is silent in the band that shows it.".to_owned(),
             ));
         };
-        Ok(self.concluded(&common, [&now, &earlier], [&now_power, &earlier_power]))
+        let sharing = others.first().filter(|_| bound).map(|other| other.name);
+        Ok(self.concluded(
+            &common,
+            [&now, &earlier],
+            [&now_power, &earlier_power],
+            sharing,
+        ))
+    }
+
+    /// Impacts of something else that a signal shows more strongly than what is compared: their lines say nothing about it.
+    fn others<'a>(&self, earlier: &'a ComparedSignal<'_>) -> Vec<Strikes<'a>> {
+        let found = earlier.diagnosis;
+        let is_own = |verdict: &&FaultVerdict| Some(verdict.fault) == self.fault;
+        let own = found.named().find(is_own);
+        let own_db = own.and_then(|verdict| verdict.strength_db);
+        let stronger = |db: Option<f64>| own.is_none() || db > own_db;
+        let parts = found.named().filter_map(|verdict| {
+            let other = !is_own(&verdict) && stronger(verdict.strength_db);
+            let (fault, order) = match &verdict.cage_lines {
+                Some(lines) => (Fault::Cage, Some(lines.order)),
+                None => (verdict.fault, verdict.order),
+            };
+            Some(Strikes {
+                fault: Some(fault),
+                name: fault.name(),
+                order: order.filter(|_| other)?,
+            })
+        });
+        let is_same =
+            |order: f64| self.fault.is_none() && (order - self.order[1]).abs() <= self.reach[1];
+        let unexplained = found.unexplained.iter().filter_map(|impacts| {
+            let other = !is_same(impacts.order) && stronger(impacts.strength_db);
+            other.then_some(Strikes {
+                fault: None,
+                name: "impacts of no part",
+                order: impacts.order,
+            })
+        });
+        parts.chain(unexplained).collect()
     }
 
     fn found(
         &self,
         side: &Side<'_>,
         place: usize,
+        others: &[Strikes<'_>],
         band_hz: [f64; 2],
         highest: f64,
     ) -> Result<Option<Found>, DiagnosisError> {
@@ -259,13 +301,21 @@ impl Compared {
             order: self.order[place],
             reach: self.reach[place],
             cage: self.cage,
-            speed_error: side.compared.speed_error,
+            speed_error: side.compared.diagnosis.speed_error,
         };
-        let shaft = shaft_lines(spectrum.end(), sought.speed_error);
-        let Some(comb) = spectrum.best_comb(&sought, &shaft) else {
+        let mut known = shaft_lines(spectrum.end(), sought.speed_error);
+        for other in others {
+            known.extend(other.lines(
+                &side.compared.orders,
+                sought.speed_error,
+                spectrum.end(),
+                spectrum.resolution,
+            ));
+        }
+        let Some(comb) = spectrum.best_comb(&sought, &known) else {
             return Ok(None);
         };
-        let chance = spectrum.chance(&sought, &comb);
+        let chance = spectrum.chance(&sought, &comb, known);
         Ok(Some(Found {
             power,
             spectrum,
@@ -279,11 +329,12 @@ impl Compared {
         common: &[Tooth],
         [now, earlier]: [&Found; 2],
         [now_power, earlier_power]: [&Scattered; 2],
+        sharing: Option<&str>,
     ) -> LineChange {
         let is_seen =
             |found: &Found, power: &Scattered| found.chance < UNSEEN_ABOVE && power.above() > 0.0;
         let seen_now = self.seen && is_seen(now, now_power);
-        let seen_earlier = is_seen(earlier, earlier_power);
+        let seen_earlier = sharing.is_none() && is_seen(earlier, earlier_power);
         // the envelope is squared
         let level =
             |seen: bool, power: &Scattered| seen.then(|| (2.0 * power.above()).sqrt().sqrt());
@@ -309,15 +360,21 @@ impl Compared {
             change.change_db = Some(5.0 * (now_power.above() / earlier_power.above()).log10());
         }
         change.conclusion = ChangeConclusion::of(change.interval_db);
-        change.why = self.why(&change, seen_now, seen_earlier);
+        change.why = Self::why(&change, [seen_now, seen_earlier], sharing);
         change
     }
 
-    fn why(&self, change: &LineChange, seen_now: bool, seen_earlier: bool) -> String {
+    fn why(
+        change: &LineChange,
+        [seen_now, seen_earlier]: [bool; 2],
+        sharing: Option<&str>,
+    ) -> String {
         let harmonics = change.harmonics.iter().map(ToString::to_string);
         let harmonics = harmonics.collect::<Vec<_>>().join(", ");
         let mut why = format!("Harmonics {harmonics} of the squared envelope are compared.");
-        if !seen_earlier {
+        if let Some(other) = sharing {
+            why.push_str(&format!(" Lines of the {other} stand there in the earlier signal, so that this is a lower bound."));
+        } else if !seen_earlier {
             why.push_str(" They are not above the noise in the earlier signal, so that this is a lower bound.");
         }
         if !seen_now {
@@ -326,7 +383,7 @@ impl Compared {
             );
         }
         if change.conclusion == ChangeConclusion::NotCertain {
-            why.push_str(" Longer windows would decide.");
+            why.push_str(" Longer windows may decide.");
         }
         why
     }

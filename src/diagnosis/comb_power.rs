@@ -1,7 +1,7 @@
 //! The power of a comb of lines in the squared envelope of a band, with its scatter.
 
 use super::control::{ByChance, factors};
-use super::known::{Impacts, KnownLine, shaft_lines};
+use super::known::{Impacts, KnownLine};
 use super::ratio_interval::Scattered;
 use super::stretch_spectrum::StretchSpectrum;
 
@@ -108,14 +108,19 @@ impl StretchSpectrum {
         best
     }
 
-    /// Probability that chance makes as good a comb: by the same search at other orders.
-    pub(super) fn chance(&self, sought: &Sought<'_>, comb: &Comb) -> f64 {
-        let mut known = shaft_lines(self.end(), sought.speed_error);
+    /// Probability that chance makes as good a comb beside what is known: by the same search at other orders.
+    pub(super) fn chance(
+        &self,
+        sought: &Sought<'_>,
+        comb: &Comb,
+        mut known: Vec<KnownLine>,
+    ) -> f64 {
         let own = Impacts {
             name: "",
             order: comb.order,
             cage: sought.cage,
             of_race: false,
+            foreign: false,
         };
         known.extend(own.lines(self.end(), self.resolution));
         let relative = sought.reach / sought.order;

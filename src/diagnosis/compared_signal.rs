@@ -1,30 +1,27 @@
 //! A signal that is compared with another: its window, the angle of its shaft, its orders.
 
 use super::angle_grid::AngleGrid;
-use super::shaft_speed::ShaftSpeed;
-use super::{Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, FaultOrders};
+use super::{Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders};
 use crate::series::{TimeSeries, TimeWindow};
-use crate::signal::{RawSpectrum, WhiteSpectrum};
+use crate::signal::RawSpectrum;
 
-/// A signal that is compared with another.
+/// A judged signal that is compared with another.
 pub struct ComparedSignal<'a> {
     pub(super) signal: &'a TimeSeries,
     window: TimeWindow,
     turns: Box<dyn Fn(f64) -> f64 + 'a>,
     pub(super) orders: FaultOrders,
-    pub(super) speed_error: f64,
-    /// Mean shaft speed in the window, Hz.
-    pub speed_hz: f64,
+    pub(super) diagnosis: &'a Diagnosis,
 }
 
 impl<'a> ComparedSignal<'a> {
-    /// A signal that was judged, with what it was judged by.
-    pub fn judged(
+    /// A signal with what its diagnosis was made by: the window (s), the shaft's angle at a time (turns), the orders.
+    pub fn new(
         signal: &'a TimeSeries,
         window: TimeWindow,
         turns: impl Fn(f64) -> f64 + 'a,
         orders: FaultOrders,
-        diagnosis: &Diagnosis,
+        diagnosis: &'a Diagnosis,
     ) -> Self {
         let factor = diagnosis.speed_hz / diagnosis.given_speed_hz;
         Self {
@@ -32,36 +29,19 @@ impl<'a> ComparedSignal<'a> {
             window,
             turns: Box::new(move |time| factor * turns(time)),
             orders,
-            speed_error: diagnosis.speed_error,
-            speed_hz: diagnosis.speed_hz,
+            diagnosis,
         }
     }
 
-    /// A signal that is not judged. Its speed is sharpened by its own lines in the envelope of `within_hz` (Hz; `None`: all), as that of one
-    /// that is.
-    ///
-    /// # Errors
-    /// As [`Diagnosis::of`].
-    pub fn earlier(
-        signal: &'a TimeSeries,
-        within_hz: Option<[f64; 2]>,
-        window: TimeWindow,
-        turns: impl Fn(f64) -> f64 + 'a,
-        orders: FaultOrders,
-    ) -> Result<Self, DiagnosisError> {
-        let samples = signal.values().len();
-        window.check_inside(signal.start_s(), signal.step_s(), samples)?;
-        let white = WhiteSpectrum::of(signal)?;
-        let speed = ShaftSpeed::of(signal, &white, within_hz, window, &turns, &orders)?;
-        let given_hz = (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
-        Ok(Self {
-            signal,
-            window,
-            turns: Box::new(move |time| speed.factor * turns(time)),
-            orders,
-            speed_error: speed.error,
-            speed_hz: speed.factor * given_hz,
-        })
+    /// What was found in it.
+    #[must_use]
+    pub fn diagnosis(&self) -> &Diagnosis {
+        self.diagnosis
+    }
+
+    /// How far the order of a part may be off in this signal, relative.
+    pub(super) fn error(&self, fault: Fault) -> f64 {
+        self.orders.error(fault) + self.diagnosis.speed_error
     }
 
     pub(super) fn grid(&self, highest: f64) -> Result<AngleGrid, DiagnosisError> {

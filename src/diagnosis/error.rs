@@ -47,6 +47,14 @@ pub enum DiagnosisError {
         /// Step of the values, in the signal's unit.
         step: f64,
     },
+    /// A piece of a signal that is repeated: what it holds comes at a fixed rate.
+    #[error(
+        "expected a record, found one whose values repeat exactly every {period_s} s: whatever it holds then strikes at that rate; give the original record"
+    )]
+    Repeated {
+        /// After what time all values come again, s.
+        period_s: f64,
+    },
     /// A shaft that rests or turns back: angle is no measure of progress then.
     #[error(
         "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"

@@ -5,7 +5,7 @@ use super::bands::BandSpectrum;
 use super::comb::{Fit, Masked, best_fit};
 use super::control::{ByChance, control_scores};
 use super::fault::{Fault, FaultOrders};
-use super::known::{COMBS_BESIDE, Impacts, KnownLine, Mask, coincidence, shaft_lines};
+use super::known::{COMBS_BESIDE, KnownLine, Mask, Strikes, coincidence, shaft_lines};
 use super::line_spectrum::REVOLUTIONS;
 use super::unexplained::UNEXPLAINED_ORDERS;
 use super::verdict::{Conclusion, FaultVerdict, UnexplainedImpacts};
@@ -14,8 +14,8 @@ use super::verdict::{Conclusion, FaultVerdict, UnexplainedImpacts};
 const EXPLAINS_BELOW: f64 = 0.01;
 /// Bins that the floor of a part's fundamental needs within half of it, to each side.
 const FLOOR_BINS: f64 = 8.0;
-/// Multiples of the cage's order that the balls make as they come into the load one after the other.
-const CAGE_MULTIPLES: u32 = 5;
+/// Relative difference of orders that are multiples of one: combs are fitted within half of the resolution.
+const SAME_ORDER: f64 = 5e-3;
 /// Most combs that are explained one after the other.
 const MOST_ROUNDS: usize = 8;
 
@@ -102,9 +102,12 @@ impl Search<'_> {
                     open.retain(|(other, _)| *other != fault);
                     explained.push(fault);
                 }
-                None => found
-                    .unexplained
-                    .extend(self.unexplained(&best, chance, &known)),
+                None => {
+                    let impacts = self.unexplained(&best, chance, &known);
+                    // the harmonics of what was said are not said again
+                    let new = impacts.filter(|impacts| !self.is_multiple(impacts, &found));
+                    found.unexplained.extend(new);
+                }
             }
             known.extend(own);
         }
@@ -129,6 +132,16 @@ impl Search<'_> {
         }
         found.faults.sort_by_key(|verdict| verdict.fault as usize);
         found
+    }
+
+    /// Whether impacts of no part repeat a few times as often as others that were found before.
+    fn is_multiple(&self, impacts: &UnexplainedImpacts, found: &Found) -> bool {
+        let mut earlier = found.unexplained.iter();
+        earlier.any(|earlier| {
+            let ratio = impacts.order / earlier.order;
+            let multiple = ratio.round();
+            multiple >= 1.0 && (ratio / multiple - 1.0).abs() < SAME_ORDER
+        })
     }
 
     /// A comb one or two revolutions beside a place where the shaft's lines hide another part may be sidebands of that part.
@@ -214,29 +227,14 @@ impl Search<'_> {
 
     /// Lines that a candidate explains.
     pub(super) fn own_lines(&self, candidate: &Candidate, highest: f64) -> Vec<KnownLine> {
-        let name = match candidate.fault {
-            Some(fault) => fault.name().to_owned(),
-            None => format!("{:.2} Hz", candidate.fit.order * self.speed_hz),
+        let name = format!("{:.2} Hz", candidate.fit.order * self.speed_hz);
+        let strikes = Strikes {
+            fault: candidate.fault,
+            name: candidate.fault.map_or(&name, |fault| fault.name()),
+            order: candidate.fit.order,
         };
         let resolution = self.spectra[candidate.fit.spectrum].lines.resolution;
-        let cage = self.orders.order(Fault::Cage);
-        let cage = cage.filter(|_| candidate.fault != Some(Fault::Cage));
-        let impacts = Impacts {
-            name: &name,
-            order: candidate.fit.order,
-            cage,
-            of_race: matches!(candidate.fault, Some(Fault::OuterRace | Fault::InnerRace)),
-        };
-        let mut lines = impacts.lines(highest, resolution);
-        if let (Some(_), Some(cage)) = (candidate.fault, cage) {
-            lines.extend((1..=CAGE_MULTIPLES).map(|multiple| KnownLine {
-                order: f64::from(multiple) * cage,
-                error: self.orders.error(Fault::Cage) + self.speed_error,
-                name: format!("balls entering the load zone, {multiple} x cage"),
-                carrier: None,
-            }));
-        }
-        lines
+        strikes.lines(self.orders, self.speed_error, highest, resolution)
     }
 
     /// Probability by chance of a candidate, its own lines taken out of the controls.

@@ -1,6 +1,6 @@
 //! Lines that have a reason already: multiples of the shaft, and the lines of what was found before.
 
-use super::fault::Fault;
+use super::fault::{Fault, FaultOrders};
 use super::line_spectrum::LineSpectrum;
 
 /// A line takes so many times the resolution to each side; a strong one, whose foot stands above the floor, one more.
@@ -21,6 +21,8 @@ const FINE_RESOLUTION: f64 = 0.03;
 /// sidebands. In a 6203 the inner race less one is within 1 % of the ball, and less two of the outer race.
 pub(super) const COMBS_BESIDE: u32 = 2;
 const HARMONICS_BESIDE: u32 = 8;
+/// Multiples of the cage's order that the balls make as they come into the load one after the other.
+const CAGE_MULTIPLES: u32 = 5;
 
 /// A line that has a reason, and which.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +34,8 @@ pub(super) struct KnownLine {
     /// Order of the harmonic that a sideband of a race at the cage's distance belongs to: impacts all have one sign, and so has what
     /// modulates them, so that no sideband is stronger than its carrier. `None`: any power is explained.
     pub(super) carrier: Option<f64>,
+    /// Whether it is of something that is no part of the bearing.
+    pub(super) foreign: bool,
 }
 
 impl KnownLine {
@@ -51,6 +55,7 @@ pub(super) fn shaft_lines(highest: f64, error: f64) -> Vec<KnownLine> {
             error,
             name: format!("{multiple} x shaft"),
             carrier: None,
+            foreign: false,
         })
         .collect()
 }
@@ -81,6 +86,8 @@ pub(super) struct Impacts<'a> {
     pub(super) cage: Option<f64>,
     /// Whether they are those of a race, whose sidebands at the cage's distance are weaker than their carriers.
     pub(super) of_race: bool,
+    /// Whether they are of no part of the bearing.
+    pub(super) foreign: bool,
 }
 
 impl Impacts<'_> {
@@ -98,6 +105,7 @@ impl Impacts<'_> {
                 error: WANDERING,
                 name: format!("{harmonic} x {}", self.name),
                 carrier: None,
+                foreign: self.foreign,
             });
             let mut beside = |(spacing, carrier): (f64, &str), step: u32, count: u32| {
                 // lines nearer than they are wide are not told apart
@@ -113,6 +121,7 @@ impl Impacts<'_> {
                     error: WANDERING,
                     name: format!("{harmonic} x {} {offset:+} x {carrier}", self.name),
                     carrier: (self.of_race && carrier == "cage").then_some(line),
+                    foreign: self.foreign,
                 }));
             };
             let shaft = (1.0, "shaft");
@@ -125,6 +134,45 @@ impl Impacts<'_> {
             }
         }
         lines.retain(|line| line.order > 0.0);
+        lines
+    }
+}
+
+/// What strikes at an order: a part, or something else.
+pub(super) struct Strikes<'a> {
+    pub(super) fault: Option<Fault>,
+    pub(super) name: &'a str,
+    pub(super) order: f64,
+}
+
+impl Strikes<'_> {
+    /// All lines up to an order that it explains: those of its impacts, and of a part those of the balls that enter the load.
+    pub(super) fn lines(
+        &self,
+        orders: &FaultOrders,
+        speed_error: f64,
+        highest: f64,
+        resolution: f64,
+    ) -> Vec<KnownLine> {
+        let cage = orders.order(Fault::Cage);
+        let cage = cage.filter(|_| self.fault != Some(Fault::Cage));
+        let impacts = Impacts {
+            name: self.name,
+            order: self.order,
+            cage,
+            of_race: matches!(self.fault, Some(Fault::OuterRace | Fault::InnerRace)),
+            foreign: self.fault.is_none(),
+        };
+        let mut lines = impacts.lines(highest, resolution);
+        if let (Some(_), Some(cage)) = (self.fault, cage) {
+            lines.extend((1..=CAGE_MULTIPLES).map(|multiple| KnownLine {
+                order: f64::from(multiple) * cage,
+                error: orders.error(Fault::Cage) + speed_error,
+                name: format!("balls entering the load zone, {multiple} x cage"),
+                carrier: None,
+                foreign: false,
+            }));
+        }
         lines
     }
 }

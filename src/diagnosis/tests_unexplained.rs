@@ -73,3 +73,16 @@ fn the_cage_of_another_bearing_is_said() {
     );
     assert_eq!(quiet.unexplained, []);
 }
+
+/// Something that strikes at a half or a third of a part's order has that part's harmonics among its own, and what strikes at twice the
+/// cage's order has every second harmonic of the cage.
+#[test]
+fn impacts_at_a_fraction_or_multiple_of_a_parts_order_name_no_part() {
+    let orders = bearing();
+    let of = [(orders.outer, 3.0), (orders.inner, 3.0), (orders.cage, 3.0)];
+    for (order, parts) in of {
+        let signal = with_noise(&struck(8.0, steady, order / parts, |_| 2.0), 0.1, 81);
+        let found = judged(&signal, steady, &orders, 0.01);
+        assert!(named(&found).is_empty(), "{order} / {parts}: {found:#?}");
+    }
+}

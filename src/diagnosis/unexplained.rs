@@ -22,7 +22,7 @@ const OWN_TEETH: f64 = 0.5;
 const LOWEST_PART: u32 = 5;
 
 /// Whether a comb has teeth of its own between every so many, which a coarser comb has too.
-fn has_teeth_between(masked: &[Masked<'_>], fit: &Fit, part: u32) -> bool {
+pub(super) fn has_teeth_between(masked: &[Masked<'_>], fit: &Fit, part: u32) -> bool {
     let lines = &masked[fit.spectrum].spectrum.lines;
     let mean = |shared: bool| {
         let teeth = (1..=lines.harmonics).filter(|k| (k % part == 0) == shared);

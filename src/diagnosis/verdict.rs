@@ -331,7 +331,9 @@ pub(super) fn conclude(
     let reason = |text: &str| format!("{found}. {text}");
     let not_enough = |text: &str| (Conclusion::NotEnough, reason(text));
     if chance >= NAMED_BELOW {
-        return not_enough("A longer window would decide.");
+        return not_enough(
+            "Chance makes as much once in a thousand windows or more often. A longer window may decide.",
+        );
     }
     if seen < evidence.least.seen || !evidence.first {
         return not_enough(&format!(

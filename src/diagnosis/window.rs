@@ -5,6 +5,7 @@ use super::bands::{Spectra, band_spectra, check_band, searched_band};
 use super::comb::SHOWN_HARMONICS;
 use super::explain::{Found, Search};
 use super::findings::envelope_name;
+use super::repeated::check_repeated;
 use super::rounding::check_noise;
 use super::shaft_speed::{ShaftSpeed, SpeedSource, speed_of_races};
 use super::strictly_periodic::say_strictly_periodic;
@@ -58,7 +59,8 @@ impl Diagnosis {
     ) -> Result<Self, DiagnosisError> {
         let samples = signal.values().len();
         window.check_inside(signal.start_s(), signal.step_s(), samples)?;
-        if signal.window(window.from, window.to)?.kurtosis().is_none() {
+        let judged = signal.window(window.from, window.to)?;
+        if judged.kurtosis().is_none() {
             return Err(DiagnosisError::Constant {
                 from_s: window.from,
                 to_s: window.to,
@@ -70,6 +72,7 @@ impl Diagnosis {
         let strikes_hz = orders.highest() * grid.fastest_hz;
         let within_hz = searched_band(asked_hz, signal, strikes_hz);
         check_noise(signal, within_hz)?;
+        check_repeated(&judged)?;
         let white = WhiteSpectrum::of(signal)?;
         let mut speed = ShaftSpeed::of(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis

@@ -2,8 +2,8 @@
 
 use super::{Kinematics, StageError, WindowAnalysis};
 use crate::diagnosis::{
-    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, EnvelopeOrderSpectrum, Fault,
-    LevelChange, LineChange, level_changes, line_changes,
+    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum,
+    Fault, LevelChange, LineChange, level_changes, line_changes,
 };
 use crate::exchange::MeasuredSignal;
 use crate::report::significant;
@@ -11,6 +11,8 @@ use crate::series::{TimeSeries, TimeWindow};
 
 /// Speeds that differ by more than this part excite resonances differently.
 const SAME_SPEED: f64 = 0.05;
+/// RMS that changed by more, a factor of a hundred, is in other units.
+const ANOTHER_SCALE_DB: f64 = 40.0;
 /// Highest order of the spectra that are shown.
 const SHOWN_ORDER: f64 = 40.0;
 
@@ -60,6 +62,40 @@ impl WindowChange {
         let lines = self.lines.iter();
         lines.filter(move |line| line.conclusion == conclusion)
     }
+
+    /// Compares what strikes in two judged signals.
+    fn compare_impacts(
+        &mut self,
+        now: &ComparedSignal<'_>,
+        then: &ComparedSignal<'_>,
+    ) -> Result<(), StageError> {
+        self.speed_hz = then.diagnosis().speed_hz;
+        self.lines = line_changes(now, then)?;
+        if let Some(band_hz) = shown_band(now.diagnosis(), &self.lines) {
+            let spectra = [now, then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
+            let [now, then] = spectra;
+            self.spectra = Some((band_hz, [now?, then?]));
+        }
+        let compared = |line: &LineChange| line.conclusion != ChangeConclusion::NotCompared;
+        if !self.lines.iter().any(compared)
+            && let Some(doubt) = then.diagnosis().speed_doubt()
+        {
+            self.warnings
+                .push(format!("In the earlier signal {doubt}."));
+        }
+        let named: Vec<&str> = then
+            .diagnosis()
+            .named()
+            .map(|verdict| verdict.fault.name())
+            .collect();
+        if !named.is_empty() {
+            self.warnings.push(format!(
+                "The earlier signal indicates a fault by itself: {}. It is no record of a sound bearing.",
+                named.join(", ")
+            ));
+        }
+        Ok(())
+    }
 }
 
 /// Compares an analysed window of a signal with an earlier signal, and says in the evidence of each verdict what came of it.
@@ -95,32 +131,37 @@ pub fn compare_window(
         warnings: Vec::new(),
     };
     if let Ok(diagnosis) = &window.diagnosis {
-        let now = ComparedSignal::judged(
-            &stretch,
-            span,
-            |time| kinematics.turns(time),
-            kinematics.orders(span)?,
-            diagnosis,
-        );
-        let then = ComparedSignal::earlier(
-            &before,
-            within_hz,
-            earlier.window,
-            |time| earlier.kinematics.turns(time),
-            earlier.kinematics.orders(earlier.window)?,
-        )?;
-        change.speed_hz = then.speed_hz;
-        change.lines = line_changes(&now, &then, diagnosis)?;
-        if let Some(band_hz) = shown_band(diagnosis, &change.lines) {
-            let spectra = [&now, &then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
-            let [now, then] = spectra;
-            change.spectra = Some((band_hz, [now?, then?]));
+        let orders = earlier.kinematics.orders(earlier.window)?;
+        let turns = |time| earlier.kinematics.turns(time);
+        match Diagnosis::of(&before, within_hz, earlier.window, turns, &orders) {
+            Ok(found) => {
+                let turns_now = |time| kinematics.turns(time);
+                let orders_now = kinematics.orders(span)?;
+                let now = ComparedSignal::new(&stretch, span, turns_now, orders_now, diagnosis);
+                let then = ComparedSignal::new(&before, earlier.window, turns, orders, &found);
+                change.compare_impacts(&now, &then)?;
+            }
+            // said below
+            Err(DiagnosisError::Constant { .. }) => {}
+            Err(error @ (DiagnosisError::NoNoise { .. } | DiagnosisError::Repeated { .. })) => {
+                change.warnings.push(format!(
+                    "No impacts can be compared with the earlier signal, {}: {error}.",
+                    change.channel
+                ))
+            }
+            Err(error) => return Err(error.into()),
         }
     }
     if part.kurtosis().is_none() {
         change.warnings.push(format!(
             "The earlier signal, {}, is constant: nothing can be compared with it.",
             change.channel
+        ));
+    }
+    let whole_db = change.levels.first().and_then(|level| level.change_db);
+    if let Some(db) = whole_db.filter(|db| db.abs() > ANOTHER_SCALE_DB) {
+        change.warnings.push(format!(
+            "The RMS changed by {db:+.0} dB, which no machine does that still runs: check the units and the gain of both signals."
         ));
     }
     let ratio = change.speed_hz / window.speed_hz;
@@ -142,7 +183,7 @@ pub fn compare_window(
 fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, StageError> {
     let samples = series.values().len();
     let inside = window.check_inside(series.start_s(), series.step_s(), samples);
-    inside.map_err(crate::diagnosis::DiagnosisError::from)?;
+    inside.map_err(DiagnosisError::from)?;
     let (span, margin_s) = (series.span(), window.to - window.from);
     let from = (window.from - margin_s).max(span.from);
     let to = (window.to + margin_s).min(span.to);

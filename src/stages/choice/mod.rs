@@ -89,9 +89,9 @@ impl ModelChoice {
     pub fn warnings(&self) -> Vec<String> {
         let unstable = self.stable_s.map(|stable_s| {
             format!(
-                "transient.step = {} s is longer than the {} s up to which {} keeps small motions at rest from growing: what they grow to, contacts may hold without a blow-up, and the signals cannot be trusted. Shorten it, or leave it to the program.",
-                significant(self.model.step, 3),
-                significant(stable_s, 3),
+                "transient.step makes steps of {} s, longer than the {} s up to which {} keeps small motions at rest from growing: what they grow to, contacts may hold without a blow-up, and the signals cannot be trusted. Shorten it, or leave it to the program.",
+                significant(self.model.step, 5),
+                significant(stable_s, 5),
                 self.model.method.name()
             )
         });
@@ -109,13 +109,24 @@ impl ModelChoice {
         if together <= target {
             return Vec::new();
         }
+        let given = |what: &str| {
+            let mut parts = self.parts.iter().filter(|part| part.what == what);
+            parts.any(|part| part.why.starts_with("given"))
+        };
         // what the program chooses keeps the linear estimate below the target
         let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {
             SUPERELEMENT | CONDENSATION => {
                 "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency"
             }
-            _ if grown && !part.why.starts_with("given") => &format!(
+            "method" if given("largest step") => "leave transient.step to the program",
+            "method" if given("method") && !self.model.method.chooses_its_steps() => {
+                "leave transient.method to the program: its own method takes steps by the target"
+            }
+            "method" if !self.model.residual && self.model.modes != ModeSelection::All => {
+                "transient.residual = true lets the modes that are left out act statically"
+            }
+            _ if grown && !given(part.what) => &format!(
                 "errors grow up to {} times as balls strike, and the model is chosen without that; accuracy.target = {} takes that in",
                 significant(self.growth, 2),
                 significant(target / self.growth, 2)
@@ -173,8 +184,12 @@ impl ModelChoice {
             Ok((model, method_part, step_part))
         };
         let (mut model, mut method_part, mut step_part) = planned(balls_inertia)?;
-        let beside = |model: &RunModel, whole: &RunModel| {
-            pilot::measured(asked, model, whole, scene, band_hz, growth > 1.0)
+        let beside = |model: &RunModel, whole: &RunModel| -> Result<Option<Measured>, String> {
+            let finer = pilot::finer(asked, whole, scene, target, heaviest.as_ref());
+            let Some(finer) = finer.map_err(|error| error.to_string())? else {
+                return Ok(None);
+            };
+            pilot::measured(asked, model, finer, scene, band_hz, growth > 1.0).map(Some)
         };
         let mut measured = match balls_inertia {
             BallsInertia::Dynamic => beside(&model, &model),
@@ -185,7 +200,7 @@ impl ModelChoice {
                 let error = found
                     .as_ref()
                     .ok()
-                    .and_then(|found| found.map(|found| found.error));
+                    .and_then(|found| Some(found.as_ref()?.error));
                 match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
                     false if balls::is_free(case) => {
                         (balls_inertia, balls_part) = balls::needed(error);

@@ -1,20 +1,20 @@
 //! The error of steps and modes, measured on a short stretch before the run.
 //!
 //! The stretch begins at rest at the highest speed, a ball just before the first defect. A second one, three times as long, begins
-//! where the loads begin to change fastest, or near the end of that change. Both are stepped as the run will be, and with four
-//! times the modes and a tenth of the tolerance in half the steps; with an error that falls as `tolerance^p` the two differ by
-//! `1 - 10^-p` of it. Equal steps of the exponential method are halved: its error falls with the square of the step where contacts are
-//! smooth, and with the step at least.
+//! where the loads begin to change fastest, or near the end of that change. Both are stepped as the run will be, and by a [`finer`] model:
+//! four times the modes with the static residual of the others, a tenth of the tolerance, half the steps that such a model would choose. With an
+//! error that falls as `tolerance^p` the two differ by `1 - 10^-p` of it. Equal steps of the exponential method are halved: its error falls with the
+//! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
-use super::super::{RunEnd, RunModel, Scene, Simulation, Span};
+use super::super::{RunEnd, RunModel, Scene, Simulation, Span, StageError};
 use super::heaviest::fastest_change;
-use super::stepping::ADAMS_ORDER;
+use super::stepping::{self, ADAMS_ORDER};
 use crate::bearing::Race;
 use crate::case;
 use crate::report::significant;
 use crate::series::TimeSeries;
 use crate::signal::{band_limit_from_rest, relative_difference};
-use crate::system::{Equilibrium, ModeSelection, StaticCondition};
+use crate::system::{Equilibrium, Formulation, ModeSelection, StaticCondition};
 use crate::transient::Method;
 
 /// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.
@@ -49,7 +49,7 @@ pub(super) const LONG: f64 = 10.0;
 
 /// What the error is taken for where no ball strikes, in units of what the stretch showed. The finer run errs as well: of some 90 preloaded bearings that nobody
 /// had looked at, one erred by 1.04 times its estimate and three by 0.83 to 0.97 times.
-const SAFETY: f64 = 1.5;
+pub(super) const SAFETY: f64 = 1.5;
 
 /// What a stretch showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,25 +60,25 @@ pub struct Measured {
     pub from_s: f64,
     /// Its length, s.
     pub length_s: f64,
+    /// Root mean square of the loudest sensor in it, m/s^2.
+    pub rms: f64,
+    /// What the run's model was compared with.
+    pub(super) finer: RunModel,
 }
 
-/// The error of `model` on a stretch, and on a second one where loads change. It is that of steps and modes, and of balls without inertia where `whole` has
-/// them with it. `None` for a method whose error is not measured.
-/// Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.
+/// The error of `model` on a stretch, and on a second one where loads change. It is that of steps and modes, and of balls without inertia where `finer` has
+/// them with it. Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.
 ///
 /// # Errors
 /// Why a stretch says nothing.
 pub(super) fn measured(
     asked: &case::Transient,
     model: &RunModel,
-    whole: &RunModel,
+    finer: RunModel,
     scene: &Scene,
     band_hz: f64,
     strikes: bool,
-) -> Result<Option<Measured>, String> {
-    let Some(finer) = finer(whole, scene) else {
-        return Ok(None);
-    };
+) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
     let length_s = if strikes {
         first_s
@@ -94,7 +94,7 @@ pub(super) fn measured(
         let begin = from.max(to - first_s).min(latest);
         (begin, (AFTER * first_s).min(asked.end - begin))
     });
-    let mut most = 0.0_f64;
+    let (mut most, mut rms) = (0.0_f64, 0.0_f64);
     for (begin, duration) in [Some((from_s, length_s)), change].into_iter().flatten() {
         let span = Span {
             duration,
@@ -104,6 +104,7 @@ pub(super) fn measured(
         for (run, finer) in run.iter().zip(&finer) {
             let error = relative_difference(run, finer).map_err(|error| error.to_string())?;
             most = most.max(error);
+            rms = rms.max(finer.rms());
             if !strikes {
                 most = most.max(worst_part(run, finer, first_s));
             }
@@ -111,14 +112,17 @@ pub(super) fn measured(
     }
     let left = match model.method {
         Method::Exponential => SHORTER,
-        _ => FINER.powf(ADAMS_ORDER),
+        Method::ExponentialAdams { tolerance: Some(_) } => FINER.powf(ADAMS_ORDER),
+        _ => 0.0,
     };
     let safety = if strikes { 1.0 } else { SAFETY };
-    Ok(Some(Measured {
+    Ok(Measured {
         error: safety * most / (1.0 - left),
         from_s,
         length_s,
-    }))
+        rms,
+        finer,
+    })
 }
 
 /// The largest difference of two series in a part of `first_s / PARTS` relative to the size of the whole second one, or since the start up to the
@@ -155,28 +159,52 @@ pub(super) fn stretch_s(asked: &case::Transient, band_hz: f64) -> f64 {
     least.min(asked.end - asked.start)
 }
 
-/// The model that another is measured by; `None` for a method whose error is not measured.
-pub(super) fn finer(model: &RunModel, scene: &Scene) -> Option<RunModel> {
-    let method = match model.method {
-        Method::ExponentialAdams {
-            tolerance: Some(tolerance),
-        } => Method::ExponentialAdams {
-            tolerance: Some(FINER * tolerance),
-        },
-        Method::Exponential => Method::Exponential,
-        _ => return None,
+/// The model that another is measured by; `None` for the printed equations, which take one method alone.
+///
+/// # Errors
+/// [`StageError::System`] for a model that does not fit the scene.
+pub(super) fn finer(
+    asked: &case::Transient,
+    model: &RunModel,
+    scene: &Scene,
+    target: f64,
+    heaviest: Option<&(f64, Equilibrium)>,
+) -> Result<Option<RunModel>, StageError> {
+    if scene.setup.formulation == Formulation::Printed {
+        return Ok(None);
+    }
+    let (method, as_the_model) = match (model.method, model.modes) {
+        (
+            Method::ExponentialAdams {
+                tolerance: Some(tolerance),
+            },
+            _,
+        ) => (stepping::adams(FINER * tolerance), true),
+        (Method::Exponential, _) => (Method::Exponential, true),
+        (_, ModeSelection::All) => (Method::Exponential, false),
+        _ => (stepping::adams(FINER * stepping::tolerance(target)), false),
     };
-    Some(RunModel {
-        method,
-        step: SHORTER * model.step,
+    let count = scene.stage.modes.count();
+    let mut finer = RunModel {
         modes: match model.modes {
-            ModeSelection::Count(count) => {
-                ModeSelection::Count((MORE * count).min(scene.stage.modes.count()))
-            }
+            ModeSelection::Count(modes) => ModeSelection::Count((MORE * modes).min(count)),
             all => all,
         },
+        residual: true,
+        method,
         ..*model
-    })
+    };
+    // what of the steps the tolerance does not govern follows the added modes
+    if !(as_the_model && method == Method::Exponential) {
+        let (step, _) = stepping::own_step(asked, &finer, scene, heaviest)?;
+        finer.step = if as_the_model {
+            step.min(model.step)
+        } else {
+            step
+        };
+    }
+    finer.step *= SHORTER;
+    Ok(Some(finer))
 }
 
 /// The sensors' signals in the band by two models, over a stretch that begins at rest.
@@ -304,7 +332,7 @@ mod tests {
     use crate::case::Case;
     use crate::stages::{ModelChoice, Unwatched};
 
-    fn with_tolerance(example: &str, tolerance: f64, set: &[&str]) -> (Option<f64>, f64) {
+    fn with_tolerance(example: &str, tolerance: f64, set: &[&str]) -> (f64, f64) {
         let case = Case::example(example, set);
         let asked = case.transient.as_ref().unwrap();
         let scene = Scene::build(&case, &Unwatched).unwrap();
@@ -316,19 +344,16 @@ mod tests {
             ..choice.model
         };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
-        (
-            measured(asked, &model, &model, &scene, 40e3, true)
-                .unwrap()
-                .map(|measured| measured.error),
-            begin,
-        )
+        let finer = finer(asked, &model, &scene, 1e-2, None).unwrap();
+        let measured = measured(asked, &model, finer.unwrap(), &scene, 40e3, true);
+        (measured.unwrap().error, begin)
     }
 
     #[test]
     fn a_rougher_tolerance_has_a_larger_error() {
         let [rough, fine] = [1e-1, 1e-5].map(|tolerance| {
             let measured = with_tolerance("scenes/impact", tolerance, &[]);
-            measured.0.unwrap()
+            measured.0
         });
         // found 7.1e-4 and 6.0e-4: most of both is the modes'
         assert!(rough > 1.1 * fine, "{rough} {fine}");

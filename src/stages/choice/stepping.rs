@@ -5,7 +5,7 @@ use super::{ChosenPart, IMPACT, dynamic, travel};
 use crate::case::{self, StepLength};
 use crate::report::significant;
 use crate::system::{CoupledSystem, Equilibrium, ModeSelection};
-use crate::transient::Method;
+use crate::transient::{Method, Schedule};
 
 /// Tolerance of exponential-adams for a target of one percent, and the error that it makes: on the dented bearing of
 /// `examples/tadina2011`, over 20 starts of up to 8 ms. What it bounds falls with the third power of the step, or the second where a
@@ -41,9 +41,24 @@ const NEWMARK_STEP: f64 = 1.5e-8;
 /// Tolerance of `dop853` unless one is given: far below one percent after some milliseconds of impacts.
 const DOP853_TOLERANCE: f64 = 1e-6;
 
+/// Relative difference of two steps that are the same but for round-off.
+const SAME_STEP: f64 = 1e-6;
+
 /// Default of generalized-alpha: takes what is not resolved out within some tens of steps, and of a motion of 0.1 rad a step
 /// 7e-8 of the amplitude.
 const SPECTRAL_RADIUS: f64 = 0.8;
+
+/// The tolerance of exponential-adams for a target.
+pub(super) fn tolerance(target: f64) -> f64 {
+    ADAMS_TOLERANCE * (SHARE * target / ADAMS_TARGET).powf(1.0 / ADAMS_ORDER)
+}
+
+/// exponential-adams with a tolerance.
+pub(super) fn adams(tolerance: f64) -> Method {
+    Method::ExponentialAdams {
+        tolerance: Some(tolerance),
+    }
+}
 
 /// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
 /// no limit there.
@@ -52,10 +67,9 @@ pub(super) fn method(
     model: &RunModel,
     target: f64,
 ) -> (Method, ChosenPart) {
-    let by_target = ADAMS_TOLERANCE * (SHARE * target / ADAMS_TARGET).powf(1.0 / ADAMS_ORDER);
     let by_steps = asked.step == StepLength::Auto;
     let adams = |given: Option<f64>| Method::ExponentialAdams {
-        tolerance: given.or_else(|| by_steps.then_some(by_target)),
+        tolerance: given.or_else(|| by_steps.then(|| tolerance(target))),
     };
     let method = match asked.method {
         case::Method::Auto if model.modes == ModeSelection::All => Method::Exponential,
@@ -102,61 +116,93 @@ pub(super) fn method(
     (method, part)
 }
 
-/// The largest step, or the time between samples.
+/// The largest step, or the time between samples: the given one, so much shorter that a whole number fills an output interval, or the program's own.
 ///
 /// # Errors
-/// [`StageError::System`] for a model that does not fit the scene.
+/// [`StageError::System`] for a model that does not fit the scene, [`StageError::Transient`] for a step that no run takes.
 pub(super) fn step(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
     heaviest: Option<&(f64, Equilibrium)>,
 ) -> Result<(f64, ChosenPart), StageError> {
-    let system = scene.system(model)?;
-    let interval = 1.0 / asked.output_hz;
-    let highest = system.highest_squared_frequency().sqrt();
-    let (step, why) = match (asked.step, model.method) {
-        (StepLength::Seconds(step), _) => (step, "given"),
-        (StepLength::Auto, Method::NewmarkExplicit) => (
-            // half the stability limit, and never above the source's own step
-            NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE)),
-            "half the stability limit in all modes, at most the source's 1.5e-8 s",
-        ),
-        (StepLength::Auto, Method::ExponentialAdams { .. }) => (
-            (interval / LEAST_SAMPLES).min(MODE_PHASE / highest.max(f64::MIN_POSITIVE)),
-            "four samples an output interval, and 2 rad of the highest mode; halved where the tolerance asks for it",
-        ),
-        (StepLength::Auto, Method::Dop853 { .. }) => (
-            // what a sensor shows above half its rate would fold into the band
-            interval / 16.0,
-            "sixteen samples an output interval",
-        ),
-        (StepLength::Auto, _) => (
-            resolved(model, scene, &system),
-            "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
-        ),
-    };
-    let (step, why) = match (asked.step, stable_step(model, scene, heaviest, system)) {
-        (StepLength::Auto, Some(stable)) if stable < step => (
-            stable,
-            "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
-        ),
-        _ => (step, why),
-    };
-    let (step, why) = match (asked.step, travel::longest_step(asked, scene)) {
-        (StepLength::Auto, Some(passing)) if passing < step => (
-            passing,
-            "eight while a ball passes the shortest defect or wave at the highest speed; halved where a tolerance asks for it",
-        ),
-        _ => (step, why),
+    let (step, why) = match asked.step {
+        StepLength::Auto => {
+            let (step, why) = own_step(asked, model, scene, heaviest)?;
+            (step, why.to_owned())
+        }
+        StepLength::Seconds(given) => {
+            let (duration, interval) = (asked.end - asked.start, 1.0 / asked.output_hz);
+            let step = Schedule::covering(duration, interval, given)?.step();
+            let why = match step < given * (1.0 - SAME_STEP) {
+                true => format!(
+                    "given: {} s, of which no whole number fills an output interval",
+                    significant(given, 3)
+                ),
+                false => "given".to_owned(),
+            };
+            (step, why)
+        }
     };
     let part = ChosenPart {
         what: "largest step",
         chosen: format!("{} s", significant(step, 3)),
-        why: why.to_owned(),
+        why,
         estimated_error: Some(0.0),
     };
     Ok((step, part))
+}
+
+/// The program's own largest step for a model, and why.
+///
+/// # Errors
+/// [`StageError::System`] for a model that does not fit the scene.
+pub(super) fn own_step(
+    asked: &case::Transient,
+    model: &RunModel,
+    scene: &Scene,
+    heaviest: Option<&(f64, Equilibrium)>,
+) -> Result<(f64, &'static str), StageError> {
+    let system = scene.system(model)?;
+    let interval = 1.0 / asked.output_hz;
+    let highest = system.highest_squared_frequency().sqrt();
+    let mut chosen = match model.method {
+        Method::NewmarkExplicit => (
+            // half the stability limit, and never above the source's own step
+            NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE)),
+            "half the stability limit in all modes, at most the source's 1.5e-8 s",
+        ),
+        Method::ExponentialAdams { .. } => (
+            (interval / LEAST_SAMPLES).min(MODE_PHASE / highest.max(f64::MIN_POSITIVE)),
+            "four samples an output interval, and 2 rad of the highest mode; halved where the tolerance asks for it",
+        ),
+        Method::Dop853 { .. } => (
+            // what a sensor shows above half its rate would fold into the band
+            interval / 16.0,
+            "sixteen samples an output interval",
+        ),
+        _ => (
+            resolved(model, scene, &system),
+            "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
+        ),
+    };
+    if let Some(stable) = stable_step(model, scene, heaviest, system)
+        && stable < chosen.0
+    {
+        chosen = (
+            stable,
+            "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
+        );
+    }
+    if let Some(passing) = travel::longest_step(asked, scene)
+        && passing < chosen.0
+    {
+        chosen = (
+            passing,
+            "eight while a ball passes the shortest defect or wave at the highest speed; halved where a tolerance asks for it",
+        );
+    }
+    Ok(chosen)
 }
 
 /// The longest stable step at rest (s), where the case gives a longer one.
@@ -168,15 +214,15 @@ pub(super) fn stable_below(
     model: &RunModel,
     scene: &Scene,
 ) -> Result<Option<f64>, StageError> {
-    let StepLength::Seconds(step) = asked.step else {
+    if asked.step == StepLength::Auto {
         return Ok(None);
-    };
+    }
     let mut system = scene.system(model)?;
     let rest = scene.at_rest(&system);
     let limit = model.method.step_limit(&mut system, &rest);
     Ok(limit
         .map(|limit| limit.step_s)
-        .filter(|stable| step > *stable))
+        .filter(|stable| model.step > *stable))
 }
 
 /// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of

@@ -1,0 +1,77 @@
+//! Impacts that repeat more seldom than a part strikes: every second or third of their harmonics is a harmonic of the part, and the others
+//! stand between.
+
+use super::explain::{Candidate, Search};
+use super::fault::Fault;
+use super::known::{KnownLine, coincidence};
+use super::line_spectrum::LineSpectrum;
+
+/// Most of their harmonics from one of the part to the next.
+const MOST_PARTS: u32 = 5;
+/// Harmonics of the part up to which lines are looked for between.
+const HARMONICS: u32 = 3;
+/// Fewest places between them that no other line takes.
+const LEAST_PLACES: usize = 2;
+/// The lines between are weaker than those of the part by so much at most, dB on the average: sidebands are weaker by more.
+const WEAKER_DB: f64 = 6.0;
+/// So many of them stand out.
+const MOST_SEEN: f64 = 2.0 / 3.0;
+
+impl Search<'_> {
+    /// Into how many parts lines as strong as those of a comb divide it, all free of known lines and of the comb's own sidebands.
+    ///
+    /// A flaw of a ball strikes both races, not always alike: lines halfway between its harmonics are its own. The sidebands of a cage lie
+    /// about halfway as well, since five times its order is about two: the fine spectra tell them apart where anything does.
+    pub(super) fn divided(&self, comb: &Candidate, known: &[KnownLine]) -> Option<u32> {
+        if comb.fault == Some(Fault::Cage) {
+            let fine = self.fine_search();
+            let refined = fine.part(&fine.masked(known), Fault::Cage, comb.fit.order)?;
+            return fine.divided_from(2, &refined, known);
+        }
+        let least = if comb.fault == Some(Fault::Ball) {
+            3
+        } else {
+            2
+        };
+        self.divided_from(least, comb, known)
+    }
+
+    fn divided_from(&self, least: u32, comb: &Candidate, known: &[KnownLine]) -> Option<u32> {
+        let lines = &self.spectra[comb.fit.spectrum].lines;
+        // lines of what is no part are those that are looked for
+        let known = known.iter().filter(|line| !line.foreign);
+        let known: Vec<KnownLine> = known.cloned().collect();
+        let taken = [self.own_lines(comb, self.end()), known.clone()].concat();
+        let mut parts = (least..=MOST_PARTS).rev();
+        parts.find(|&parts| divides(lines, comb.fit.order, parts, &taken, &known))
+    }
+}
+
+/// Whether lines at all multiples of a part of an order stand about as high as those of the order itself.
+fn divides(
+    lines: &LineSpectrum,
+    order: f64,
+    parts: u32,
+    taken: &[KnownLine],
+    known: &[KnownLine],
+) -> bool {
+    let place = |k: u32| f64::from(k) * order / f64::from(parts);
+    let free = |own: bool, known: &[KnownLine]| -> Vec<f64> {
+        let places = (1..=HARMONICS * parts).filter(|k| k.is_multiple_of(parts) == own);
+        let places = places.map(place).filter(|&order| {
+            lines.bin(order).is_some() && coincidence(lines, order, known).is_none()
+        });
+        places.collect()
+    };
+    let (between, own) = (free(false, taken), free(true, known));
+    let mean_db = |places: &[f64]| {
+        let db = places
+            .iter()
+            .map(|&order| 10.0 * lines.ratio(order).max(1.0).log10());
+        db.sum::<f64>() / places.len().max(1) as f64
+    };
+    let seen = between.iter().filter(|&&order| lines.seen(order)).count();
+    between.len() >= LEAST_PLACES
+        && seen as f64 >= MOST_SEEN * between.len() as f64
+        && mean_db(&between) >= mean_db(&own) - WEAKER_DB
+}
