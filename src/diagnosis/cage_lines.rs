@@ -8,7 +8,7 @@
 use super::comb::{Masked, best_fit};
 use super::explain::{Candidate, Search};
 use super::fault::Fault;
-use super::known::{KnownLine, shaft_lines};
+use super::known::{KnownLine, Strikes, shaft_lines};
 use super::unexplained::has_teeth_between;
 use super::verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB,
@@ -27,8 +27,12 @@ const MOST_MULTIPLE: u32 = 4;
 impl Search<'_> {
     /// Indicates a ball by the lines of the cage, where no other part shows as clearly: a flaw on a race is struck harder by a ball that
     /// differs, once a revolution of the cage as well.
-    pub(super) fn judge_balls_by_cage_lines(&self, faults: &mut [FaultVerdict]) {
-        let Some(lines) = self.cage_lines() else {
+    pub(super) fn judge_balls_by_cage_lines(
+        &self,
+        faults: &mut [FaultVerdict],
+        unexplained: &[UnexplainedImpacts],
+    ) {
+        let Some(lines) = self.cage_lines(unexplained) else {
             return;
         };
         let clearest = LEAST_STRENGTH_DB.min(lines.strength_db + RACE_OVER_CAGE_DB);
@@ -66,14 +70,23 @@ impl Search<'_> {
         }
     }
 
-    /// The lines of the cage in the fine spectra, if they are clear.
-    fn cage_lines(&self) -> Option<CageLines> {
+    /// The lines of the cage in the fine spectra, if they are clear beside those of impacts of no part.
+    fn cage_lines(&self, unexplained: &[UnexplainedImpacts]) -> Option<CageLines> {
         let order = self.orders.order(Fault::Cage)?;
         if !self.can_judge(order) {
             return None;
         }
         let fine = self.fine_search();
-        let known = shaft_lines(fine.end(), self.speed_error);
+        let mut known = shaft_lines(fine.end(), self.speed_error);
+        let resolution = fine.spectra.first()?.lines.resolution;
+        for impacts in unexplained {
+            let strikes = Strikes {
+                fault: None,
+                name: "impacts of no part",
+                order: impacts.order,
+            };
+            known.extend(strikes.lines(self.orders, self.speed_error, fine.end(), resolution));
+        }
         let masked = fine.masked(&known);
         let best = fine.part(&masked, Fault::Cage, order)?;
         fine.clear_cage_lines(&masked, &known, &best)

@@ -96,6 +96,12 @@ pub fn line_changes(
         .collect()
 }
 
+/// Whether a verdict says that chance would not do it.
+fn is_seen(verdict: &FaultVerdict) -> bool {
+    let chance = verdict.false_alarm;
+    chance.is_some_and(|chance| chance < UNSEEN_ABOVE)
+}
+
 /// What is compared.
 struct Compared {
     fault: Option<Fault>,
@@ -126,10 +132,22 @@ impl Compared {
         };
         let fault = if by_cage { Fault::Cage } else { verdict.fault };
         let spacing = cage.unwrap_or(0.0);
-        let expected = |signal: &ComparedSignal<'_>| {
-            signal.orders.order(fault).unwrap_or(verdict.expected_order)
+        // where a signal shows the part, its comb is the verdict's; lines of others may lie within the error of the order
+        let place = |signal: &ComparedSignal<'_>| {
+            let mut faults = signal.diagnosis.faults.iter();
+            let own = faults.find(|own| own.fault == verdict.fault);
+            let found = own.and_then(|own| match (&own.cage_lines, by_cage) {
+                (Some(lines), true) => Some(lines.order),
+                (None, false) => own.order.filter(|_| is_seen(own)),
+                _ => None,
+            });
+            let expected = signal.orders.order(fault).unwrap_or(verdict.expected_order);
+            match found {
+                Some(order) => [order, 0.0],
+                None => [expected, signal.error(fault) * expected],
+            }
         };
-        let order = [expected(now), expected(earlier)];
+        let [place_now, place_earlier] = [place(now), place(earlier)];
         let name = verdict.fault.name();
         Self {
             fault: Some(verdict.fault),
@@ -139,12 +157,10 @@ impl Compared {
             },
             band_hz,
             teeth: free_teeth(harmonics, spacing),
-            order,
-            reach: [now.error(fault) * order[0], earlier.error(fault) * order[1]],
+            order: [place_now[0], place_earlier[0]],
+            reach: [place_now[1], place_earlier[1]],
             cage: cage.filter(|_| fault != Fault::Cage),
-            seen: verdict
-                .false_alarm
-                .is_some_and(|chance| chance < UNSEEN_ABOVE),
+            seen: is_seen(verdict),
             why_not: verdict.why.clone(),
         }
     }

@@ -125,7 +125,7 @@ impl Search<'_> {
             found.faults.push(verdict);
         }
         self.doubt_sidebands_of_hidden_parts(&mut found.faults);
-        self.judge_balls_by_cage_lines(&mut found.faults);
+        self.judge_balls_by_cage_lines(&mut found.faults, &found.unexplained);
         let named = |verdict: &FaultVerdict| verdict.conclusion == Conclusion::Named;
         if found.unexplained.is_empty() && !found.faults.iter().any(named) {
             found.unexplained.extend(self.other_cage_lines());

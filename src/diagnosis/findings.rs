@@ -144,14 +144,10 @@ impl Search<'_> {
             verdict.why = format!("{} {reason}", verdict.why);
         }
         if verdict.conclusion == Conclusion::Named
-            && let Some(parts) = self.divided(candidate, known)
+            && let Some(doubt) = self.doubt(expected, candidate, known)
         {
             verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!(
-                "{} But lines as strong stand between its harmonics, at all multiples of {:.2} Hz, 1/{parts} of its frequency: something strikes that seldom, and it is no part of this bearing.",
-                verdict.why,
-                fit.order * self.speed_hz / f64::from(parts)
-            );
+            verdict.why = format!("{} But {doubt}", verdict.why);
         }
         verdict
     }

@@ -1,10 +1,12 @@
-//! Impacts that repeat more seldom than a part strikes: every second or third of their harmonics is a harmonic of the part, and the others
-//! stand between.
+//! Impacts that are no part's and have some of its lines: those that repeat more seldom, of which every second or third harmonic is one of the part,
+//! and the others stand between; those that repeat twice or three times as often; those at an order beside that of the part.
 
+use super::comb::best_fit;
 use super::explain::{Candidate, Search};
 use super::fault::Fault;
 use super::known::{KnownLine, coincidence};
 use super::line_spectrum::LineSpectrum;
+use super::unexplained::has_teeth_between;
 
 /// Most of their harmonics from one of the part to the next.
 const MOST_PARTS: u32 = 5;
@@ -17,7 +19,53 @@ const WEAKER_DB: f64 = 6.0;
 /// So many of them stand out.
 const MOST_SEEN: f64 = 2.0 / 3.0;
 
+/// How far beyond the error of an order a better comb is looked for, in units of the resolution.
+const BESIDE: f64 = 3.0;
+/// Multiples of a part's order of which something else may be the first harmonic.
+const MOST_MULTIPLE: u32 = 3;
+
 impl Search<'_> {
+    /// Why the lines of a comb that looks like a part's are something else's; `expected` is the part's order.
+    pub(super) fn doubt(
+        &self,
+        expected: f64,
+        comb: &Candidate,
+        known: &[KnownLine],
+    ) -> Option<String> {
+        let hz = |order: f64| order * self.speed_hz;
+        let fit = comb.fit;
+        if let Some(parts) = self.divided(comb, known) {
+            return Some(format!(
+                "lines as strong stand between its harmonics, at all multiples of {:.2} Hz, 1/{parts} of its frequency: something strikes that seldom, and it is no part of this bearing.",
+                hz(fit.order / f64::from(parts))
+            ));
+        }
+        let masked = self.masked(known);
+        let multiple = |times: &u32| !has_teeth_between(&masked, &fit, *times);
+        // lines beside the harmonics count in a sided comb, and these need not stand out
+        if let Some(times) = (2..=MOST_MULTIPLE).filter(|_| !fit.sided).find(multiple) {
+            return Some(format!(
+                "only harmonics of {:.2} Hz stand out, {times} times its frequency: something strikes that often, and it is no part of this bearing.",
+                hz(fit.order * f64::from(times))
+            ));
+        }
+        let band = &masked[fit.spectrum..=fit.spectrum];
+        let lines = &band[0].spectrum.lines;
+        let resolution = lines.resolution;
+        // how well a comb's place is known
+        let place = 0.5 * resolution / f64::from(lines.harmonics);
+        let reach = comb.relative_reach * expected;
+        let wider = best_fit(band, expected, reach + BESIDE * resolution, comb.beside)?;
+        let outside = (wider.order - expected).abs() > reach + place;
+        (outside && wider.score > fit.score).then(|| {
+            format!(
+                "they fit better at {:.2} Hz, {:+.1} % from what is expected, which is beyond the error of orders and speed.",
+                hz(wider.order),
+                100.0 * (wider.order / expected - 1.0)
+            )
+        })
+    }
+
     /// Into how many parts lines as strong as those of a comb divide it, all free of known lines and of the comb's own sidebands.
     ///
     /// A flaw of a ball strikes both races, not always alike: lines halfway between its harmonics are its own. The sidebands of a cage lie

@@ -197,11 +197,18 @@ fn sharpened(
     // every multiple together is sharpest, where those show too that no part's lines can be taken for
     let free = free_multiples(orders);
     let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
-    let shown = fit(&every).filter(|&(factor, error)| seen(factor, &free, error));
+    let moves = |factor: f64| (factor - 1.0).abs() > UNSEEN_ERROR;
+    // a strong line of the shaft at the given speed reaches a little farther than it should
+    let better = |factor: f64, error: f64| {
+        AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0
+    };
+    let shown = fit(&every).filter(|&(factor, error)| {
+        seen(factor, &free, error) && (!moves(factor) || better(factor, error))
+    });
     let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
         return Ok(None);
     };
-    let moved = (factor - 1.0).abs() > UNSEEN_ERROR;
+    let moved = moves(factor);
     let inner = InnerRaceLines::of(orders, UNSEEN_ERROR, LARGEST_ERROR);
     if moved && inner.explain_more(best(factor, &every, error).0, &every, step, &level) {
         return Ok(None);

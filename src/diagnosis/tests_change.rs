@@ -87,6 +87,24 @@ fn damage_of_another_part_before_hides_no_new_one() {
     assert_ne!(outer.conclusion, ChangeConclusion::Grew, "{outer:#?}");
 }
 
+/// The comb of the weaker part stays at its own order, beside lines of the stronger one that lie within the order's error.
+#[test]
+fn two_faults_that_stay_are_as_before() {
+    let load = |angle: f64| 0.7 * (0.5 + 0.5 * (std::f64::consts::TAU * angle).cos());
+    let both = |seed| {
+        let outer = struck(8.0, steady, 0.996 * bearing().outer, |_| 1.5);
+        let inner = struck(8.0, steady, 0.999 * bearing().inner, load);
+        let sum: Vec<f64> = outer.iter().zip(&inner).map(|(a, b)| a + b).collect();
+        with_noise(&sum, 0.3, seed)
+    };
+    for run in 0..6 {
+        for change in changes(&both(300 + 2 * run), &both(301 + 2 * run)) {
+            let wrong = [ChangeConclusion::Grew, ChangeConclusion::Fell];
+            assert!(!wrong.contains(&change.conclusion), "{run}: {change:#?}");
+        }
+    }
+}
+
 #[test]
 fn what_was_not_there_has_a_lower_bound() {
     let found = changes(&impacts(4.0, 1.0, 0.1, 5), &impacts(4.0, 0.0, 0.1, 6));

@@ -138,6 +138,20 @@ fn lines_of_a_race_are_not_taken_for_the_shafts() {
     );
 }
 
+/// 6203: the shaft's own first lines beside those of the outer race hold the given speed, however strong.
+#[test]
+fn strong_lines_of_the_shaft_do_not_move_it_to_a_race() {
+    let orders = BallRow::new(8, 6.747e-3, 28.5e-3, 0.0).unwrap().orders();
+    assert!((orders.outer - 3.053).abs() < 1e-3, "{}", orders.outer);
+    for (run, strength) in [(0, 0.3), (1, 0.3), (2, 2.0), (3, 2.0)] {
+        let mut values = struck(4.4, steady, orders.outer, |_| 1.0);
+        shaft_lines(&mut values, 25.0, strength);
+        let found = judged(&with_noise(&values, 0.12, 200 + run), steady, &orders, 0.01);
+        assert!((found.speed_hz - 25.0).abs() < 0.1, "{}", found.speed_hz);
+        assert_eq!(named(&found), [Fault::OuterRace], "{}", found.sentence());
+    }
+}
+
 /// 6202: harmonics of the inner race, 4.95 a turn, and its sidebands are nearly multiples of a shaft that turns 1 % slower.
 #[test]
 fn sidebands_of_an_inner_race_are_not_taken_for_the_shafts() {

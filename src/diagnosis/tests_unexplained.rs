@@ -79,7 +79,16 @@ fn the_cage_of_another_bearing_is_said() {
 #[test]
 fn impacts_at_a_fraction_or_multiple_of_a_parts_order_name_no_part() {
     let orders = bearing();
-    let of = [(orders.outer, 3.0), (orders.inner, 3.0), (orders.cage, 3.0)];
+    let of = [
+        (orders.outer, 3.0),
+        (orders.inner, 3.0),
+        (orders.cage, 3.0),
+        (orders.inner, 0.5),
+        (orders.cage, 0.5),
+        (orders.cage, 1.0 / 3.0),
+        // 1.4 % beside the order of the ball
+        (orders.outer, 0.75),
+    ];
     for (order, parts) in of {
         let signal = with_noise(&struck(8.0, steady, order / parts, |_| 2.0), 0.1, 81);
         let found = judged(&signal, steady, &orders, 0.01);

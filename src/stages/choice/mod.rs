@@ -103,7 +103,14 @@ impl ModelChoice {
         let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
         let largest = parts.max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let (Some(together), Some((part, error))) = (self.estimated_error, largest) else {
+        let Some(together) = self.estimated_error else {
+            let unknown = self
+                .parts
+                .iter()
+                .find(|part| part.estimated_error.is_none());
+            return unknown.into_iter().map(|part| self.unknown(part)).collect();
+        };
+        let Some((part, error)) = largest else {
             return Vec::new();
         };
         if together <= target {
@@ -145,6 +152,14 @@ impl ModelChoice {
             part.chosen,
             significant(error, 2),
         )]
+    }
+
+    /// That the error of a part is not known.
+    fn unknown(&self, part: &ChosenPart) -> String {
+        format!(
+            "the error of the signals is not estimated: that of the {} ({}; {}) is not known",
+            part.what, part.chosen, part.why
+        )
     }
 
     /// The model of a case: what it asks for, and the program's choice where it leaves one.
@@ -225,7 +240,11 @@ impl ModelChoice {
             };
         }
         match &measured {
-            Ok(Some(found)) => method_part.estimated_error = Some(found.error),
+            Ok(Some(found)) => {
+                method_part.estimated_error = Some(found.error);
+                // beside balls with inertia: the stretch has their part
+                balls_part.estimated_error.get_or_insert(0.0);
+            }
             Ok(None) => {}
             Err(why) => {
                 method_part.estimated_error = None;
