@@ -18,7 +18,7 @@ const LENGTHS: [f64; 2] = [3.0, LONG];
 pub struct Horizon {
     /// Where it was looked at, s: from the start of a run that is as short as the looks, else where the pilot begins.
     pub from_s: f64,
-    /// Until then the difference from the finer run since there was at most the estimate over [`SAFETY`], since that errs as well; 0 where it never was.
+    /// Until then the difference from the finer run since there was at most two thirds of the estimate, since that errs as well; 0 where it never was.
     pub held_s: f64,
     /// Until then it was looked at.
     pub looked_s: f64,
