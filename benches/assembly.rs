@@ -10,16 +10,16 @@ use std::time::Instant;
 
 use criterion::Criterion;
 use peak_alloc::PeakAlloc;
-use plummer::assembly::SystemMatrices;
-use plummer::linalg::SparseMatrix;
-use plummer::material::Material;
-use plummer::mesh::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::material::Material;
+use plummer::fe::mesh::{
     ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
 };
-use plummer::modal::housing_modes;
-use plummer::model::{
+use plummer::fe::modal::housing_modes;
+use plummer::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare,
 };
+use plummer::numerics::linalg::SparseMatrix;
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;

@@ -2,11 +2,11 @@
 //! of a run over the dent, so that what a ball in the dent costs counts as often as it is there.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use plummer::case::Case;
-use plummer::dynamics::{Instant, Observer, SecondOrderSystem};
-use plummer::stages::{StructureStage, Unwatched, bearing_setup};
+use plummer::app::case::Case;
+use plummer::app::stages::{StructureStage, Unwatched, bearing_setup};
+use plummer::numerics::ode::{Instant, Observer, SecondOrderSystem};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
-use plummer::transient::{Method, Schedule, Stepping, integrate};
 use std::hint::black_box;
 
 const CASE: &str = concat!(

@@ -8,8 +8,8 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use criterion::{Criterion, Throughput};
-use plummer::mesh::Mesh;
-use plummer::units::LengthUnit;
+use plummer::fe::mesh::Mesh;
+use plummer::numerics::units::LengthUnit;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -1,7 +1,7 @@
 //! A scalogram of 0.3 s at 100 kHz, 200 frequencies from 0.5 to 40 kHz, on one thread: at every sample, and decimated.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use plummer::series::TimeSeries;
+use plummer::numerics::series::TimeSeries;
 use plummer::signal::{FrequencyAxis, WaveletTransform};
 use std::hint::black_box;
 

@@ -10,10 +10,10 @@
 //! cargo run --release --example compare_integrators
 //! ```
 
-use plummer::case::Case;
-use plummer::series::TimeSeries;
+use plummer::app::case::Case;
+use plummer::app::stages::{RunResult, Unwatched, compute_run};
+use plummer::numerics::series::TimeSeries;
 use plummer::signal::{band_limit, relative_difference};
-use plummer::stages::{RunResult, Unwatched, compute_run};
 use std::error::Error;
 use std::io::Write;
 

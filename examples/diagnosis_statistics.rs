@@ -12,15 +12,15 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use plummer::bearing::{SpeedKnot, SpeedProfile};
-use plummer::case::Case;
-use plummer::closed_form::race::BallRow;
-use plummer::diagnosis::FaultOrders;
-use plummer::series::{TimeSeries, TimeWindow};
-use plummer::stages::{
+use plummer::app::case::Case;
+use plummer::app::stages::{
     AnalysisSettings, AskedBand, Kinematics, ModelChoice, Scene, Simulation, Span, StructureStage,
     Unwatched, analyse,
 };
+use plummer::bearing::kinematics::BallRow;
+use plummer::bearing::{SpeedKnot, SpeedProfile};
+use plummer::numerics::series::{TimeSeries, TimeWindow};
+use plummer::signal::diagnosis::FaultOrders;
 use rayon::prelude::*;
 
 type Failure = Box<dyn Error + Send + Sync>;

@@ -27,8 +27,8 @@
 //!     [`sweep`]: many runs of one case.
 //!
 //! ```no_run
-//! use plummer::case::Case;
-//! use plummer::stages::{Unwatched, compute_run};
+//! use plummer::app::case::Case;
+//! use plummer::app::stages::{Unwatched, compute_run};
 //! let case = Case::load("examples/tadina2011/outer-dent.toml", &[])?;
 //! let run = compute_run(&case, &Unwatched)?;
 //! assert_eq!(run.simulation.record.sensors[0].0, "P1");
@@ -40,32 +40,12 @@
 //! Linear elasticity, no shells and no pyramids; MSH 4.1 and 2.2; ring sections stay rigid in the bore; shaft, balls and defects in the
 //! bearing's plane; slip prescribed; no lubricant film. All of them: `docs/limits.md`.
 
-pub mod assembly;
+pub mod app;
 pub mod bearing;
-pub mod case;
-pub mod catalogue;
-pub mod chart;
-pub mod cli;
-pub mod closed_form;
-pub mod diagnosis;
-pub mod dynamics;
-pub mod element;
-pub mod exchange;
+pub mod fe;
 pub mod files;
-mod lanes;
-pub mod linalg;
-pub mod material;
-pub mod mesh;
-pub mod modal;
-pub mod model;
-pub mod reduction;
+pub mod formats;
+pub mod numerics;
 pub mod report;
-pub mod series;
-pub mod shell_word;
 pub mod signal;
-pub mod stages;
-pub mod sweep;
 pub mod system;
-pub mod transient;
-pub mod units;
-pub mod verification;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    plummer::cli::main()
+    plummer::app::cli::main()
 }

@@ -7,10 +7,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::process::Output;
 
-use plummer::case::Case;
-use plummer::diagnosis::Fault;
-use plummer::exchange::NpzWriter;
-use plummer::stages::{Unwatched, WindowAnalysis, compute_run};
+use plummer::app::case::Case;
+use plummer::app::stages::{Unwatched, WindowAnalysis, compute_run};
+use plummer::formats::NpzWriter;
+use plummer::signal::diagnosis::Fault;
 use program::{errors, plummer, scratch};
 use serde_json::Value;
 

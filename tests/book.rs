@@ -243,7 +243,7 @@ fn the_page_of_the_case_file_names_every_key() {
         .collect();
     let mut missing = BTreeSet::new();
     let mut count = 0;
-    for entry in fs::read_dir(root().join("src/case")).unwrap() {
+    for entry in fs::read_dir(root().join("src/app/case")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "rs") {
             let source = fs::read_to_string(&path).unwrap();

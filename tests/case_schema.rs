@@ -10,13 +10,13 @@ mod validator;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plummer::case::{Case, CaseError, Source};
+use plummer::app::case::{Case, CaseError, Source};
 use serde_json::{Value, json};
 
 use program::{errors, plummer};
 use validator::Validator;
 
-const FULL: &str = include_str!("../src/case/full.toml");
+const FULL: &str = include_str!("../src/app/case/full.toml");
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -14,12 +14,14 @@
 //!
 //! Where balls strike, references take most of the time: `PLUMMER_KIND=smooth` leaves these scenes out.
 
-use plummer::case::Case;
-use plummer::chart::Trace;
+use plummer::app::case::Case;
+use plummer::app::stages::{
+    Horizon, ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched,
+};
+use plummer::app::studies::chart::Trace;
+use plummer::numerics::ode::Method;
 use plummer::signal::{band_limit_edge_s, band_limit_from_rest};
-use plummer::stages::{Horizon, ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched};
 use plummer::system::{BallsInertia, ModeSelection};
-use plummer::transient::Method;
 use rayon::prelude::*;
 
 /// Scenes of the table.

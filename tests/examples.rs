@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use plummer::stages::{Unwatched, compute_modes};
+use plummer::app::stages::{Unwatched, compute_modes};
 use plummer::system::LoadedMode;
 
-use plummer::case::{
+use plummer::app::case::{
     BallInertia, Case, Damping, Defect, Formulation, Hold, Linearise, Method, PerNodeOrGroup,
     Purpose, RadiusRule, Variant,
 };

@@ -9,11 +9,11 @@ use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::io::load_coo_from_matrix_market_file;
-use plummer::exchange::{
+use plummer::app::stages::MeshDigest;
+use plummer::formats::{
     Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz,
     write_superelement_npz,
 };
-use plummer::stages::MeshDigest;
 use serde_json::Value;
 use vtkio::Vtk;
 use vtkio::model::{Attribute, DataSet, Piece};
@@ -532,7 +532,8 @@ fn an_interface_is_reduced() {
     let back = reduced.interface_recovery.as_ref().unwrap();
     assert_eq!(back.labels, whole.interface);
     // k_cc = R^T k_bb R, but for the rigid motions' round-off
-    let bb = |a: &plummer::linalg::DenseMatrix, n: usize| a.submatrix(0, 0, n, n).to_owned();
+    let bb =
+        |a: &plummer::numerics::linalg::DenseMatrix, n: usize| a.submatrix(0, 0, n, n).to_owned();
     for (own, of_whole) in [
         (&reduced.stiffness, &whole.stiffness),
         (&reduced.mass, &whole.mass),

@@ -8,7 +8,7 @@ mod tube;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plummer::case::{Case, Purpose, Source};
+use plummer::app::case::{Case, Purpose, Source};
 use serde_json::Value;
 
 use program::{errors, plummer, scratch};

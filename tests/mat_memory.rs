@@ -17,8 +17,8 @@ use flate2::Compression;
 use flate2::read::ZlibEncoder;
 use memory::{Random, peak};
 use peak_alloc::PeakAlloc;
-use plummer::exchange::measured::signals_from_mat;
-use plummer::exchange::{MeasuredError, SignalRequest};
+use plummer::formats::measured::signals_from_mat;
+use plummer::formats::{MeasuredError, SignalRequest};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

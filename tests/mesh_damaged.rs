@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use plummer::mesh::{Mesh, MeshError};
-use plummer::units::LengthUnit;
+use plummer::fe::mesh::{Mesh, MeshError};
+use plummer::numerics::units::LengthUnit;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use plummer::element::continuum::{ContinuumKind, measure};
-use plummer::mesh::{ElementKind, Mesh, MeshError};
-use plummer::units::LengthUnit;
+use plummer::fe::element::continuum::{ContinuumKind, measure};
+use plummer::fe::mesh::{ElementKind, Mesh, MeshError};
+use plummer::numerics::units::LengthUnit;
 
 type Outcome = Result<(), MeshError>;
 

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use peak_alloc::PeakAlloc;
-use plummer::mesh::Mesh;
-use plummer::units::LengthUnit;
+use plummer::fe::mesh::Mesh;
+use plummer::numerics::units::LengthUnit;
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

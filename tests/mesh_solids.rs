@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use plummer::mesh::{BoundaryFace, ElementId, ElementKind, Mesh, MeshError};
-use plummer::units::LengthUnit;
+use plummer::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh, MeshError};
+use plummer::numerics::units::LengthUnit;
 
 type Outcome = Result<(), MeshError>;
 

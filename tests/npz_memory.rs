@@ -16,7 +16,7 @@ use std::path::Path;
 
 use memory::{Random, peak};
 use peak_alloc::PeakAlloc;
-use plummer::exchange::{NpzReader, read_modes_npz, read_superelement_npz};
+use plummer::formats::{NpzReader, read_modes_npz, read_superelement_npz};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 

@@ -14,9 +14,9 @@ use std::path::Path;
 
 use memory::{Random, peak};
 use peak_alloc::PeakAlloc;
-use plummer::exchange::uff::responses_from_bytes;
-use plummer::exchange::{Op4Format, op4_from_bytes, write_op4};
-use plummer::linalg::DenseMatrix;
+use plummer::formats::uff::responses_from_bytes;
+use plummer::formats::{Op4Format, op4_from_bytes, write_op4};
+use plummer::numerics::linalg::DenseMatrix;
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

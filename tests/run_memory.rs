@@ -7,8 +7,8 @@
 //! Parameters: four times the time; the rows of the longer run take 5 MB, and one more may be held.
 
 use peak_alloc::PeakAlloc;
-use plummer::case::Case;
-use plummer::stages::{
+use plummer::app::case::Case;
+use plummer::app::stages::{
     ModelChoice, RunIdentity, Scene, Simulation, Span, UnfinishedRun, Unwatched,
 };
 

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use plummer::verification::BEAM_CASE;
+use plummer::app::verification::BEAM_CASE;
 use program::{errors, plummer, scratch};
 use serde_json::Value;
 

@@ -2,14 +2,14 @@
 
 use super::load::end_load;
 
-use plummer::assembly::SystemMatrices;
-use plummer::element::continuum::{ContinuumKind, Formulation};
-use plummer::linalg::{SparseCholesky, submatrix};
-use plummer::material::Material;
-use plummer::mesh::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::continuum::{ContinuumKind, Formulation};
+use plummer::fe::material::Material;
+use plummer::fe::mesh::{
     ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
 };
-use plummer::model::{HousingDescription, HousingModel, HousingPart};
+use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
+use plummer::numerics::linalg::{SparseCholesky, submatrix};
 use std::error::Error;
 
 /// Side of the square section, m.

@@ -1,8 +1,8 @@
 //! The shear load over the end face, consistent.
 
 use super::beam::HEIGHT;
-use plummer::element::continuum::{ContinuumKind, QuadratureRule, measure, shape_values};
-use plummer::mesh::Mesh;
+use plummer::fe::element::continuum::{ContinuumKind, QuadratureRule, measure, shape_values};
+use plummer::fe::mesh::Mesh;
 use std::error::Error;
 
 /// Force along z of every node: `int N tau dA`, `tau = 1 - (2 z / h)^2`.

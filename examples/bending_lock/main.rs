@@ -27,7 +27,7 @@ mod load;
 
 use beam::{Beam, HEIGHT, YOUNG};
 use chart::{Panel, svg};
-use plummer::element::continuum::{ContinuumKind, Formulation, LinearFormulation};
+use plummer::fe::element::continuum::{ContinuumKind, Formulation, LinearFormulation};
 use std::error::Error;
 use std::io::Write;
 

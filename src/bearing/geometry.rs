@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use thiserror::Error;
 
-use crate::closed_form::hertz::PrincipalCurvatures;
-use crate::closed_form::race::{BallRow, DefectOrders, RaceError};
+use crate::bearing::hertz::PrincipalCurvatures;
+use crate::bearing::kinematics::{BallRow, DefectOrders, RaceError};
 
 /// Largest radial play, either sign, as a fraction of the ball radius. Catalogue clearances stay below
 /// a few percent; more than this means that a radius is wrong or in another unit.

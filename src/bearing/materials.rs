@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::geometry::BearingGeometry;
-use crate::closed_form::hertz::{self, HertzError, HertzStiffness};
+use crate::bearing::hertz::{self, HertzError, HertzStiffness};
 
 /// Elastic constants of a surface in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

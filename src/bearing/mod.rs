@@ -13,9 +13,14 @@
 //! film. Balls of different size have the contact stiffness and mass of the nominal one.
 
 pub mod cage;
+pub mod catalogue;
 pub mod contact;
 pub mod defect;
+pub mod elliptic;
 pub mod geometry;
+pub mod hertz;
+pub mod impact;
+pub mod kinematics;
 pub mod materials;
 pub mod rotation;
 pub mod slip;

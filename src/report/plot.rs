@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::decimate::Thinner;
 use super::family::Family;
 use super::raster::Raster;
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
 
 /// How values are spread over an axis.

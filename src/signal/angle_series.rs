@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::fourier::MOST_POINTS;
 use super::{ShaftAngle, SignalError, WindowFunction, amplitude_spectrum};
-use crate::series::{KaiserInterpolation, TimeSeries};
+use crate::numerics::series::{KaiserInterpolation, TimeSeries};
 
 /// A signal at equal steps of shaft angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +15,7 @@ pub struct AngleSeries {
 }
 
 /// Amplitudes over shaft orders, calibrated, of a series that was taken over the angle without aliases. A verdict on a bearing has the
-/// quicker [`EnvelopeOrderSpectrum`](crate::diagnosis::EnvelopeOrderSpectrum), which wants no signal beyond its window.
+/// quicker [`EnvelopeOrderSpectrum`](crate::signal::diagnosis::EnvelopeOrderSpectrum), which wants no signal beyond its window.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OrderSpectrum {
     /// Orders from 0, equally spaced: multiples of the shaft's speed.

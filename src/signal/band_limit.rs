@@ -2,7 +2,7 @@
 
 use super::SignalError;
 use super::fourier::{fast_length, forward, inverse};
-use crate::series::{KaiserLowPass, TimeSeries};
+use crate::numerics::series::{KaiserLowPass, TimeSeries};
 
 /// Stop-band level and pass-band ripple, dB.
 const ATTENUATION_DB: f64 = 80.0;

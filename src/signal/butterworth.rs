@@ -6,7 +6,7 @@ use sci_rs::signal::filter::design::{
 use sci_rs::signal::filter::{sosfilt_dyn, sosfiltfilt_dyn};
 
 use super::SignalError;
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Order of a filter unless another is asked for. Forward and backward together it acts like order 8.
 pub const DEFAULT_ORDER: usize = 4;

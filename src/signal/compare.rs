@@ -1,7 +1,7 @@
 //! How far two signals are apart.
 
 use super::SignalError;
-use crate::series::{TimeSeries, root_mean_square};
+use crate::numerics::series::{TimeSeries, root_mean_square};
 
 /// Part of a step by which the instants of two compared series may differ.
 const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;

@@ -4,7 +4,7 @@ use realfft::num_complex::Complex;
 
 use super::SignalError;
 use super::fourier::{forward, inverse};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Envelope e(t) = |x + i H x|, H the Hilbert transform, by Fourier transform over the whole series: the transform of
 /// H x is -i sign(f) X(f). Same instants and unit as the series; e >= |x|. Equal to

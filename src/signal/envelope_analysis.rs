@@ -8,7 +8,7 @@ use super::envelope::envelope;
 use super::peaks::{Peak, peak_near};
 use super::spectrum::{DEFAULT_BIN_HZ, amplitude_spectrum};
 use super::window_function::WindowFunction;
-use crate::series::{TimeSeries, TimeWindow};
+use crate::numerics::series::{TimeSeries, TimeWindow};
 
 /// Corner of the high-pass unless one is asked for, Hz: Tadina & Boltezar 2011, section 5.
 const HIGH_PASS_HZ: f64 = 5e3;

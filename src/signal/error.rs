@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::series::SeriesError;
+use crate::numerics::series::SeriesError;
 
 /// Why a signal cannot be filtered, transformed, searched or compared.
 #[derive(Debug, Error)]

@@ -255,8 +255,8 @@ fn stands_out(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::series::TimeSeries;
-    use crate::series::TimeWindow;
+    use crate::numerics::series::TimeSeries;
+    use crate::numerics::series::TimeWindow;
     use crate::signal::envelope_spectrum;
     use std::f64::consts::PI;
 

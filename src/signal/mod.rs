@@ -15,6 +15,7 @@ mod angle_series;
 mod band_limit;
 mod butterworth;
 mod compare;
+pub mod diagnosis;
 mod envelope;
 mod envelope_analysis;
 mod error;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::SignalError;
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Figures over a sliding window.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -5,7 +5,7 @@ use rustfft::num_complex::Complex;
 use super::fourier::{MOST_POINTS, fast_length, forward};
 use super::white_spectrum::band_envelope;
 use super::{BandEnvelope, SignalError};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Spectrum of a series without its mean, of which envelopes of many bands are taken.
 ///

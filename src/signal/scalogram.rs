@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::fourier::{MOST_POINTS, fast_length, forward};
 use super::morlet::{Morlet, REACH};
 use super::{FrequencyAxis, SignalError};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Fewest and most cycles of a wavelet.
 const CYCLES: (f64, f64) = (2.0, 1000.0);

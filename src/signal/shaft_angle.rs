@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::SignalError;
-use crate::series::TimeWindow;
+use crate::numerics::series::TimeWindow;
 
 /// Speed of a shaft at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

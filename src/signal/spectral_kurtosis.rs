@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::fourier::Forward;
 use super::kurtosis_limit::{FEWEST_VALUES, kurtosis_limit};
 use super::{SignalError, WindowFunction};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Kurtosis over frequency.
 #[derive(Debug, Clone, PartialEq, Serialize)]

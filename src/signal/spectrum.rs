@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::fourier::{Forward, MOST_POINTS, fast_length};
 use super::peaks::{Peak, peak_near};
 use super::{SignalError, WindowFunction};
-use crate::series::{TimeSeries, TimeWindow};
+use crate::numerics::series::{TimeSeries, TimeWindow};
 
 /// Bin width unless another is asked for, Hz: 1 % of a 25 Hz line before interpolation.
 pub const DEFAULT_BIN_HZ: f64 = 0.25;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{FrequencyAxis, Peak, ShaftAngle, SignalError, SpeedPoint, WaveletTransform};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Frequencies of the axis in one standard deviation of the wavelet's response.
 const FREQUENCIES_A_DEVIATION: f64 = 4.0;

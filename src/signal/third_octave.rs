@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{SignalError, WindowFunction, amplitude_spectrum};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Bands a decade (IEC 61260-1, base ten).
 const BANDS_A_DECADE: f64 = 10.0;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::fourier::Forward;
 use super::{SignalError, WindowFunction};
-use crate::series::{TimeSeries, TimeWindow};
+use crate::numerics::series::{TimeSeries, TimeWindow};
 
 /// What the values of a power spectrum mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

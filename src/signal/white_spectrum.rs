@@ -6,7 +6,7 @@ use rustfft::num_complex::Complex;
 use super::SignalError;
 use super::fourier::{MOST_POINTS, fast_length, forward};
 use super::whitening::impulsive_gains;
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Width over which the median amplitude is taken, Hz: narrower than a resonance of a machine, wider than many lines.
 const MEDIAN_HZ: f64 = 50.0;

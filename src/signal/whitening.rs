@@ -2,7 +2,7 @@
 
 use super::fourier::{fast_length, forward, inverse};
 use super::{PowerScaling, SignalError, Welch, WindowFunction, spectral_kurtosis};
-use crate::series::TimeSeries;
+use crate::numerics::series::TimeSeries;
 
 /// Length of the segments that spectrum and kurtosis are estimated from, s: longer than a burst rings, shorter than the time
 /// between bursts. Features narrower than 2 / 2.56 ms = 0.8 kHz are left as they are.

@@ -2,7 +2,7 @@
 
 use super::bearing_setup::BearingSetup;
 use super::inner::InnerGap;
-use crate::lanes::{self, LANES, Lanes};
+use crate::numerics::lanes::{self, LANES, Lanes};
 use std::f64::consts::TAU;
 
 /// All balls of a bearing, in groups of [`LANES`].

@@ -101,7 +101,7 @@ impl BearingSetup {
     }
 
     /// Number of the flat on `ball`, and its angle from the ball's radius vector when the shaft has turned to `shaft_angle`,
-    /// both rad: by pure rolling a ball turns [`ball_spin`](crate::closed_form::race::DefectOrders::ball_spin) times
+    /// both rad: by pure rolling a ball turns [`ball_spin`](crate::bearing::kinematics::DefectOrders::ball_spin) times
     /// against the shaft in one of its turns, seen from the cage.
     pub fn spin(&self, ball: usize, shaft_angle: f64) -> Option<(usize, f64)> {
         let number = self.flats.iter().position(|flat| flat.ball == ball)?;

@@ -11,8 +11,8 @@ use super::raceway::RacewayTable;
 use super::residual::{Coupling, ResidualFlexibility};
 use super::structure::{Structure, StructureModes};
 use crate::bearing::{Race, RotationCursor};
-use crate::dynamics::{LinearCoordinate, State};
-use crate::lanes::{self, Lanes};
+use crate::numerics::lanes::{self, Lanes};
+use crate::numerics::ode::{LinearCoordinate, State};
 use std::f64::consts::TAU;
 
 /// Which modes of the structure a run keeps.

@@ -1,6 +1,6 @@
 //! What can go wrong between structure and bearing.
 
-use crate::linalg::LinalgError;
+use crate::numerics::linalg::LinalgError;
 use thiserror::Error;
 
 /// Failure of a coupled computation.

@@ -1,7 +1,7 @@
 //! Where a ball stands to the inner race: penetration without loss of digits.
 
 use crate::bearing::BearingGeometry;
-use crate::lanes::{LANES, Lanes, each};
+use crate::numerics::lanes::{LANES, Lanes, each};
 
 /// Inner contact of one ball: position by the outward displacement `s` from touching the undeformed
 /// outer race, `rho = R_0 - rho_b + s`.

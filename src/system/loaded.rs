@@ -5,7 +5,7 @@ use super::equilibrium::{Equilibrium, contact_rows};
 use super::error::SystemError;
 use super::resting::{RestingRaces, in_the_plane};
 use super::structure::{Structure, StructureModes};
-use crate::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
+use crate::numerics::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
 use std::f64::consts::TAU;
 
 /// One mode of the loaded system.

@@ -5,7 +5,7 @@ mod energy;
 use super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
-use crate::lanes::{Lanes, each};
+use crate::numerics::lanes::{Lanes, each};
 use std::f64::consts::PI;
 
 pub(super) use energy::RaceEnergy;

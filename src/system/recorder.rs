@@ -4,8 +4,8 @@
 use super::coupled::CoupledSystem;
 use super::force::dot;
 use super::run_record::{Column, RunRecord};
-use crate::dynamics::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
-use crate::series::{Decimator, DecimatorState, SeriesError};
+use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::series::{Decimator, DecimatorState, SeriesError};
 
 /// Takes the record while a run goes on.
 ///

@@ -2,11 +2,11 @@
 //! housing.
 
 use super::SystemError;
-use crate::linalg::{
+use crate::fe::model::Ring;
+use crate::fe::reduction::Superelement;
+use crate::numerics::linalg::{
     DenseCholesky, DenseMatrix, EigenProblem, SparseCholesky, placed, symmetric_generalised_eigen,
 };
-use crate::model::Ring;
-use crate::reduction::Superelement;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 

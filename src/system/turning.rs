@@ -1,7 +1,7 @@
 //! Cosines and sines of two angles in turns side by side, in line: the library's took a tenth of a step.
 
 use super::raceway::{lowest_bits, nearest_whole};
-use crate::lanes::{Lanes, each, together};
+use crate::numerics::lanes::{Lanes, each, together};
 use std::f64::consts::TAU;
 
 /// Terms of the cosine's polynomial; the sine's has one less.

@@ -356,7 +356,7 @@ fn the_checker_fires() {
     let cases = [
         (
             "mesh/mod.rs",
-            "use crate::linalg::DenseMatrix;",
+            "use crate::numerics::linalg::DenseMatrix;",
             "mesh/mod.rs:1: `mesh` imports `linalg`: it may import [] and row 0 alone",
         ),
         (
@@ -371,7 +371,7 @@ fn the_checker_fires() {
         ),
         (
             "transient/driver.rs",
-            "use crate::mesh::Mesh;",
+            "use crate::fe::mesh::Mesh;",
             "transient/driver.rs:1: `transient` imports `mesh`: it may import [\"dynamics\", \"linalg\", \"series\"] and row 0 alone",
         ),
         (
@@ -386,22 +386,22 @@ fn the_checker_fires() {
         ),
         (
             "linalg/sparse.rs",
-            "use crate::series::TimeSeries; // why not",
+            "use crate::numerics::series::TimeSeries; // why not",
             "linalg/sparse.rs:1: `linalg` (row 1) imports `series` (row 1): only rows above its own",
         ),
         (
             "units.rs",
-            "use crate::linalg::DenseMatrix;",
+            "use crate::numerics::linalg::DenseMatrix;",
             "units.rs:1: `units` (row 0) imports `linalg` (row 1): only rows above its own",
         ),
         (
             "stages/mod.rs",
-            "macro_rules! m { () => { $crate::cli::run() } }",
+            "macro_rules! m { () => { $crate::app::cli::run() } }",
             "stages/mod.rs:1: `stages` (row 12) imports `cli` (row 14): only rows above its own",
         ),
         (
             "novelty/mod.rs",
-            "use crate::units::LengthUnit;",
+            "use crate::numerics::units::LengthUnit;",
             "novelty/mod.rs:1: `novelty` has no row in the table of layers",
         ),
         (
@@ -411,7 +411,7 @@ fn the_checker_fires() {
         ),
         (
             "model/mod.rs",
-            "#[cfg(test)]\nmod tests {\n    use crate::cli::run;\n}\n\nuse crate::cli::run;",
+            "#[cfg(test)]\nmod tests {\n    use crate::app::cli::run;\n}\n\nuse crate::app::cli::run;",
             "model/mod.rs:6: `model` (row 4) imports `cli` (row 14): only rows above its own",
         ),
     ];
@@ -425,13 +425,13 @@ fn the_checker_lets_pass_what_is_right() {
     let cases = [
         (
             "mesh/mod.rs",
-            "//! See [`crate::cli`].\nuse crate::units::LengthUnit;\nuse crate::mesh::gmsh::Reader;",
+            "//! See [`crate::app::cli`].\nuse crate::numerics::units::LengthUnit;\nuse crate::fe::mesh::gmsh::Reader;",
         ),
-        ("mesh/tests.rs", "use crate::cli::run;"),
-        ("mesh/gmsh/reader_tests.rs", "use crate::cli::run;"),
+        ("mesh/tests.rs", "use crate::app::cli::run;"),
+        ("mesh/gmsh/reader_tests.rs", "use crate::app::cli::run;"),
         (
             "mesh/mod.rs",
-            "#[cfg(test)]\n#[allow(clippy::unwrap_used)]\nmod tests {\n    use crate::linalg::DenseMatrix;\n}",
+            "#[cfg(test)]\n#[allow(clippy::unwrap_used)]\nmod tests {\n    use crate::numerics::linalg::DenseMatrix;\n}",
         ),
         (
             "system/mod.rs",
@@ -439,14 +439,14 @@ fn the_checker_lets_pass_what_is_right() {
         ),
         (
             "system/force.rs",
-            "use super::coupled::CoupledSystem;\nconst URL: &str = \"http://x\"; // crate::cli",
+            "use super::coupled::CoupledSystem;\nconst URL: &str = \"http://x\"; // crate::app::cli",
         ),
         (
             "linalg/mod.rs",
             "#[allow(unsafe_code)]\nmod arpack;\nconst SAY: &str = \"unsafe\";",
         ),
         ("linalg/arpack.rs", "unsafe extern \"C\" {}"),
-        ("main.rs", "fn main() { plummer::cli::main() }"),
+        ("main.rs", "fn main() { plummer::app::cli::main() }"),
     ];
     for (path, text) in cases {
         assert_eq!(

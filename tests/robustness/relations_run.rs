@@ -9,7 +9,7 @@
 use std::fs;
 use std::path::Path;
 
-use plummer::exchange::NpzReader;
+use plummer::formats::NpzReader;
 
 use super::program::scratch;
 use super::relations::result;

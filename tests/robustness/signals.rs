@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use plummer::exchange::NpzWriter;
+use plummer::formats::NpzWriter;
 use serde_json::Value;
 
 use super::Dice;

@@ -7,16 +7,16 @@
 //! Limits: bit for bit between threads; 1e-12 of the largest entry against triplets, which sum in another order.
 
 use crate::reference_frequencies::data;
-use plummer::assembly::SystemMatrices;
-use plummer::element::continuum::{ContinuumProperties, Formulation, nodal_mass, stiffness};
-use plummer::linalg::{SparseMatrix, TripletBuilder};
-use plummer::material::{ElasticMaterial, Material};
-use plummer::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
-use plummer::model::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::continuum::{ContinuumProperties, Formulation, nodal_mass, stiffness};
+use plummer::fe::material::{ElasticMaterial, Material};
+use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
+use plummer::fe::model::{
     Connection, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, PointMass,
     SpringStiffness, SupportShare,
 };
-use plummer::units::LengthUnit;
+use plummer::numerics::linalg::{SparseMatrix, TripletBuilder};
+use plummer::numerics::units::LengthUnit;
 
 fn aluminium() -> ElasticMaterial {
     Material::new(70e9, 0.33, 2700.0).unwrap().into()
@@ -35,7 +35,7 @@ fn blocks() -> HousingModel {
     let springs = SpringStiffness::Global([1e6, 2e6, 3e6]);
     let ground = HousingSupport {
         group: "base".to_owned(),
-        constraint: plummer::model::Constraint::Spring(springs),
+        constraint: plummer::fe::model::Constraint::Spring(springs),
         share: SupportShare::PerGroup,
     };
     let link = Link {
@@ -194,7 +194,7 @@ fn a_group_without_a_whole_element_on_the_housing_is_refused() {
             parts: vec![part("block")],
             supports: vec![HousingSupport {
                 group: "loose end".to_owned(),
-                constraint: plummer::model::Constraint::Spring(stiffness),
+                constraint: plummer::fe::model::Constraint::Spring(stiffness),
                 share,
             }],
             ..HousingDescription::default()

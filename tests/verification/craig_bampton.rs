@@ -9,10 +9,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use plummer::linalg::{
+use plummer::fe::model::Fit;
+use plummer::numerics::linalg::{
     DenseMatrix, EigenProblem, SparseCholesky, submatrix, symmetric_generalised_eigen,
 };
-use plummer::model::Fit;
 
 use crate::setup::{
     ALUMINIUM_DENSITY, BORE_RADIUS, GRAVITY, HOUSING_WIDTH, Housing, MESHES, column, dense,

@@ -10,15 +10,15 @@
 //! become parallelograms: on meshes of trapezoids that keep their shape serendipity elements converge one order
 //! slower (Arnold, Boffi, Falk, Math. Comp. 71 (2002) 909), which the last test shows.
 
-use plummer::assembly::SystemMatrices;
-use plummer::element::continuum::{
+use plummer::app::verification::{BODY, StructuredMesh};
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::continuum::{
     ContinuumKind, Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule,
     shape_derivatives, shape_values,
 };
-use plummer::linalg::{DenseMatrix, SparseCholesky, sparse_times_dense, submatrix};
-use plummer::material::Material;
-use plummer::model::{HousingDescription, HousingModel, HousingPart, PlaneModel};
-use plummer::verification::{BODY, StructuredMesh};
+use plummer::fe::material::Material;
+use plummer::fe::model::{HousingDescription, HousingModel, HousingPart, PlaneModel};
+use plummer::numerics::linalg::{DenseMatrix, SparseCholesky, sparse_times_dense, submatrix};
 use std::f64::consts::PI;
 
 const THICKNESS: f64 = 0.7;

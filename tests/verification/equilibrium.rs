@@ -14,13 +14,13 @@
 //! Parameters: see `setup`; kept modes all (216) or up to 60 kHz (5) with and without the static residual.
 
 use plummer::bearing::{Race, Wave};
-use plummer::dynamics::{NoRecord, State};
-use plummer::model::Fit;
+use plummer::fe::model::Fit;
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
+use plummer::numerics::ode::{NoRecord, State};
 use plummer::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection,
     StaticCondition, Structure, StructureModes,
 };
-use plummer::transient::{Method, Schedule, Stepping, integrate};
 
 use crate::setup::{
     Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure, preloaded_bearing,

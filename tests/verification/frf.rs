@@ -8,25 +8,25 @@
 
 use crate::reference_frequencies::data;
 use crate::setup::{BORE_RADIUS, Housing, dense, steel_ring};
-use plummer::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
-use plummer::case::{Case, Source};
-use plummer::element::continuum::{Formulation, Integration};
-use plummer::linalg::{
-    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix,
-    submatrix,
-};
-use plummer::material::Material;
-use plummer::mesh::Mesh;
-use plummer::model::{
+use plummer::app::case::{Case, Source};
+use plummer::app::stages::{Unwatched, compute_frf};
+use plummer::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
+use plummer::fe::element::continuum::{Formulation, Integration};
+use plummer::fe::material::Material;
+use plummer::fe::mesh::Mesh;
+use plummer::fe::model::{
     Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
     Link, RingTie, SpringStiffness, SupportShare,
 };
-use plummer::reduction::frf::{
+use plummer::fe::reduction::frf::{
     FrequencyResponse, FrfPaths, FrfQuantity, ModalBasis, ModalDamping, ModalSuperposition,
     ReducedSystem, direct_response,
 };
-use plummer::stages::{Unwatched, compute_frf};
-use plummer::units::LengthUnit;
+use plummer::numerics::linalg::{
+    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix,
+    submatrix,
+};
+use plummer::numerics::units::LengthUnit;
 use std::f64::consts::TAU;
 
 type Complex = faer::c64;
@@ -394,8 +394,8 @@ fn structural_damping_follows_the_tie() {
             group: "housing".into(),
             material: aluminium.unwrap().into(),
         }],
-        plane: Some(plummer::model::PlaneModel {
-            assumption: plummer::element::continuum::PlaneAssumption::Stress,
+        plane: Some(plummer::fe::model::PlaneModel {
+            assumption: plummer::fe::element::continuum::PlaneAssumption::Stress,
             thickness: 4e-3,
         }),
         ..HousingDescription::default()

@@ -7,10 +7,10 @@
 use std::f64::consts::PI;
 
 use plummer::bearing::HertzContact;
-use plummer::closed_form::hertz::{effective_modulus, sphere_on_flat};
-use plummer::closed_form::impact::impact;
-use plummer::dynamics::{Instant, LinearCoordinate, Observer, SecondOrderSystem, State};
-use plummer::transient::{Method, Schedule, Stepping, integrate};
+use plummer::bearing::hertz::{effective_modulus, sphere_on_flat};
+use plummer::bearing::impact::impact;
+use plummer::numerics::ode::{Instant, LinearCoordinate, Observer, SecondOrderSystem, State};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 
 /// A sphere over a flat.
 struct Sphere {

@@ -20,8 +20,8 @@ use plummer::bearing::defect::{
     BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect,
 };
 use plummer::bearing::{Race, Wave};
-use plummer::dynamics::{SecondOrderSystem, State};
-use plummer::linalg::{DenseMatrix, general_spectrum};
+use plummer::numerics::linalg::{DenseMatrix, general_spectrum};
+use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
     BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeDamping,
     ModeSelection, StaticCondition, Structure, StructureModes,

@@ -9,16 +9,16 @@
 //! Limits: both solvers find eigenvalues of the same matrices: they agree within the sum of their printed bounds.
 
 use crate::reference_frequencies::data;
-use plummer::assembly::SystemMatrices;
-use plummer::linalg::{DenseMatrix, EigenProblem, LinalgError, submatrix};
-use plummer::material::Material;
-use plummer::mesh::Mesh;
-use plummer::modal::{Mechanisms, ModalBasis, ModeRange, over_all_dofs, strain_products};
-use plummer::model::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::material::Material;
+use plummer::fe::mesh::Mesh;
+use plummer::fe::modal::{Mechanisms, ModalBasis, ModeRange, over_all_dofs, strain_products};
+use plummer::fe::model::{
     Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
     SpringStiffness, SupportShare,
 };
-use plummer::units::LengthUnit;
+use plummer::numerics::linalg::{DenseMatrix, EigenProblem, LinalgError, submatrix};
+use plummer::numerics::units::LengthUnit;
 
 const ALUMINIUM: [f64; 3] = [70e9, 0.33, 2700.0];
 

@@ -12,12 +12,12 @@ use plummer::bearing::defect::{
     BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect, SurfaceDent,
 };
 use plummer::bearing::{BearingDimensions, BearingGeometry, Race, Wave};
-use plummer::dynamics::{SecondOrderSystem, State};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
+use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
     BallsInertia, BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, ModeDamping,
     ModeSelection, Recorder, RunRecord, StaticCondition, Structure, StructureModes, SystemError,
 };
-use plummer::transient::{Method, Schedule, Stepping, integrate};
 
 use crate::setup::{
     SYMMETRIC_DEG, paper_bearing, paper_structure, preloaded_bearing, rolling_cage,

@@ -13,16 +13,18 @@
 //! 3 points): on curved elements the full rules differ, by what `full_integration_of_curved_elements` states.
 //! Trap: gmsh's node order of tet10 and hex20 is its own; CalculiX's "plane stress" is a 3D layer.
 
-use plummer::assembly::SystemMatrices;
-use plummer::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
-use plummer::material::Material;
-use plummer::mesh::Mesh;
-use plummer::modal::housing_modes;
-use plummer::model::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::continuum::{
+    Formulation, Integration, LinearFormulation, PlaneAssumption,
+};
+use plummer::fe::material::Material;
+use plummer::fe::mesh::Mesh;
+use plummer::fe::modal::housing_modes;
+use plummer::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
     SupportShare,
 };
-use plummer::units::LengthUnit;
+use plummer::numerics::units::LengthUnit;
 use std::path::{Path, PathBuf};
 
 /// Frequencies of a mesh as published with it.

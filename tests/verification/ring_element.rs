@@ -22,13 +22,15 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, TAU};
 
-use plummer::closed_form::ring::{
+use plummer::app::verification::ring::{
     RingSection, THIN_SHORTENING, THIN_WIDENING, pinched, thin_frequency_hz,
 };
-use plummer::element::curved_beam::RingInterpolation::{self, ExactArc, Raveendranath};
-use plummer::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};
-use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
-use plummer::model::Ring;
+use plummer::fe::element::curved_beam::RingInterpolation::{self, ExactArc, Raveendranath};
+use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use plummer::fe::model::Ring;
+use plummer::numerics::linalg::{
+    DenseCholesky, DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen,
+};
 
 use crate::setup::{column, steel_ring};
 

@@ -14,12 +14,12 @@
 //! many elements round the torus put its in-plane pair 0.9 % higher (53.72 instead of 53.25 Hz), above thin theory.
 
 use crate::reference_frequencies::data;
-use plummer::assembly::SystemMatrices;
-use plummer::material::Material;
-use plummer::mesh::Mesh;
-use plummer::modal::housing_modes;
-use plummer::model::{HousingDescription, HousingModel, HousingPart};
-use plummer::units::LengthUnit;
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::material::Material;
+use plummer::fe::mesh::Mesh;
+use plummer::fe::modal::housing_modes;
+use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
+use plummer::numerics::units::LengthUnit;
 
 /// Frequencies of the first `pairs` double elastic modes, Hz.
 fn pairs(file: &str, material: Material, pairs: usize) -> Vec<f64> {

@@ -19,27 +19,27 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use plummer::assembly::{CoupledMatrices, SystemMatrices};
 use plummer::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile,
     SpeedProfile,
 };
-use plummer::dynamics::State;
-use plummer::element::continuum::PlaneAssumption;
-use plummer::element::curved_beam::RingInterpolation;
-use plummer::linalg::{DenseMatrix, SparseMatrix};
-use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
-use plummer::mesh::Mesh;
-use plummer::model::{
+use plummer::fe::assembly::{CoupledMatrices, SystemMatrices};
+use plummer::fe::element::continuum::PlaneAssumption;
+use plummer::fe::element::curved_beam::RingInterpolation;
+use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use plummer::fe::mesh::Mesh;
+use plummer::fe::model::{
     Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
     Ring, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
-use plummer::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
+use plummer::fe::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
+use plummer::numerics::linalg::{DenseMatrix, SparseMatrix};
+use plummer::numerics::ode::State;
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
+use plummer::numerics::units::LengthUnit;
 use plummer::system::{
     BallsInertia, BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure,
 };
-use plummer::transient::{Method, Schedule, Stepping, integrate};
-use plummer::units::LengthUnit;
 
 /// Standard gravity as the source rounds it, m/s^2.
 pub const GRAVITY: [f64; 2] = [0.0, -9.81];
@@ -238,7 +238,8 @@ impl Housing {
         let (interior, ring): (Vec<usize>, Vec<usize>) =
             coupled.free_dofs.iter().partition(|&&dof| dof < first);
         let order = [ring, interior].concat();
-        let part = |whole: &SparseMatrix| plummer::linalg::submatrix(whole, &order, &order);
+        let part =
+            |whole: &SparseMatrix| plummer::numerics::linalg::submatrix(whole, &order, &order);
         (part(&coupled.stiffness), part(&coupled.mass))
     }
 }
@@ -246,7 +247,7 @@ impl Housing {
 /// A sparse matrix with all its zeros.
 pub fn dense(sparse: &SparseMatrix) -> DenseMatrix {
     let identity = DenseMatrix::identity(sparse.cols(), sparse.cols());
-    plummer::linalg::sparse_times_dense(sparse, &identity)
+    plummer::numerics::linalg::sparse_times_dense(sparse, &identity)
 }
 
 /// A vector as a matrix of one column.

@@ -11,13 +11,13 @@
 //! and 2 where modes up to the band's top are kept, never below 0.5 where they are not.
 
 use crate::reference_frequencies::data;
-use plummer::case::{Case, Source};
-use plummer::linalg::{EigenPairs, symmetric_generalised_eigen};
-use plummer::reduction::{
+use plummer::app::case::{Case, Source};
+use plummer::app::stages::{CondensedStage, HousingStage, Unwatched};
+use plummer::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure,
     choose_basis,
 };
-use plummer::stages::{CondensedStage, HousingStage, Unwatched};
+use plummer::numerics::linalg::{EigenPairs, symmetric_generalised_eigen};
 use std::f64::consts::TAU;
 
 const ANNULUS: &str = r#"
@@ -183,7 +183,7 @@ fn residual_vectors_on_the_tied_pedestal() {
     let substructure = &stage.condensed.substructure;
     let attached = stage.boundary.attached();
     let matrices = stage.full_matrices();
-    let problem = plummer::linalg::EigenProblem::restricted(
+    let problem = plummer::numerics::linalg::EigenProblem::restricted(
         &matrices.stiffness,
         &matrices.mass,
         &matrices.free_dofs,

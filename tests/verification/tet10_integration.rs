@@ -8,14 +8,14 @@
 //! Parameters: E 70 GPa, nu 0.33, rho 2700.
 
 use crate::reference_frequencies::data;
-use plummer::assembly::SystemMatrices;
-use plummer::element::continuum::{ContinuumKind, Formulation, Integration};
-use plummer::material::Material;
-use plummer::mesh::Mesh;
-use plummer::modal::housing_modes;
-use plummer::model::{HousingDescription, HousingModel, HousingPart};
-use plummer::units::LengthUnit;
-use plummer::verification::{BODY, StructuredMesh};
+use plummer::app::verification::{BODY, StructuredMesh};
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::continuum::{ContinuumKind, Formulation, Integration};
+use plummer::fe::material::Material;
+use plummer::fe::mesh::Mesh;
+use plummer::fe::modal::housing_modes;
+use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
+use plummer::numerics::units::LengthUnit;
 
 /// The first `count` elastic frequencies of a free body, Hz.
 fn elastic(mesh: &Mesh, group: &str, integration: Integration, count: usize) -> Vec<f64> {

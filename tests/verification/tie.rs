@@ -19,9 +19,9 @@
 
 use std::f64::consts::TAU;
 
-use plummer::linalg::{EigenProblem, TripletBuilder};
-use plummer::model::{Fit, HousingPartition};
-use plummer::reduction::{BasisChoice, BasisSize, craig_bampton};
+use plummer::fe::model::{Fit, HousingPartition};
+use plummer::fe::reduction::{BasisChoice, BasisSize, craig_bampton};
+use plummer::numerics::linalg::{EigenProblem, TripletBuilder};
 use plummer::system::Structure;
 
 use crate::setup::{GRAVITY, Housing, MESHES, column};
@@ -81,7 +81,7 @@ fn rigid_housing(housing: &Housing, motion: [f64; 3]) -> Vec<f64> {
     match housing.tie.rotation() {
         None => xy,
         Some(rotation) => {
-            let turned = plummer::linalg::transpose_times_dense(rotation, &column(&xy));
+            let turned = plummer::numerics::linalg::transpose_times_dense(rotation, &column(&xy));
             turned.col(0).iter().copied().collect()
         }
     }
@@ -119,7 +119,7 @@ fn bore_nodes_follow_a_rigid_ring_exactly() {
             for motion in RIGID {
                 let [x, y, turn] = motion;
                 let ring = column(&housing.ring.rigid_motion(x, y, turn));
-                let found = plummer::linalg::sparse_times_dense(&partition.tie, &ring);
+                let found = plummer::numerics::linalg::sparse_times_dense(&partition.tie, &ring);
                 let expected = rigid_housing(&housing, motion);
                 for (row, &dof) in partition.driven.iter().enumerate() {
                     let error = (found[(row, 0)] - expected[dof]).abs();
@@ -148,7 +148,7 @@ fn rigid_motions_of_the_full_model_make_no_force() {
                 let mut r = housing.ring.rigid_motion(x, y, turn);
                 r.extend(partition.interior.iter().map(|&dof| body[dof]));
                 let r = column(&r);
-                let force = plummer::linalg::sparse_times_dense(&k, &r);
+                let force = plummer::numerics::linalg::sparse_times_dense(&k, &r);
                 let relative = force.norm_l2() / (largest * r.norm_l2());
                 // round-off of some dozen products a row; the mesh's coordinates have 16 digits
                 assert!(relative < 1e-14, "{mesh} {fit:?} {motion:?}: {relative:e}");

@@ -19,19 +19,19 @@
 
 use crate::reference_frequencies::data;
 use crate::setup::{Housing, column};
-use plummer::assembly::SystemMatrices;
-use plummer::element::curved_beam::RingInterpolation;
-use plummer::linalg::{DenseMatrix, EigenProblem, sparse_times_dense};
-use plummer::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
-use plummer::mesh::Mesh;
-use plummer::modal::housing_modes;
-use plummer::model::{
+use plummer::fe::assembly::SystemMatrices;
+use plummer::fe::element::curved_beam::RingInterpolation;
+use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use plummer::fe::mesh::Mesh;
+use plummer::fe::modal::housing_modes;
+use plummer::fe::model::{
     Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
     Link, Ring, RingFrame, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
-use plummer::reduction::{BasisChoice, BasisSize, craig_bampton};
+use plummer::fe::reduction::{BasisChoice, BasisSize, craig_bampton};
+use plummer::numerics::linalg::{DenseMatrix, EigenProblem, sparse_times_dense};
+use plummer::numerics::units::LengthUnit;
 use plummer::system::Structure;
-use plummer::units::LengthUnit;
 
 const LIMIT: f64 = 1e-5;
 

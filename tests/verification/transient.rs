@@ -13,13 +13,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use plummer::bearing::HertzContact;
-use plummer::dynamics::{Instant, NoRecord, Observer, SecondOrderSystem, State};
-use plummer::linalg::{DenseCholesky, DenseMatrix};
+use plummer::numerics::linalg::{DenseCholesky, DenseMatrix};
+use plummer::numerics::ode::{Instant, NoRecord, Observer, SecondOrderSystem, State};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{
     BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Recorder,
     StaticCondition, Structure, StructureModes,
 };
-use plummer::transient::{Method, Schedule, Stepping, integrate};
 
 use crate::setup::{
     SYMMETRIC_DEG, column, contact_forces, paper_bearing, paper_structure, preloaded_bearing,

@@ -1,8 +1,8 @@
 //! The coupled system of a scene as equations of first order, as other integrators take them.
 
-use plummer::case::Case;
-use plummer::dynamics::{SecondOrderSystem, State, Tangent};
-use plummer::stages::{ModelChoice, RunModel, Scene, Unwatched};
+use plummer::app::case::Case;
+use plummer::numerics::ode::{SecondOrderSystem, State, Tangent};
+use plummer::app::stages::{ModelChoice, RunModel, Scene, Unwatched};
 use plummer::system::CoupledSystem;
 use std::error::Error;
 

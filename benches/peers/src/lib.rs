@@ -68,7 +68,7 @@ impl Scene {
     /// Method, tolerance and largest step (s) that the program chooses.
     #[getter]
     fn chosen(&self) -> (String, Option<f64>, f64) {
-        use plummer::transient::Method;
+        use plummer::numerics::ode::Method;
         let model = self.equations.chosen();
         let tolerance = match model.method {
             Method::ExponentialAdams { tolerance } => tolerance,

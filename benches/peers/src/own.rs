@@ -2,8 +2,8 @@
 
 use crate::Run;
 use crate::equations::Equations;
-use plummer::dynamics::{Instant, NoRecord, Observer};
-use plummer::transient::{Method, Schedule, Stepping, integrate};
+use plummer::numerics::ode::{Instant, NoRecord, Observer};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use std::error::Error;
 
 /// Coordinates and velocities of every sample.

@@ -1,11 +1,11 @@
 //! From states at equal intervals to the sensor's acceleration, by the program's own recorder, for all integrators alike.
 
 use crate::equations::Equations;
-use plummer::dynamics::{Instant, NoRecord, Observer, SecondOrderSystem};
-use plummer::series::TimeSeries;
+use plummer::numerics::ode::{Instant, NoRecord, Observer, SecondOrderSystem};
+use plummer::numerics::series::TimeSeries;
 use plummer::signal::band_limit;
 use plummer::system::Recorder;
-use plummer::transient::{Method, Schedule, Stepping, integrate};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use std::error::Error;
 
 /// Tolerance of what goes on from a step's end to the samples before the next one's.

@@ -20,8 +20,8 @@
 use super::contacts::{DefectContact, Feature};
 use super::vector::Vector;
 use crate::bearing::geometry::BearingGeometry;
+use crate::bearing::hertz::PrincipalCurvatures;
 use crate::bearing::materials::{ContactStiffness, Race};
-use crate::closed_form::hertz::PrincipalCurvatures;
 
 /// Carrier and roller, undamaged.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::closed_form::hertz::HertzError;
+use crate::bearing::hertz::HertzError;
 
 /// Why a defect is refused; a key is the name in the case file.
 #[derive(Debug, Clone, PartialEq, Error)]

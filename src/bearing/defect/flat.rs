@@ -37,7 +37,7 @@ pub struct FlatShape {
 ///
 /// The `spin_angle` of all queries is the angle (rad, counter-clockwise, any turn) from the ball's radius vector
 /// about the race's centre to the middle of the flat: 0 faces the outer race, π the inner one. Seen from the cage
-/// a ball that rolls turns against the shaft, [`ball_spin`](crate::closed_form::race::DefectOrders::ball_spin)
+/// a ball that rolls turns against the shaft, [`ball_spin`](crate::bearing::kinematics::DefectOrders::ball_spin)
 /// times in one of its turns; at the inner race the radius vector starts from the displaced shaft.
 ///
 /// `∂δ/∂spin_angle = −ρ n_t` at fixed position: what the spin adds to δ̇ and takes from its drive.

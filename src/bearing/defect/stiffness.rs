@@ -7,8 +7,8 @@
 
 use super::circles::{Circles, race_curvatures};
 use crate::bearing::geometry::BearingGeometry;
+use crate::bearing::hertz::{self, HertzError, PrincipalCurvatures};
 use crate::bearing::materials::Race;
-use crate::closed_form::hertz::{self, HertzError, PrincipalCurvatures};
 
 /// Intervals of the table. Over a ratio of 2600 in A the largest relative error measured on the source's
 /// bearing is 8e-7 with 20, 3e-9 with 80; a bearing with closer grooves has room.

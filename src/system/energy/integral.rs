@@ -1,7 +1,7 @@
 //! Integrals of functions at equal intervals as they come: Gregory's formula.
 
 use super::FLOWS;
-use crate::dynamics::{Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Snapshot, SnapshotError, SnapshotReader};
 
 /// Values at either end that the corrections take.
 const ENDS: usize = 4;

@@ -17,7 +17,7 @@ mod power;
 mod stored;
 
 use super::coupled::CoupledSystem;
-use crate::dynamics::{
+use crate::numerics::ode::{
     Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State,
 };
 use integral::Integral;

@@ -4,8 +4,8 @@ use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceEnergy, RacePlace};
 use super::FLOWS;
 use crate::bearing::RotationState;
-use crate::dynamics::Instant;
-use crate::lanes::{self, LANES, Lanes};
+use crate::numerics::lanes::{self, LANES, Lanes};
+use crate::numerics::ode::Instant;
 use std::f64::consts::TAU;
 
 /// Powers and what else has to be summed up.

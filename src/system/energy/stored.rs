@@ -2,8 +2,8 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use crate::dynamics::Instant;
-use crate::lanes;
+use crate::numerics::lanes;
+use crate::numerics::ode::Instant;
 
 impl CoupledSystem {
     /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.

@@ -4,7 +4,7 @@ use super::condition::StaticCondition;
 use super::rows::contact_rows;
 use super::search::{Found, HELD};
 use super::{BallLoad, Equilibrium};
-use crate::linalg::DenseMatrix;
+use crate::numerics::linalg::DenseMatrix;
 use crate::system::bearing_setup::{BearingSetup, Formulation};
 use crate::system::race::RaceForce;
 use crate::system::resting::{RestingRaces, in_the_plane};

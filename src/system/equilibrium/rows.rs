@@ -1,6 +1,6 @@
 //! How the structure moves under the balls.
 
-use crate::linalg::DenseMatrix;
+use crate::numerics::linalg::DenseMatrix;
 use crate::system::{BearingSetup, Structure};
 
 /// Rows of the race's displacement at the balls, as columns [dof x 2 balls]: radial, then

@@ -2,7 +2,7 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use crate::lanes::{self, LANES, together};
+use crate::numerics::lanes::{self, LANES, together};
 use multiversion::multiversion;
 
 /// What [`own_springs_into`] says. Of a ball: the stiffness of both contacts over its mass, `3/2 F / delta` of each, the outer one
@@ -10,7 +10,7 @@ use multiversion::multiversion;
 /// for it weighs far more, and the sum of the balls' forces on it over its mass. Of modes: no spring, what holds them is no part of
 /// their force, and the sum of what weight and balls do to them.
 ///
-/// [`own_springs_into`]: crate::dynamics::SecondOrderSystem::own_springs_into
+/// [`own_springs_into`]: crate::numerics::ode::SecondOrderSystem::own_springs_into
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn find_own_springs(system: &CoupledSystem, springs: &mut [f64], sizes: &mut [f64]) {
     let balls = (system.modes + 2).min(springs.len());

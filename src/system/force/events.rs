@@ -11,7 +11,7 @@
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
 use super::dot;
-use crate::lanes::LANES;
+use crate::numerics::lanes::LANES;
 
 impl CoupledSystem {
     /// How many events the contacts have.

@@ -5,7 +5,7 @@ use super::super::inner::InnerGap;
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::CentreMotion;
 use crate::bearing::RotationState;
-use crate::lanes::{self, LANES, Lanes, positive};
+use crate::numerics::lanes::{self, LANES, Lanes, positive};
 
 impl CoupledSystem {
     /// Inner forces: what they do to the shaft, and along the radius vectors to the balls.

@@ -17,8 +17,8 @@ mod with_residual;
 use super::bearing_setup::{BallsInertia, Formulation};
 use super::coupled::CoupledSystem;
 use crate::bearing::RotationState;
-use crate::dynamics::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
-use crate::lanes::{self, LANES};
+use crate::numerics::lanes::{self, LANES};
+use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
 use ball_springs::find_own_springs;
 use multiversion::multiversion;
 

@@ -5,7 +5,7 @@ use super::super::coupled::{CoupledSystem, Work};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::super::raceway::{Place, RacewayTable};
 use crate::bearing::RotationState;
-use crate::lanes::{self, LANES, Lanes, positive};
+use crate::numerics::lanes::{self, LANES, Lanes, positive};
 use std::f64::consts::TAU;
 
 impl CoupledSystem {

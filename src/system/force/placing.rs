@@ -5,7 +5,7 @@ use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
 use super::super::turning::directions;
 use crate::bearing::RotationState;
-use crate::lanes::{self, Lanes};
+use crate::numerics::lanes::{self, Lanes};
 
 impl CoupledSystem {
     /// Directions of the shaft and of all balls, and the balls' places: one sine and cosine, the others by rotation through

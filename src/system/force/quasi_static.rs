@@ -15,7 +15,7 @@ use super::super::inner::InnerGap;
 use super::super::race::RaceForce;
 use super::with_residual::{MAX_SWEEPS, SWEEP_TOLERANCE};
 use crate::bearing::RotationState;
-use crate::lanes::LANES;
+use crate::numerics::lanes::LANES;
 
 /// Force out of balance in units of the forces, at which a ball stands: far below any integration error.
 const BALANCE: f64 = 1e-12;

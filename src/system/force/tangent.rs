@@ -24,8 +24,8 @@ use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceForce};
 use super::super::resting::in_the_plane;
 use crate::bearing::RotationState;
-use crate::dynamics::{Tangent, TangentTerm};
-use crate::lanes::LANES;
+use crate::numerics::lanes::LANES;
+use crate::numerics::ode::{Tangent, TangentTerm};
 use std::f64::consts::TAU;
 
 impl CoupledSystem {

@@ -10,10 +10,10 @@ use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, Race, RaceContacts, SlipProfile,
     SpeedKnot, SpeedProfile, Wave,
 };
-use crate::dynamics::{SecondOrderSystem, State, Tangent};
-use crate::element::curved_beam::RingInterpolation;
-use crate::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
-use crate::model::{Ring, RingSupport, SpringShare};
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use crate::fe::model::{Ring, RingSupport, SpringShare};
+use crate::numerics::ode::{SecondOrderSystem, State, Tangent};
 
 const GRAVITY: [f64; 2] = [0.0, -9.81];
 const FIRST: f64 = 5.2;

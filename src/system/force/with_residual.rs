@@ -2,7 +2,7 @@
 
 use super::super::coupled::CoupledSystem;
 use crate::bearing::RotationState;
-use crate::lanes::{LANES, Lanes, each, first_mut, positive};
+use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
 const SWEEPS: usize = 12;

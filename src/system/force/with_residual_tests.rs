@@ -2,7 +2,7 @@
 
 use super::super::tangent_tests::{damped, dented, preloaded, structure};
 use crate::bearing::Race;
-use crate::dynamics::{SecondOrderSystem, State};
+use crate::numerics::ode::{SecondOrderSystem, State};
 use crate::system::bearing_setup::BearingSetup;
 use crate::system::coupled::{CoupledSystem, ModeDamping, ModeSelection};
 use crate::system::{Equilibrium, StaticCondition};

@@ -6,8 +6,8 @@
 mod polynomials;
 
 use super::structure::StructureModes;
-use crate::lanes::{LANES, Lanes, each, together, total};
-use crate::model::{Ring, RingRows};
+use crate::fe::model::{Ring, RingRows};
+use crate::numerics::lanes::{LANES, Lanes, each, together, total};
 use polynomials::ElementPolynomials;
 use std::f64::consts::PI;
 
@@ -199,7 +199,7 @@ pub(super) fn reduced_turn(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::column;
+    use crate::numerics::lanes::column;
 
     #[test]
     fn turns_are_reduced_from_both_sides() {
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn rows_slopes_and_sums_are_those_of_the_waves() {
         let table = waves();
-        let amplitudes = crate::lanes::filled(&[1.0, -2.0, 3.0, 0.5, 4.0], 0.0);
+        let amplitudes = crate::numerics::lanes::filled(&[1.0, -2.0, 3.0, 0.5, 4.0], 0.0);
         let (mut row, mut slopes) = (column(5, 0.0), column(5, 0.0));
         for i in 0..1000 {
             let turn = f64::from(i) / 1000.0;

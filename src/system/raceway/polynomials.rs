@@ -4,7 +4,7 @@
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
 use super::Quintic;
-use crate::lanes::{LANES, Lanes, each};
+use crate::numerics::lanes::{LANES, Lanes, each};
 use std::f64::consts::PI;
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.

@@ -5,7 +5,7 @@
 //! many steps, and its quintics are made when it is entered.
 
 use super::{ResidualFlexibility, Touch};
-use crate::lanes::{LANES, Lanes, each, first, first_mut, together};
+use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, together};
 use std::f64::consts::TAU;
 
 /// Largest deviation of the quintics, relative to the largest flexibility between balls. The residual is some percent of what a

@@ -12,9 +12,9 @@ mod coupling;
 use super::SystemError;
 use super::raceway::RacewayTable;
 use super::structure::{Structure, StructureModes};
-use crate::lanes::{LANES, Lanes};
-use crate::linalg::{DenseMatrix, SparseMatrix, TripletBuilder, sparse_times_dense};
-use crate::model::Ring;
+use crate::fe::model::Ring;
+use crate::numerics::lanes::{LANES, Lanes};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, TripletBuilder, sparse_times_dense};
 use std::f64::consts::TAU;
 
 pub(super) use coupling::Coupling;

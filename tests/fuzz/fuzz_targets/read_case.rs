@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::case::{Case, Purpose, Source};
+use plummer::app::case::{Case, Purpose, Source};
 
 fuzz_target!(|bytes: &[u8]| {
     // what stands behind the first NUL is an argument of --set

@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::mesh::{Mesh, MeshError, MshError};
-use plummer::units::LengthUnit;
+use plummer::fe::mesh::{Mesh, MeshError, MshError};
+use plummer::numerics::units::LengthUnit;
 
 fuzz_target!(|bytes: &[u8]| {
     match Mesh::from_gmsh_bytes(bytes, Path::new("fuzz.msh"), LengthUnit::Millimetre) {
@@ -39,7 +39,7 @@ fn check(mesh: &Mesh) {
     let inventory = mesh.inventory();
     assert_eq!(inventory.nodes, nodes);
     for (number, block) in mesh.blocks.iter().enumerate() {
-        let ids = (0..block.len()).map(|index| plummer::mesh::ElementId { block: number, index });
+        let ids = (0..block.len()).map(|index| plummer::fe::mesh::ElementId { block: number, index });
         let faces = mesh.boundary_faces(ids);
         assert!(faces.iter().flat_map(|face| &face.nodes).all(|&node| node < nodes));
     }

@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::exchange::measured::signals_from_mat;
-use plummer::exchange::{MeasuredError, SignalRequest};
+use plummer::formats::measured::signals_from_mat;
+use plummer::formats::{MeasuredError, SignalRequest};
 
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("fuzz.mat");

@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::exchange::{
+use plummer::formats::{
     NpzReader, SignalRequest, read_modes_npz, read_signals, read_superelement_npz,
 };
 

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::exchange::op4_from_bytes;
+use plummer::formats::op4_from_bytes;
 
 fuzz_target!(|bytes: &[u8]| {
     match op4_from_bytes(bytes, Path::new("fuzz.op4")) {

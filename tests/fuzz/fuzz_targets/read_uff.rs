@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::exchange::uff::{modes_from_bytes, responses_from_bytes, times_from_bytes};
+use plummer::formats::uff::{modes_from_bytes, responses_from_bytes, times_from_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("fuzz.uff");

@@ -1,7 +1,7 @@
 //! The source's dents by number, rules, features and angles.
 
 use super::*;
-use crate::closed_form::hertz::{self, HertzError, PrincipalCurvatures};
+use crate::bearing::hertz::{self, HertzError, PrincipalCurvatures};
 use approx::assert_relative_eq;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! The source's flat on a ball by number, features, rules, and what the spin does.
 
 use super::*;
-use crate::closed_form::hertz::{self, PrincipalCurvatures};
+use crate::bearing::hertz::{self, PrincipalCurvatures};
 use approx::assert_relative_eq;
 
 const RACES: [Race; 2] = [Race::Outer, Race::Inner];

@@ -2,7 +2,7 @@
 
 use super::super::surface::Outline;
 use super::*;
-use crate::closed_form::hertz::{self, PrincipalCurvatures};
+use crate::bearing::hertz::{self, PrincipalCurvatures};
 use approx::assert_relative_eq;
 
 pub const RACES: [Race; 2] = [Race::Outer, Race::Inner];

@@ -1,0 +1,249 @@
+//! Materials, housing and ring.
+
+use super::super::path::quoted;
+use super::super::{
+    Axis, Bond, Case, Fit, Hold, Housing, HousingSource, Joint, Material, OrthotropicMaterial,
+    RadiusRule, Ring, RingSupport, Spring,
+};
+use super::range::{
+    above, above_zero, below, degrees, density, direction, each_once, known_isotropic,
+    known_material, loss_factor, modulus, not_empty, poisson, share, zero_or_more,
+};
+use super::rule::{BrokenRule, Rule};
+use crate::fe::material::MaterialError;
+
+pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
+    for (name, material) in &case.materials {
+        let at = |key: &str| format!("materials.{}.{key}", quoted(name));
+        match material {
+            Material::Isotropic(material) => {
+                modulus(at("young"), material.young)?;
+                poisson(at("poisson"), material.poisson)?;
+            }
+            Material::Orthotropic(material) => {
+                for (key, values) in [("young", material.young), ("shear", material.shear)] {
+                    for (place, value) in values.into_iter().enumerate() {
+                        modulus(format!("{}[{place}]", at(key)), value)?;
+                    }
+                }
+                direction(at("x_axis"), material.x_axis)?;
+                direction(at("y_axis"), material.y_axis)?;
+                stable(material).map_err(|error| {
+                    let key = match error {
+                        MaterialError::ParallelAxes { .. } => "y_axis",
+                        _ => "poisson",
+                    };
+                    Rule::UnstableMaterial(error).at(at(key))
+                })?;
+            }
+        }
+        density(at("density"), material.density())?;
+        loss_factor(at("loss_factor"), material.loss_factor())?;
+    }
+    Ok(())
+}
+
+/// Constants that make a material together.
+fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
+    let OrthotropicMaterial {
+        young,
+        poisson,
+        shear,
+        x_axis,
+        y_axis,
+        ..
+    } = *given;
+    // the density has its own rule
+    crate::fe::material::OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis)?;
+    Ok(())
+}
+
+pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
+    let Some(housing) = case.meshed_housing() else {
+        return match (case.superelement(), &case.ring) {
+            (Some(_), None) => Err(Rule::Needs { other: "[ring]" }.at("housing.superelement")),
+            _ => Ok(()),
+        };
+    };
+    if let Some(plane) = &housing.plane {
+        above_zero("housing.plane.thickness", plane.thickness)?;
+    }
+    not_empty("housing.parts", housing.parts.len(), "at least one part")?;
+    for (index, part) in housing.parts.iter().enumerate() {
+        let key = format!("housing.parts[{index}].material");
+        known_material(case, key, &part.material)?;
+    }
+    let groups = housing.parts.iter().map(|part| part.group.as_str());
+    each_once(groups, |index| format!("housing.parts[{index}].group"))?;
+    housing_supports(housing)?;
+    links(housing)?;
+    for (index, mass) in housing.masses.iter().enumerate() {
+        above_zero(format!("housing.masses[{index}].mass"), mass.mass)?;
+    }
+    Ok(())
+}
+
+fn housing_supports(housing: &Housing) -> Result<(), BrokenRule> {
+    let plane = housing.plane.is_some();
+    for (index, support) in housing.supports.iter().enumerate() {
+        let at = |key: &str| format!("housing.supports[{index}].{key}");
+        match &support.hold {
+            Hold::Fixed(axes) => {
+                not_empty(at("fixed"), axes.len(), "at least one of x, y, z")?;
+                let names = axes.iter().map(|axis| match axis {
+                    Axis::X => "x",
+                    Axis::Y => "y",
+                    Axis::Z => "z",
+                });
+                each_once(names, |_| at("fixed"))?;
+                if plane && axes.contains(&Axis::Z) {
+                    return Err(Rule::NoZ.at(at("fixed")));
+                }
+            }
+            Hold::Spring { spring, .. } => springs(&at("spring"), *spring, plane)?,
+            Hold::Radial { stiffness, .. } => above_zero(at("radial"), *stiffness)?,
+        }
+    }
+    Ok(())
+}
+
+fn links(housing: &Housing) -> Result<(), BrokenRule> {
+    let plane = housing.plane.is_some();
+    for (index, link) in housing.links.iter().enumerate() {
+        let at = |key: &str| format!("housing.links[{index}].{key}");
+        each_once(link.between.iter().map(String::as_str), |_| at("between"))?;
+        match &link.joint {
+            Joint::Spring { spring, .. } => springs(&at("spring"), *spring, plane)?,
+            Joint::Radial { stiffness, .. } => above_zero(at("radial"), *stiffness)?,
+            Joint::Tie => {}
+        }
+    }
+    Ok(())
+}
+
+fn springs(key: &str, spring: Spring, plane: bool) -> Result<(), BrokenRule> {
+    let parts = [("x", spring.x), ("y", spring.y), ("z", spring.z)];
+    for (name, stiffness) in parts {
+        zero_or_more(format!("{key}.{name}"), stiffness)?;
+    }
+    let acting = parts.iter().filter(|(_, stiffness)| *stiffness > 0.0);
+    not_empty(key, acting.count(), "a stiffness above 0")?;
+    if plane && spring.z > 0.0 {
+        return Err(Rule::NoZ.at(key));
+    }
+    Ok(())
+}
+
+pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
+    let Some(ring) = &case.ring else {
+        return Ok(());
+    };
+    if !(8..=2000).contains(&ring.nodes) {
+        let (found, expected) = (ring.nodes, "8 to 2000 nodes");
+        return Err(Rule::Count { found, expected }.at("ring.nodes"));
+    }
+    sections(case, ring)?;
+    for (index, support) in ring.supports.iter().enumerate() {
+        // whether a superelement is plane is told by its file
+        let plane = case.superelement().is_none()
+            && (case.meshed_housing()).is_none_or(|housing| housing.plane.is_some());
+        ring_support(&format!("ring.supports[{index}]"), support, plane)?;
+    }
+    tie(case, ring)
+}
+
+fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
+    not_empty("ring.sections", ring.sections.len(), "at least one section")?;
+    for (index, section) in ring.sections.iter().enumerate() {
+        let at = |key: &str| format!("ring.sections[{index}].{key}");
+        known_isotropic(case, at("material"), &section.material)?;
+        above_zero(at("area"), section.area)?;
+        above_zero(at("inertia"), section.inertia)?;
+        for (key, given) in [
+            ("axial_inertia", section.axial_inertia),
+            ("torsion", section.torsion),
+        ] {
+            if let Some(value) = given {
+                above_zero(at(key), value)?;
+            }
+        }
+        above_zero(at("radius"), section.radius)?;
+        below(
+            at("inertia"),
+            section.inertia,
+            "area radius^2 / 3, that of a section which reaches the ring's axis",
+            section.area * section.radius.powi(2) / 3.0,
+        )?;
+        share(at("shear_coefficient"), section.shear_coefficient)?;
+        if let Some(outer) = ring.outer_radius {
+            above(
+                "ring.outer_radius",
+                outer,
+                "the section's radius",
+                section.radius,
+            )?;
+        }
+    }
+    if ring.bond == Bond::Composite && ring.radius_rule == RadiusRule::CommonCentroid {
+        let other = "`ring.bond = \"slip\"`";
+        return Err(Rule::Needs { other }.at("ring.radius_rule"));
+    }
+    Ok(())
+}
+
+fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), BrokenRule> {
+    degrees(format!("{key}.from_deg"), support.from_deg)?;
+    let to = format!("{key}.to_deg");
+    above(&to, support.to_deg, "`from_deg`", support.from_deg)?;
+    let sector = support.to_deg - support.from_deg;
+    if sector > 360.0 {
+        return Err(Rule::Beyond {
+            found: support.to_deg,
+            how: "at most",
+            what: "a full turn after `from_deg`",
+            other: support.from_deg + 360.0,
+        }
+        .at(to));
+    }
+    springs(&format!("{key}.spring"), support.spring, plane)
+}
+
+fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
+    let tie = match (&ring.tie, &case.housing) {
+        // the interface of a superelement is the ring itself
+        (None, None | Some(HousingSource::Superelement(_))) => return Ok(()),
+        (Some(_), Some(HousingSource::Superelement(_))) => {
+            let other = "housing.superelement";
+            return Err(Rule::Beside { other }.at("ring.tie"));
+        }
+        (None, Some(HousingSource::Mesh(_))) => return Err(Rule::Unconnected.at("ring")),
+        (Some(_), None) => {
+            let other = "[housing]";
+            return Err(Rule::Needs { other }.at("ring.tie"));
+        }
+        (Some(tie), Some(HousingSource::Mesh(_))) => tie,
+    };
+    direction("ring.tie.axis", tie.axis)?;
+    direction("ring.tie.zero_deg", tie.zero_deg)?;
+    let across = cross(tie.axis, tie.zero_deg);
+    // Directions nearer than about a millionth of a turn count as one.
+    if dot(across, across) <= 1e-12 * dot(tie.axis, tie.axis) * dot(tie.zero_deg, tie.zero_deg) {
+        return Err(Rule::AlongAxis.at("ring.tie.zero_deg"));
+    }
+    if tie.fit == Fit::Sliding && ring.supports.is_empty() {
+        return Err(Rule::FreeToTurn.at("ring.tie.fit"));
+    }
+    Ok(())
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}

@@ -1,0 +1,381 @@
+//! What moves, what is recorded, and how finely.
+
+use super::super::{
+    Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load,
+    Method, ModeExtent, ModesKept, SensorSpot, StepLength,
+};
+use super::range::{
+    above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor,
+    not_empty, ratio, share, zero_or_more, zero_to_one,
+};
+use super::rule::{BrokenRule, Rule};
+use crate::formats::is_array_name;
+
+/// Signals that every simulation records under these names.
+const RESERVED_NAMES: [&str; 6] = [
+    "time_s",
+    "shaft_x",
+    "shaft_y",
+    "ball_radius",
+    "outer_force",
+    "inner_force",
+];
+
+pub(super) fn shaft(case: &Case) -> Result<(), BrokenRule> {
+    if let Some(shaft) = &case.shaft {
+        above_zero("shaft.mass", shaft.mass)?;
+        zero_or_more("shaft.unbalance", shaft.unbalance)?;
+        for (index, load) in shaft.loads.iter().enumerate() {
+            let Load::Profile(points) = load else {
+                continue;
+            };
+            let key = format!("shaft.loads[{index}].profile");
+            not_empty(key.as_str(), points.len(), "at least one point")?;
+            increasing(&key, points.iter().map(|point| point.time))?;
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn damping(case: &Case) -> Result<(), BrokenRule> {
+    match &case.damping {
+        None => Ok(()),
+        Some(Damping::Modal(modal)) => ratio("damping.modal", *modal),
+        Some(Damping::Rayleigh { alpha, beta }) => {
+            zero_or_more("damping.alpha", *alpha)?;
+            zero_or_more("damping.beta", *beta)
+        }
+        Some(Damping::Ratios(points)) => {
+            for (index, point) in points.iter().enumerate() {
+                let at = |key: &str| format!("damping.ratios[{index}].{key}");
+                above_zero(at("frequency_hz"), point.frequency_hz)?;
+                ratio(at("ratio"), point.ratio)?;
+            }
+            above(
+                "damping.ratios[1].frequency_hz",
+                points[1].frequency_hz,
+                "the frequency before it",
+                points[0].frequency_hz,
+            )
+        }
+    }
+}
+
+pub(super) fn speed(case: &Case) -> Result<(), BrokenRule> {
+    let Some(speed) = &case.speed else {
+        return Ok(());
+    };
+    not_empty("speed.profile", speed.profile.len(), "at least one point")?;
+    increasing(
+        "speed.profile",
+        speed.profile.iter().map(|point| point.time),
+    )
+}
+
+/// Times of the points under `key`.
+fn increasing(key: &str, times: impl Iterator<Item = f64>) -> Result<(), BrokenRule> {
+    let times: Vec<f64> = times.collect();
+    for (index, pair) in times.windows(2).enumerate() {
+        let key = format!("{key}[{}].time", index + 1);
+        above(key, pair[1], "the time before it", pair[0])?;
+    }
+    Ok(())
+}
+
+pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
+    for (index, sensor) in case.sensors.iter().enumerate() {
+        let at = |key: &str| format!("sensors[{index}].{key}");
+        not_empty(at("name"), sensor.name.len(), "a name")?;
+        if !is_array_name(&sensor.name) {
+            let name = sensor.name.clone();
+            return Err(Rule::SignalName { name }.at(at("name")));
+        }
+        if RESERVED_NAMES.contains(&sensor.name.as_str()) {
+            let name = sensor.name.clone();
+            return Err(Rule::ReservedName { name }.at(at("name")));
+        }
+        if !matches!(sensor.spot, SensorSpot::Recovered(_)) {
+            direction(at("direction"), sensor.direction)?;
+        }
+        let mesh = match case.superelement() {
+            None => "[housing]",
+            Some(_) => {
+                "`housing.mesh` (a superelement has rows of its own sensors: `recovered = \"NAME\"`)"
+            }
+        };
+        let meshed = case.meshed_housing().is_some();
+        let (key, other, present) = match sensor.spot {
+            SensorSpot::Group(_) => ("group", mesh, meshed),
+            SensorSpot::Node(_) => ("node", mesh, meshed),
+            SensorSpot::Point(_) => ("point", mesh, meshed),
+            SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
+            SensorSpot::Recovered(_) => (
+                "recovered",
+                "`housing.superelement`",
+                case.superelement().is_some(),
+            ),
+        };
+        if !present {
+            return Err(Rule::Needs { other }.at(at(key)));
+        }
+        if let SensorSpot::RingDeg(angle) = sensor.spot {
+            degrees(at("ring_deg"), angle)?;
+        }
+    }
+    let names = case.sensors.iter().map(|sensor| sensor.name.as_str());
+    each_once(names, |index| format!("sensors[{index}].name"))
+}
+
+fn at_least_one(key: &str, found: usize) -> Result<(), BrokenRule> {
+    if found > 0 {
+        Ok(())
+    } else {
+        let expected = "at least 1";
+        Err(Rule::Count { found, expected }.at(key))
+    }
+}
+
+pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
+    match case.modes.extent {
+        ModeExtent::Count(count) => at_least_one("modes.count", count)?,
+        ModeExtent::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
+        ModeExtent::BandHz(band) => band_of("modes.band_hz", band)?,
+    }
+    if case.modes.ball_pass && case.modes.linearise == Linearise::None {
+        let other = "`modes.linearise = \"static\"`";
+        return Err(Rule::Needs { other }.at("modes.ball_pass"));
+    }
+    for (index, expected) in case.modes.expected.iter().enumerate() {
+        above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
+        fraction(format!("modes.expected[{index}].within"), expected.within)?;
+    }
+    for (index, variant) in case.modes.variants.iter().enumerate() {
+        let key = format!("modes.variants[{index}].set");
+        not_empty(key, variant.set.len(), "at least one KEY=VALUE")?;
+    }
+    mode_checks(case)
+}
+
+fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
+    for (index, other) in case.modes.compare.iter().enumerate() {
+        let at = |key: &str| format!("modes.compare[{index}].{key}");
+        share(at("mac"), other.mac)?;
+        fraction(at("within"), other.within)?;
+        if let Some(distance) = other.points_within {
+            above_zero(at("points_within"), distance)?;
+        }
+    }
+    let Some(convergence) = &case.modes.convergence else {
+        return Ok(());
+    };
+    let Some(housing) = case.meshed_housing() else {
+        let other = match case.superelement() {
+            None => "[housing]",
+            Some(_) => "`housing.mesh`",
+        };
+        return Err(Rule::Needs { other }.at("modes.convergence"));
+    };
+    let key = "modes.convergence.meshes";
+    not_empty(key, convergence.meshes.len(), "at least one other mesh")?;
+    // the case's own mesh is the first of the sequence
+    let own = housing.mesh.to_string_lossy();
+    let others = convergence.meshes.iter().map(|mesh| mesh.to_string_lossy());
+    let names: Vec<_> = [own].into_iter().chain(others).collect();
+    let names = names.iter().map(AsRef::as_ref);
+    each_once(names, |place| format!("{key}[{}]", place.saturating_sub(1)))?;
+    match convergence.order {
+        Some(order) => above_zero("modes.convergence.order", order),
+        None => Ok(()),
+    }
+}
+
+/// A band begins at zero or above and ends above its beginning.
+fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
+    zero_or_more(format!("{key}[0]"), lowest)?;
+    above(format!("{key}[1]"), highest, "the lowest frequency", lowest)
+}
+
+pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
+    if case.superelement().is_some() && case.condense.interface != Interface::Ring {
+        let other = "housing.superelement";
+        return Err(Rule::Beside { other }.at("condense.interface"));
+    }
+    if case.superelement().is_some() && case.condense.interface_modes != InterfaceModes::None {
+        let other = "housing.superelement";
+        return Err(Rule::Beside { other }.at("condense.interface_modes"));
+    }
+    match case.condense.interface_modes {
+        InterfaceModes::None => {}
+        InterfaceModes::Count(count) => above_zero("condense.interface_modes", count as f64)?,
+        InterfaceModes::UpToHz(limit) => above_zero("condense.interface_modes.up_to_hz", limit)?,
+    }
+    if let Interface::Nodes(nodes) = &case.condense.interface {
+        not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
+        let names: Vec<String> = nodes.iter().map(u64::to_string).collect();
+        each_once(names.iter().map(String::as_str), |index| {
+            format!("condense.interface.nodes[{index}]")
+        })?;
+    }
+    match case.condense.fixed_interface_modes {
+        FixedInterfaceModes::Auto | FixedInterfaceModes::Count(_) => Ok(()),
+        FixedInterfaceModes::UpToHz(limit) => {
+            above_zero("condense.fixed_interface_modes.up_to_hz", limit)
+        }
+    }
+}
+
+pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
+    let Some(frf) = &case.frf else {
+        return Ok(());
+    };
+    not_empty("frf.from", frf.from.len(), "at least one force")?;
+    for (index, push) in frf.from.iter().enumerate() {
+        direction(format!("frf.from[{index}].direction"), push.direction)?;
+        if let SensorSpot::RingDeg(angle) = push.spot {
+            degrees(format!("frf.from[{index}].ring_deg"), angle)?;
+        }
+    }
+    let names = frf.from.iter().map(|push| push.name.as_str());
+    each_once(names, |index| format!("frf.from[{index}].name"))?;
+    each_once(frf.to.iter().map(String::as_str), |index| {
+        format!("frf.to[{index}]")
+    })?;
+    for (index, name) in frf.to.iter().enumerate() {
+        known_sensor(case, format!("frf.to[{index}]"), name)?;
+    }
+    if let Some(band) = frf.band_hz {
+        band_of("frf.band_hz", band)?;
+    }
+    for (index, &hz) in frf.check_hz.iter().flatten().enumerate() {
+        zero_or_more(format!("frf.check_hz[{index}]"), hz)?;
+    }
+    Ok(())
+}
+
+pub(super) fn accuracy(case: &Case) -> Result<(), BrokenRule> {
+    let Some(accuracy) = &case.accuracy else {
+        return Ok(());
+    };
+    band_of("accuracy.band_hz", accuracy.band_hz)?;
+    fraction("accuracy.target", accuracy.target)
+}
+
+pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
+    let Some(transient) = &case.transient else {
+        return Ok(());
+    };
+    zero_or_more("transient.start", transient.start)?;
+    above(
+        "transient.end",
+        transient.end,
+        "`transient.start`",
+        transient.start,
+    )?;
+    if let Some(radius) = transient.spectral_radius {
+        zero_to_one("transient.spectral_radius", radius)?;
+        if transient.method != Method::GeneralizedAlpha {
+            return Err(Rule::Needs {
+                other: "`transient.method = \"generalized-alpha\"`",
+            }
+            .at("transient.spectral_radius"));
+        }
+    }
+    if let StepLength::Seconds(step) = transient.step {
+        above_zero("transient.step", step)?;
+        let length = transient.end - transient.start;
+        below("transient.step", step, "the simulated time", length)?;
+    }
+    if let Some(tolerance) = transient.tolerance {
+        fraction("transient.tolerance", tolerance)?;
+        if !matches!(transient.method, Method::Dop853 | Method::ExponentialAdams) {
+            return Err(Rule::Needs {
+                other: "`transient.method = \"dop853\"` or `\"exponential-adams\"`",
+            }
+            .at("transient.tolerance"));
+        }
+    }
+    if let ModesKept::Count(count) = transient.modes {
+        at_least_one("transient.modes", count)?;
+    }
+    let ensemble = transient.ensemble;
+    if !(2..=10_000).contains(&ensemble.runs) {
+        let (found, expected) = (ensemble.runs, "2 to 10000 runs");
+        return Err(Rule::Count { found, expected }.at("transient.ensemble.runs"));
+    }
+    fraction("transient.ensemble.perturbation", ensemble.perturbation)?;
+    above_zero("transient.output_hz", transient.output_hz)?;
+    if let Some(accuracy) = &case.accuracy
+        && transient.output_hz < 2.0 * accuracy.band_hz[1]
+    {
+        return Err(Rule::Beyond {
+            found: transient.output_hz,
+            how: "at least",
+            what: "twice the highest frequency of `accuracy.band_hz`",
+            other: 2.0 * accuracy.band_hz[1],
+        }
+        .at("transient.output_hz"));
+    }
+    Ok(())
+}
+
+pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
+    if let Some(corner) = case.analysis.high_pass_hz {
+        above_zero("analysis.high_pass_hz", corner)?;
+        below_half_the_rate(case, "analysis.high_pass_hz", corner)?;
+    }
+    if let Some(band) = case.analysis.band_hz {
+        let key = "analysis.band_hz";
+        if case.analysis.high_pass_hz.is_some() {
+            let other = "analysis.high_pass_hz";
+            return Err(Rule::Beside { other }.at(key));
+        }
+        if let EnvelopeBand::Between(edges) = band {
+            within_rate(case, key, edges)?;
+        }
+    }
+    for (index, window) in case.analysis.envelope.iter().enumerate() {
+        let key = format!("analysis.envelope[{index}]");
+        within_run(case, &key, [window.from, window.to])?;
+    }
+    if let Some(scalogram) = &case.analysis.scalogram {
+        let key = "analysis.scalogram";
+        within_run(case, key, [scalogram.from, scalogram.to])?;
+        within_rate(case, &format!("{key}.band_hz"), scalogram.band_hz)?;
+        cycles(format!("{key}.cycles"), scalogram.cycles)?;
+    }
+    Ok(())
+}
+
+/// A band of that key is one above zero, and lies below half the sampling rate.
+fn within_rate(case: &Case, key: &str, [low, high]: [f64; 2]) -> Result<(), BrokenRule> {
+    above_zero(format!("{key}[0]"), low)?;
+    above(format!("{key}[1]"), high, "the lowest frequency", low)?;
+    below_half_the_rate(case, &format!("{key}[1]"), high)
+}
+
+fn below_half_the_rate(case: &Case, key: &str, frequency_hz: f64) -> Result<(), BrokenRule> {
+    match &case.transient {
+        Some(transient) => below(
+            key,
+            frequency_hz,
+            "half of `transient.output_hz`",
+            0.5 * transient.output_hz,
+        ),
+        None => Ok(()),
+    }
+}
+
+/// A window of that key is one, and lies in the simulation.
+fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), BrokenRule> {
+    above(format!("{key}.to"), to, "`from`", from)?;
+    match &case.transient {
+        Some(transient) if from < transient.start || to > transient.end => Err(Rule::OutsideRun {
+            from,
+            to,
+            start: transient.start,
+            end: transient.end,
+        }
+        .at(key)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,290 @@
+//! `--set KEY=VALUE`: changing single values of a case file from outside.
+
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+
+use super::path::{Step, format_path, parse_path};
+use super::tree::{Mark, Node, Value};
+
+/// Why a `KEY=VALUE` argument cannot be applied.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SetProblem {
+    /// There is no `=` in it.
+    #[error("found no `=`, expected KEY=VALUE")]
+    NoEquals,
+    /// The part before `=` is not a key path.
+    #[error(
+        "found the key path `{found}`, expected names joined by dots, e.g. `bearing.defects[0].depth`"
+    )]
+    Key {
+        /// The key path as written.
+        found: String,
+    },
+    /// The part after `=` is neither TOML nor a bare word.
+    #[error("found the value `{found}`, expected a TOML value or a bare word: {message}")]
+    Value {
+        /// The value as written.
+        found: String,
+        /// The parser's reason.
+        message: String,
+    },
+    /// The path goes on below something that has no parts.
+    #[error("`{key}` is {found}, it has no keys of its own")]
+    NotATable {
+        /// The path up to that something.
+        key: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A position beyond an array's end, or in something that is no array.
+    #[error("found position {index} of `{key}`, expected one below {length}")]
+    Position {
+        /// The path of the array.
+        key: String,
+        /// The position asked for, from 0.
+        index: usize,
+        /// How many items there are; 0 also when there is no such array.
+        length: usize,
+    },
+}
+
+impl SetProblem {
+    /// Returns what to write instead.
+    #[must_use]
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NoEquals | Self::Key { .. } => {
+                "for example: --set bearing.formulation=printed, or --set 'bearing.defects[0].depth=2e-5'"
+            }
+            Self::Value { .. } => "quote it twice: --set 'title=\"with {braces}\"'",
+            Self::NotATable { .. } => "set that key itself",
+            Self::Position { .. } => {
+                "positions count from 0; to add an item set the whole array: --set 'KEY=[...]'"
+            }
+        }
+    }
+}
+
+/// Changes `root` as the argument says; what is set carries `mark`.
+///
+/// A table that is not there is made; whether the keys mean anything is for the decoder to say. An item of an array
+/// is reached by `[0]` or `.0`.
+///
+/// # Errors
+/// [`SetProblem`] when the argument is malformed or leads through a value without parts.
+pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), SetProblem> {
+    let (key, value) = split_argument(argument).ok_or(SetProblem::NoEquals)?;
+    let steps = parse_path(key).ok_or_else(|| SetProblem::Key {
+        found: key.to_owned(),
+    })?;
+    let value = read_value(value, mark)?;
+    let mut node = root;
+    for (depth, step) in steps.iter().enumerate() {
+        node = descend(node, &steps[..depth], step, mark)?;
+    }
+    *node = value;
+    Ok(())
+}
+
+/// The first argument of which a later one leaves nothing, and that one: it sets the same key, or a table or array around it.
+///
+/// ```
+/// use plummer::app::case::replaced_argument;
+///
+/// let set = ["shaft.mass=1", "modes={count=3}", "modes.count=4"].map(str::to_owned);
+/// assert_eq!(replaced_argument(&set), None);
+/// let set = ["modes.count=4", "modes={up_to_hz=1e4}"].map(str::to_owned);
+/// assert_eq!(replaced_argument(&set), Some(set));
+/// ```
+#[must_use]
+pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
+    let names = |argument: &String| -> Option<Vec<String>> {
+        let (key, _) = split_argument(argument)?;
+        let name = |step: Step| match step {
+            Step::Key(key) => key,
+            Step::Index(index) => index.to_string(),
+        };
+        Some(parse_path(key)?.into_iter().map(name).collect())
+    };
+    let keys: Vec<_> = arguments.iter().map(names).collect();
+    for (place, later) in keys.iter().enumerate() {
+        let Some(later) = later else { continue };
+        let earlier = keys[..place].iter().position(|earlier| {
+            (earlier.as_ref()).is_some_and(|earlier| earlier.starts_with(later))
+        });
+        if let Some(earlier) = earlier {
+            return Some([arguments[earlier].clone(), arguments[place].clone()]);
+        }
+    }
+    None
+}
+
+/// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
+#[must_use]
+pub fn split_argument(argument: &str) -> Option<(&str, &str)> {
+    let at = equals_sign(argument)?;
+    Some((argument[..at].trim(), argument[at + 1..].trim()))
+}
+
+/// Returns the offset of the first `=` outside quotes.
+fn equals_sign(argument: &str) -> Option<usize> {
+    let mut quote = None;
+    for (at, letter) in argument.char_indices() {
+        match (quote, letter) {
+            (None, '=') => return Some(at),
+            (None, '"' | '\'') => quote = Some(letter),
+            (Some(open), _) if open == letter => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Reads TOML; a text without quotes, brackets or braces that is not TOML stands for itself.
+fn read_value(text: &str, mark: Mark) -> Result<Node, SetProblem> {
+    let fault = match Node::read_value(text, mark) {
+        Ok(node) => return Ok(node),
+        Err(fault) => fault,
+    };
+    if text.is_empty() || text.contains(['"', '\'', '[', ']', '{', '}', '\n']) {
+        return Err(SetProblem::Value {
+            found: text.to_owned(),
+            message: fault.message,
+        });
+    }
+    Ok(Node {
+        mark,
+        value: Value::Text(text.to_owned()),
+    })
+}
+
+fn descend<'a>(
+    node: &'a mut Node,
+    above: &[Step],
+    step: &Step,
+    mark: Mark,
+) -> Result<&'a mut Node, SetProblem> {
+    let found = node.describe();
+    let beyond = |index, length| SetProblem::Position {
+        key: format_path(above),
+        index,
+        length,
+    };
+    match (&mut node.value, step) {
+        (Value::Table(entries), Step::Key(key)) => {
+            Ok(entries.entry(key.clone()).or_insert_with(|| Node {
+                mark,
+                value: Value::Table(BTreeMap::new()),
+            }))
+        }
+        (Value::List(items), step) => {
+            let index = match step {
+                Step::Index(index) => Some(*index),
+                Step::Key(key) => key.parse().ok(),
+            };
+            let length = items.len();
+            match index {
+                Some(index) => items.get_mut(index).ok_or_else(|| beyond(index, length)),
+                None => Err(SetProblem::NotATable {
+                    key: format_path(above),
+                    found,
+                }),
+            }
+        }
+        (_, Step::Index(index)) => Err(beyond(*index, 0)),
+        (_, Step::Key(_)) => Err(SetProblem::NotATable {
+            key: format_path(above),
+            found,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::path::parse_path;
+    use super::super::tree::{Mark, Node};
+    use super::apply;
+
+    const TEXT: &str = "title = \"a\"\n[bearing]\nballs = 7\n[[bearing.defects]]\ndepth = 1\n[[bearing.defects]]\ndepth = 2\n";
+
+    fn after(argument: &str, path: &str) -> (String, Mark) {
+        let mut root = Node::read(TEXT).unwrap();
+        apply(&mut root, argument, Mark::Set(4)).unwrap();
+        let mut node = &root;
+        for step in parse_path(path).unwrap() {
+            node = node.child(&step).unwrap();
+        }
+        (node.describe(), node.mark)
+    }
+
+    fn problem(argument: &str) -> String {
+        let mut root = Node::read(TEXT).unwrap();
+        apply(&mut root, argument, Mark::Set(0))
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn values_are_toml_or_bare_words() {
+        let set = Mark::Set(4);
+        for (argument, path, value) in [
+            ("bearing.balls=9", "bearing.balls", "9"),
+            ("bearing.balls = 9 ", "bearing.balls", "9"),
+            ("bearing.fit=sliding", "bearing.fit", "\"sliding\""),
+            ("bearing.fit=\"a=b\"", "bearing.fit", "\"a=b\""),
+            ("housing.mesh=../a b.msh", "housing.mesh", "\"../a b.msh\""),
+            ("ring.shear=false", "ring.shear", "false"),
+            (
+                "bearing.defects[1].depth=3",
+                "bearing.defects[1].depth",
+                "3",
+            ),
+            ("bearing.defects.1.depth=3", "bearing.defects[1].depth", "3"),
+            ("bearing.defects=[]", "bearing.defects", "an array of 0"),
+            ("a.b={c=[1,2]}", "a.b.c", "an array of 2"),
+            ("materials.\"x=y\".young=1", "materials.\"x=y\".young", "1"),
+        ] {
+            assert_eq!(after(argument, path), (value.to_owned(), set), "{argument}");
+        }
+    }
+
+    #[test]
+    fn the_rest_of_a_table_keeps_its_place() {
+        let (_, mark) = after("bearing.defects[1].depth=3", "bearing.defects[1]");
+        assert_eq!(mark, Mark::Line(6));
+        let (value, mark) = after("bearing.defects[1].depth=3", "bearing.defects[0].depth");
+        assert_eq!((value.as_str(), mark), ("1", Mark::Line(5)));
+    }
+
+    #[test]
+    fn a_malformed_argument_is_named() {
+        assert_eq!(problem("bearing.balls"), "found no `=`, expected KEY=VALUE");
+        assert_eq!(
+            problem("bearing..balls=1"),
+            "found the key path `bearing..balls`, expected names joined by dots, e.g. `bearing.defects[0].depth`"
+        );
+        assert_eq!(
+            problem("title.x=1"),
+            "`title` is \"a\", it has no keys of its own"
+        );
+        assert_eq!(
+            problem("bearing.defects.depth=1"),
+            "`bearing.defects` is an array of 2, it has no keys of its own"
+        );
+        assert_eq!(
+            problem("bearing.defects[2].depth=1"),
+            "found position 2 of `bearing.defects`, expected one below 2"
+        );
+        assert_eq!(
+            problem("bearing[0]=1"),
+            "found position 0 of `bearing`, expected one below 0"
+        );
+        assert!(
+            problem("bearing.defects=[1")
+                .starts_with("found the value `[1`, expected a TOML value or a bare word: ")
+        );
+        assert!(problem("title=").starts_with("found the value ``, expected a TOML value"));
+    }
+}

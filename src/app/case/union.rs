@@ -1,0 +1,237 @@
+//! Values that take one of several forms in the file: a word, a number or a table; one of several keys.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde::ser::{Serialize, Serializer};
+
+/// Why the form in the file does not make a value.
+#[derive(Debug, PartialEq)]
+pub(super) enum Mismatch {
+    /// Another kind of value, or a combination of keys that excludes itself.
+    Form {
+        found: String,
+        expected: &'static str,
+    },
+    /// A word that is none of those valid.
+    Word {
+        found: String,
+        valid: &'static [&'static str],
+    },
+    /// A key that this combination needs.
+    Missing { key: &'static str },
+}
+
+impl Mismatch {
+    pub(super) fn form(found: impl Into<String>, expected: &'static str) -> Self {
+        Self::Form {
+            found: found.into(),
+            expected,
+        }
+    }
+
+    pub(super) fn raise<E: de::Error>(self) -> E {
+        match self {
+            Self::Form { found, expected } => {
+                E::invalid_value(Unexpected::Other(&found), &expected)
+            }
+            Self::Word { found, valid } => E::unknown_variant(&found, valid),
+            Self::Missing { key } => E::missing_field(key),
+        }
+    }
+}
+
+/// Reads and writes a type by way of the type that mirrors its form in the file
+/// (`TryFrom<Form, Error = Mismatch>` and `From<Type>`). Its schema is that of the form, or what the function returns for a form
+/// whose type does not say it.
+macro_rules! written_as {
+    ($type:ty, $form:ty) => {
+        crate::app::case::union::written_as!(
+            $type,
+            $form,
+            crate::app::case::schema::table::<$form>
+        );
+    };
+    ($type:ty, $form:ty, $schema:expr) => {
+        impl schemars::JsonSchema for $type {
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                stringify!($type).into()
+            }
+
+            fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                $schema(generator)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $type {
+            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let form = <$form as serde::Deserialize>::deserialize(from)?;
+                <$type>::try_from(form).map_err(crate::app::case::union::Mismatch::raise)
+            }
+        }
+
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                serde::Serialize::serialize(&<$form>::from(self.clone()), to)
+            }
+        }
+    };
+}
+pub(super) use written_as;
+
+/// A value whose kind decides what it means; `T` is the table's type.
+#[derive(Debug)]
+pub(super) enum Loose<T> {
+    Word(String),
+    Whole(usize),
+    Number(f64),
+    Table(T),
+    /// A kind that no key of this sort takes, named.
+    Other(String),
+}
+
+impl<T> Loose<T> {
+    /// The error for a form that the key does not take.
+    pub(super) fn mismatch(&self, expected: &'static str) -> Mismatch {
+        let found = match self {
+            Self::Word(word) => format!("\"{word}\""),
+            Self::Whole(number) => number.to_string(),
+            Self::Number(number) => number.to_string(),
+            Self::Table(_) => "a table".to_owned(),
+            Self::Other(kind) => kind.clone(),
+        };
+        Mismatch::form(found, expected)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Loose<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(LooseVisitor(PhantomData))
+    }
+}
+
+impl<T: Serialize> Serialize for Loose<T> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Word(word) | Self::Other(word) => to.serialize_str(word),
+            Self::Whole(number) => number.serialize(to),
+            Self::Number(number) => to.serialize_f64(*number),
+            Self::Table(table) => table.serialize(to),
+        }
+    }
+}
+
+struct LooseVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for LooseVisitor<T> {
+    type Value = Loose<T>;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a word, a number or a table")
+    }
+
+    fn visit_str<E: de::Error>(self, word: &str) -> Result<Self::Value, E> {
+        Ok(Loose::Word(word.to_owned()))
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<Self::Value, E> {
+        // a negative number is refused whatever its last digits
+        Ok(usize::try_from(number).map_or(Loose::Number(number as f64), Loose::Whole))
+    }
+
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<Self::Value, E> {
+        // Beyond 2^53 no key has a use for it.
+        Ok(usize::try_from(number).map_or(Loose::Number(number as f64), Loose::Whole))
+    }
+
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<Self::Value, E> {
+        Ok(Loose::Number(number))
+    }
+
+    fn visit_bool<E: de::Error>(self, flag: bool) -> Result<Self::Value, E> {
+        Ok(Loose::Other(flag.to_string()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, _items: A) -> Result<Self::Value, A::Error> {
+        Ok(Loose::Other("an array".to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<Self::Value, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(entries)).map(Loose::Table)
+    }
+}
+
+/// The table of a [`Loose`] value that takes none: whatever is in it, the value is refused as a table.
+#[derive(Debug, serde::Serialize, serde::Deserialize)]
+pub(super) struct NoTable {}
+
+/// A number, or three for the directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum OneOrThree {
+    One(f64),
+    Three([f64; 3]),
+}
+
+impl<'de> Deserialize<'de> for OneOrThree {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(OneOrThreeVisitor)
+    }
+}
+
+impl Serialize for OneOrThree {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::One(number) => to.serialize_f64(*number),
+            Self::Three(numbers) => numbers.serialize(to),
+        }
+    }
+}
+
+struct OneOrThreeVisitor;
+
+impl<'de> Visitor<'de> for OneOrThreeVisitor {
+    type Value = OneOrThree;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a number or an array of three")
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number as f64))
+    }
+
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<Self::Value, E> {
+        Ok(OneOrThree::One(number))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = items.next_element()? {
+            numbers.push(number);
+        }
+        <[f64; 3]>::try_from(numbers)
+            .map(OneOrThree::Three)
+            .map_err(|numbers| de::Error::invalid_length(numbers.len(), &self))
+    }
+}
+
+impl schemars::JsonSchema for OneOrThree {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "OneOrThree".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let three = generator.subschema_for::<[f64; 3]>();
+        super::schema::any_of(&[super::schema::number(), three])
+    }
+}

@@ -1,0 +1,174 @@
+//! An earlier signal of the same machine that inputs are compared with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::read::{Unnamed, read};
+use super::source::Source;
+use super::{AnalyzeArguments, AnalyzeError, Missing};
+use crate::app::cli::{CliError, Options};
+use crate::app::stages::{EarlierSignal, StageError, WindowAnalysis, compare_window};
+use crate::formats::{MeasuredSignal, SignalRequest};
+use crate::numerics::series::TimeWindow;
+
+/// Whether a file of signals has instants or a sampling rate.
+fn states_its_rate(path: &Path) -> Result<bool, CliError> {
+    let found = read(path, SignalRequest::default(), Unnamed::Every).map_err(StageError::from)?;
+    Ok(!found.missing.contains(&Missing::Rate))
+}
+
+/// The signals of `--baseline`, read once for all inputs.
+pub(super) struct Baseline {
+    path: PathBuf,
+    source: Source,
+    window: Option<TimeWindow>,
+}
+
+impl Baseline {
+    /// Reads every channel of the baseline; `None` where none is named. The bearing is that of the inputs.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub(super) fn open(
+        asked: &AnalyzeArguments,
+        options: &Options,
+    ) -> Result<Option<Self>, CliError> {
+        let Some(path) = asked.baseline.clone() else {
+            return Ok(None);
+        };
+        let mut rate = asked.baseline_rate;
+        if rate.is_none() && asked.rate.is_some() && !path.is_dir() && !states_its_rate(&path)? {
+            rate = asked.rate;
+        }
+        // a run knows its speed itself
+        let of_inputs = asked.speed.clone().filter(|_| !path.is_dir());
+        let own = AnalyzeArguments {
+            channel: asked.baseline_channel.iter().cloned().collect(),
+            window: Vec::new(),
+            rate,
+            speed: asked.baseline_speed.clone().or(of_inputs),
+            ..asked.clone()
+        };
+        let mut source = Source::open(&own, &path, Unnamed::Every, options)?;
+        if asked.baseline_speed.is_none() {
+            source.prefer_own_speed();
+        }
+        Ok(Some(Self {
+            path,
+            source,
+            window: asked.baseline_window,
+        }))
+    }
+
+    /// What is to be said of its signals, as of those of an input.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let name = self.path.display();
+        let doubts = self.source.doubts.iter();
+        doubts
+            .map(|text| format!("--baseline {name}: {text}"))
+            .collect()
+    }
+
+    /// Compares the analysed windows of a signal of an input with the baseline.
+    ///
+    /// # Errors
+    /// [`AnalyzeError`]: no such channel in the baseline, another unit, a window outside it.
+    pub(super) fn compare(
+        &self,
+        input: &Path,
+        source: &Source,
+        signal: &MeasuredSignal,
+        windows: &mut [WindowAnalysis],
+    ) -> Result<(), CliError> {
+        let earlier = self.signal(signal)?;
+        let [expected, found] = [signal, earlier].map(|signal| signal.series.unit());
+        if !expected.is_empty() && !found.is_empty() && expected != found {
+            return Err(AnalyzeError::BaselineUnit {
+                baseline: self.path.clone(),
+                channel: earlier.name.clone(),
+                input: input.to_owned(),
+                expected: expected.to_owned(),
+                found: found.to_owned(),
+            }
+            .into());
+        }
+        let kinematics = source.kinematics(input, signal)?;
+        let before = self.source.kinematics(&self.path, earlier)?;
+        let name = self.path.display().to_string();
+        for window in windows {
+            let earlier = EarlierSignal {
+                name: &name,
+                signal: earlier,
+                window: self.window(source, earlier, window),
+                kinematics: &before,
+            };
+            let within_hz = window
+                .band
+                .judged_hz(source.settings.band, source.settings.good_to_hz);
+            let compared = compare_window(window, within_hz, signal, &kinematics, &earlier);
+            compared.map_err(|error| AnalyzeError::Baseline {
+                baseline: self.path.clone(),
+                channel: earlier.signal.name.clone(),
+                why: error.to_string(),
+            })?;
+            let Some(change) = window.change.as_mut() else {
+                continue;
+            };
+            let apart = change.window.to <= window.from || window.to <= change.window.from;
+            if self.is(input) && !apart {
+                change.warnings.push(format!(
+                    "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
+                ));
+            } else if signal.series.values() == earlier.signal.series.values() {
+                change.warnings.push(format!(
+                    "The baseline {name} has the input's own samples: it is a copy of it."
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The signal of the same name, else the only one.
+    fn signal(&self, signal: &MeasuredSignal) -> Result<&MeasuredSignal, AnalyzeError> {
+        let signals = &self.source.signals;
+        let mut same = signals.iter().filter(|other| other.name == signal.name);
+        match (same.next(), signals.as_slice()) {
+            (Some(same), _) => Ok(same),
+            (None, [only]) => Ok(only),
+            (None, others) => Err(AnalyzeError::BaselineChannel {
+                baseline: self.path.clone(),
+                channel: signal.name.clone(),
+                known: others.iter().map(|other| other.name.clone()).collect(),
+            }),
+        }
+    }
+
+    /// `--baseline-window`; else the input's own window, if windows are given and the baseline holds it; else all of it.
+    fn window(
+        &self,
+        source: &Source,
+        earlier: &MeasuredSignal,
+        window: &WindowAnalysis,
+    ) -> TimeWindow {
+        let series = &earlier.series;
+        let same = TimeWindow {
+            from: window.from,
+            to: window.to,
+        };
+        let samples = series.values().len();
+        let holds = |window: &TimeWindow| {
+            let inside = window.check_inside(series.start_s(), series.step_s(), samples);
+            !source.settings.windows.is_empty() && inside.is_ok()
+        };
+        let same = Some(same).filter(holds);
+        self.window.or(same).unwrap_or_else(|| series.span())
+    }
+
+    /// Whether an input is the baseline.
+    fn is(&self, input: &Path) -> bool {
+        match (fs::canonicalize(input), fs::canonicalize(&self.path)) {
+            (Ok(input), Ok(own)) => input == own,
+            _ => false,
+        }
+    }
+}

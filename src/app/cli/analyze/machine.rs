@@ -1,0 +1,193 @@
+//! The machine whose signals are analysed: its bearing and the speed of its shaft.
+
+use super::bearing::{Named, described, named_bearing, orders, without_bearing};
+use super::{AnalyzeArguments, GivenSpeed};
+use crate::app::case::Case;
+use crate::app::cli::{CliError, Options};
+use crate::app::stages::{Kinematics, bearing_setup};
+use crate::bearing::SpeedProfile;
+use crate::formats::MeasuredSignal;
+use crate::report::significant;
+use crate::signal::diagnosis::{Fault, FaultOrders};
+use crate::system::BearingSetup;
+
+/// Relative error of the orders of a real bearing: the contact angle under load and the cage's slip.
+const GEOMETRY_ERROR: f64 = 0.01;
+/// Rates and speeds that differ by less, relative, are the same: nominal speeds are rounded.
+const SAME: f64 = 0.01;
+
+/// A bearing and what is said of its shaft's speed.
+pub(super) struct Machine {
+    /// `None` where nothing says the bearing.
+    pub(super) orders: Option<FaultOrders>,
+    /// The bearing of a case that says its motion too, and the relative error of its orders.
+    setup: Option<(Box<BearingSetup>, f64)>,
+    typed: Option<GivenSpeed>,
+    of_case: Option<SpeedProfile>,
+    catalogue: Option<String>,
+    /// Whether what a file states of its speed goes before what was typed.
+    pub(super) own_first: bool,
+}
+
+impl Machine {
+    /// What was typed goes before what a case says. `case` is the one of a run's folder, or that of `--bearing`.
+    ///
+    /// # Errors
+    /// [`CliError`]: a bearing that is none, a case without one.
+    pub(super) fn of(
+        asked: &AnalyzeArguments,
+        is_run: bool,
+        case: Option<&Case>,
+        options: &Options,
+    ) -> Result<Self, CliError> {
+        // a folder's case may be told another bearing
+        let (other, catalogue) = match named_bearing(asked)? {
+            Some(Named::Catalogue(bearing)) => (None, Some(bearing)),
+            Some(Named::Case(path)) if is_run => (Some(Case::load(path, &options.set)?), None),
+            _ => (None, None),
+        };
+        let typed = asked.orders.is_some() || asked.balls.is_some() || catalogue.is_some();
+        let bearing = other.as_ref().or(case);
+        let moved = |case: Option<&Case>| {
+            let case = case.filter(|case| case.speed.is_some() && asked.speed.is_none());
+            let setup = case.map(|case| {
+                let setup = bearing_setup(case)?;
+                Ok::<_, CliError>(setup.ok_or_else(|| without_bearing(case))?)
+            });
+            setup.transpose()
+        };
+        let setup: Option<BearingSetup> = moved(bearing.filter(|_| !typed))?;
+        let of_case: Option<BearingSetup> = match setup {
+            Some(_) => None,
+            None => moved(case)?,
+        };
+        let simulated = is_run && other.is_none();
+        let exact = if simulated { 0.0 } else { GEOMETRY_ERROR };
+        Ok(Self {
+            orders: orders(
+                asked,
+                catalogue,
+                bearing,
+                asked.geometry_error.unwrap_or(GEOMETRY_ERROR),
+            )?,
+            setup: setup.map(|setup| (Box::new(setup), asked.geometry_error.unwrap_or(exact))),
+            typed: asked.speed.clone(),
+            of_case: of_case.map(|setup| setup.cage.shaft().clone()),
+            catalogue: catalogue.map(described),
+            own_first: false,
+        })
+    }
+
+    /// How a signal's machine moves, and what is taken for granted then, in words. `None` where nothing says the bearing or the
+    /// speed.
+    pub(super) fn motion(&self, signal: &MeasuredSignal) -> Option<(Kinematics<'_>, Vec<String>)> {
+        if let (Some((setup, error)), None) = (&self.setup, own_speed(signal)) {
+            let kinematics = match Kinematics::of(setup) {
+                Kinematics::Cage {
+                    cage,
+                    balls,
+                    rolling,
+                    ..
+                } => Kinematics::Cage {
+                    cage,
+                    balls,
+                    rolling,
+                    error: *error,
+                },
+                given => given,
+            };
+            let words = "Speed, slip and orders are those of the case, whose cage is prescribed.";
+            return Some((kinematics, vec![words.to_owned()]));
+        }
+        let orders = self.orders?;
+        let (speed, words) = self.speed_for(Some(signal))?;
+        let notes = self.catalogue.iter().cloned().chain([words, format!(
+            "Orders are known within {} %, a ball's as well as the geometry gives it then; the cage rolls without slip but for that.",
+            100.0 * orders.error(Fault::OuterRace)
+        )]);
+        Some((Kinematics::Given { orders, speed }, notes.collect()))
+    }
+
+    /// What is to be said where what was typed takes the place of what the file says of itself, or is less than it needs.
+    pub(super) fn overruled(
+        &self,
+        signal: &MeasuredSignal,
+        asked_rate: Option<(&str, f64)>,
+    ) -> Vec<String> {
+        let differ = |typed: f64, own: f64| (typed / own - 1.0).abs() > SAME;
+        let hz = |value: f64| significant(value, 6);
+        let rate = asked_rate.zip(signal.own_rate_hz);
+        let rate = rate.filter(|&((_, typed), own)| differ(typed, own));
+        let rate = rate.map(|((option, typed), own)| {
+            format!(
+                "{option} takes {} Hz for what the file says are {} Hz",
+                hz(typed),
+                hz(own)
+            )
+        });
+        let speed = self.typed.as_ref().filter(|_| !self.own_first);
+        let speed = speed.zip(own_speed(signal)).map(|(typed, own)| {
+            let span = signal.series.span();
+            let turns = typed.profile.angle(span.to) - typed.profile.angle(span.from);
+            (
+                turns.abs() / std::f64::consts::TAU / (span.to - span.from),
+                own,
+            )
+        });
+        let speed = speed.filter(|&(typed, own)| differ(typed, own));
+        let speed = speed.map(|(typed, own)| {
+            format!(
+                "--speed takes {} Hz, on the average, for what the file says are {} Hz",
+                hz(typed),
+                hz(own)
+            )
+        });
+        let span = signal.series.span();
+        let beyond = self.typed.iter().filter_map(|typed| {
+            let times: Vec<f64> = typed.profile.knot_times().collect();
+            let (&first, &last) = times.first().zip(times.last())?;
+            let covered = times.len() < 2 || (first <= span.from && span.to <= last);
+            let seconds = |value: f64| significant(value, 5);
+            (!covered).then(|| {
+                format!(
+                    "--speed says the speed from {} to {} s, and the signal lasts from {} to {} s: the speeds at the ends go on",
+                    seconds(first),
+                    seconds(last),
+                    seconds(span.from),
+                    seconds(span.to)
+                )
+            })
+        });
+        rate.into_iter().chain(speed).chain(beyond).collect()
+    }
+
+    /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.
+    pub(super) fn speed_for(
+        &self,
+        signal: Option<&MeasuredSignal>,
+    ) -> Option<(SpeedProfile, String)> {
+        let own_first = self.own_first && signal.and_then(own_speed).is_some();
+        if let Some(typed) = self.typed.as_ref().filter(|_| !own_first) {
+            let words = format!("The shaft turns as --speed says: {}.", typed.text.trim());
+            return Some((typed.profile.clone(), words));
+        }
+        if let Some(hz) = signal.and_then(own_speed) {
+            let words = format!(
+                "The shaft turns as the file says: {} Hz.",
+                significant(hz, 6)
+            );
+            return Some((SpeedProfile::constant(hz).ok()?, words));
+        }
+        let of_case = self.setup.as_ref().map(|(setup, _)| setup.cage.shaft());
+        let profile = of_case.or(self.of_case.as_ref())?;
+        Some((
+            profile.clone(),
+            "The shaft turns as the case says.".to_owned(),
+        ))
+    }
+}
+
+/// The shaft's speed that a file states of itself, Hz.
+fn own_speed(signal: &MeasuredSignal) -> Option<f64> {
+    signal.speed_hz.filter(|&hz| hz.is_finite() && hz > 0.0)
+}

@@ -1,0 +1,231 @@
+//! Orders of faults as they are typed.
+
+use std::fmt;
+
+use super::arguments::number;
+use crate::signal::diagnosis::FaultOrders;
+
+/// Names of the orders, in the order of [`GivenOrders`].
+const NAMES: [&str; 4] = ["outer", "inner", "ball", "cage"];
+/// The other names, each with its place and what its number is multiplied by. BSF is the spin of a ball: a flaw on it strikes both
+/// races, twice a spin.
+const OTHER_NAMES: [(&str, usize, f64); 4] = [
+    ("bpfo", 0, 1.0),
+    ("bpfi", 1, 1.0),
+    ("bsf", 2, 2.0),
+    ("ftf", 3, 1.0),
+];
+
+/// How near the sum of both races' orders must be to the number of balls, relative: printed orders are rounded.
+const WHOLE: f64 = 5e-3;
+/// Orders that differ by less, relative, are equal.
+const SAME: f64 = 1e-6;
+/// Orders that differ by less, relative, are within each other's uncertainty.
+const NEAR: f64 = 0.01;
+/// How near an order of the ball must be to half or twice the expected one, relative.
+const SPIN_TOLERANCE: f64 = 0.03;
+
+/// Orders of outer race, inner race, ball and cage: events per revolution of the shaft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GivenOrders(pub [Option<f64>; 4]);
+
+impl GivenOrders {
+    /// Reads `outer=3.585,inner=5.415,ball=4.713,cage=0.398` or some of them; or BPFO, BPFI, BSF (half of `ball`) and FTF.
+    ///
+    /// # Errors
+    /// What was found and what was expected: another name, a part that is there twice, a number that is no order.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let mut orders = [None; 4];
+        for part in text.split(',') {
+            let found = part.split_once('=').and_then(|(name, order)| {
+                let (place, factor) = place(&name.trim().to_ascii_lowercase())?;
+                Some((place, factor * number(order)?))
+            });
+            let Some((place, order)) = found else {
+                return Err(format!(
+                    "expected outer=, inner=, ball= or cage=, or BPFO=, BPFI=, BSF= (half of ball) or FTF=, and a number, found \"{part}\""
+                ));
+            };
+            if orders[place].replace(order).is_some() {
+                let other = OTHER_NAMES[place].0.to_ascii_uppercase();
+                return Err(format!("{} ({other}) is there twice", NAMES[place]));
+            }
+        }
+        FaultOrders::new(orders, 0.0).map_err(|error| error.to_string())?;
+        if let Some([first, second]) = nearest(&orders, SAME) {
+            return Err(format!(
+                "{} and {} are equal: lines of two parts at one order cannot be told apart",
+                NAMES[first], NAMES[second]
+            ));
+        }
+        Ok(Self(orders))
+    }
+
+    /// What is to be said of orders that can hardly be a bearing's: two within each other's uncertainty, races that are exchanged, a cage as fast as
+    /// half the shaft, races whose sum is no whole
+    /// number of balls, an order of the ball that is half or twice what the orders of the races give: the spin was taken for
+    /// what strikes, or the other way round. With gamma = (inner - outer) / (inner + outer) it is (1 - gamma^2) / gamma, times the
+    /// cosine of the contact angle.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        if let Some([first, second]) = nearest(&self.0, NEAR) {
+            return Some(format!(
+                "the orders of {} and {} differ by less than {} %: their lines can hardly be told apart",
+                NAMES[first],
+                NAMES[second],
+                100.0 * NEAR
+            ));
+        }
+        let [outer, inner, ball, cage] = self.0;
+        if let Some((outer, inner)) = outer.zip(inner)
+            && outer > inner
+        {
+            return Some(format!(
+                "BPFO={outer} of --orders is above BPFI={inner}: a ball passes the inner race more often, unless the outer ring turns; are the two exchanged?"
+            ));
+        }
+        if let Some(cage) = cage.filter(|cage| *cage >= 0.5) {
+            return Some(format!(
+                "FTF={cage} of --orders is half a revolution of the shaft or more: a cage turns more slowly, unless the outer ring turns"
+            ));
+        }
+        let (outer, inner) = outer.zip(inner)?;
+        let balls = outer + inner;
+        if (balls / balls.round() - 1.0).abs() > WHOLE {
+            return Some(format!(
+                "BPFO and BPFI of --orders sum up to {balls:.3}, which is no whole number of balls: is one of them wrong?"
+            ));
+        }
+        let ball = ball?;
+        let gamma = (inner - outer) / (inner + outer);
+        let expected = (1.0 - gamma * gamma) / gamma;
+        let is = |part: f64| (ball / (part * expected) - 1.0).abs() < SPIN_TOLERANCE;
+        let words = if is(0.5) {
+            format!("half of that: write BSF={ball} if the spin of a ball is meant")
+        } else if is(2.0) {
+            let spin = 0.5 * ball;
+            format!("twice that: write ball={spin} if the number after BSF= is not the spin")
+        } else {
+            return None;
+        };
+        Some(format!(
+            "by the orders of the races a flaw on a ball strikes {expected:.4} times a revolution; --orders has {ball}, {words}"
+        ))
+    }
+}
+
+impl fmt::Display for GivenOrders {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = NAMES.iter().zip(self.0);
+        let known = known.filter_map(|(name, order)| Some(format!("{name}={}", order?)));
+        to.write_str(&known.collect::<Vec<_>>().join(","))
+    }
+}
+
+/// The first two orders that differ by less than a part of the larger one.
+fn nearest(orders: &[Option<f64>; 4], part: f64) -> Option<[usize; 2]> {
+    let pairs = (0..4).flat_map(|first| (first + 1..4).map(move |second| [first, second]));
+    let mut near = pairs.filter(|&[first, second]| {
+        let pair = orders[first].zip(orders[second]);
+        pair.is_some_and(|(a, b)| (a - b).abs() <= part * a.max(b))
+    });
+    near.next()
+}
+
+/// Place of a name in small letters, and what its number is multiplied by.
+fn place(name: &str) -> Option<(usize, f64)> {
+    let own = NAMES.iter().position(|known| *known == name);
+    let own = own.map(|place| (place, 1.0));
+    own.or_else(|| {
+        let mut others = OTHER_NAMES.iter();
+        let &(_, place, factor) = others.find(|(known, ..)| *known == name)?;
+        Some((place, factor))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[allow(clippy::float_cmp)] // numbers as typed
+    #[test]
+    fn both_families_of_names_are_read_and_written_alike() {
+        let read = |text: &str| GivenOrders::parse(text).unwrap();
+        let all = [Some(3.585), Some(5.415), Some(4.714), Some(0.398)];
+        assert_eq!(read("outer=3.585,inner=5.415,ball=4.714,cage=0.398").0, all);
+        // the spin is half of what strikes
+        let other = read("BPFO=3.585, bpfi=5.415,Bsf = 2.357,FTF=0.398");
+        assert_eq!(other.0, all);
+        let text = other.to_string();
+        assert_eq!(text, "outer=3.585,inner=5.415,ball=4.714,cage=0.398");
+        assert_eq!(read(&text), other);
+        let some = read("Inner=5.4,OUTER=3.6");
+        assert_eq!(some.0, [Some(3.6), Some(5.4), None, None]);
+        assert_eq!(some.to_string(), "outer=3.6,inner=5.4");
+    }
+
+    #[test]
+    fn exchanged_races_and_a_fast_cage_are_doubted() {
+        let doubt = |text: &str| GivenOrders::parse(text).unwrap().doubt();
+        let exchanged = doubt("BPFO=5.415,BPFI=3.585,FTF=0.398").unwrap();
+        assert!(exchanged.contains("are the two exchanged?"), "{exchanged}");
+        let fast = doubt("BPFO=3.585,BPFI=5.415,FTF=0.6").unwrap();
+        assert!(fast.contains("FTF=0.6 of --orders"), "{fast}");
+        assert_eq!(doubt("BPFO=3.585,BPFI=5.415,FTF=0.398"), None);
+    }
+
+    #[test]
+    fn a_spin_in_the_place_of_what_strikes_is_doubted() {
+        let doubt = |text: &str| GivenOrders::parse(text).unwrap().doubt();
+        let races = "outer=3.5848,inner=5.4152";
+        assert_eq!(
+            doubt(&format!("{races},ball=2.357")).unwrap(),
+            "by the orders of the races a flaw on a ball strikes 4.7136 times a revolution; --orders has 2.357, half of that: write BSF=2.357 if the spin of a ball is meant"
+        );
+        assert_eq!(
+            doubt(&format!("{races},BSF=4.714")).unwrap(),
+            "by the orders of the races a flaw on a ball strikes 4.7136 times a revolution; --orders has 9.428, twice that: write ball=4.714 if the number after BSF= is not the spin"
+        );
+        for right in ["ball=4.7135", "bsf=2.357", "ball=3.8", "cage=0.4"] {
+            assert_eq!(doubt(&format!("{races},{right}")), None, "{right}");
+        }
+        assert_eq!(doubt("outer=3,inner=4,ball=4.5"), None);
+        assert_eq!(
+            doubt("outer=3.585,inner=5.145").unwrap(),
+            "BPFO and BPFI of --orders sum up to 8.730, which is no whole number of balls: is one of them wrong?"
+        );
+        assert_eq!(
+            doubt("outer=3.585,inner=3.6,ball=4").unwrap(),
+            "the orders of outer and inner differ by less than 1 %: their lines can hardly be told apart"
+        );
+        assert_eq!(doubt("ball=2.357"), None);
+    }
+
+    #[test]
+    fn what_is_no_order_is_said() {
+        let expected = "expected outer=, inner=, ball= or cage=, or BPFO=, BPFI=, BSF= (half of ball) or FTF=, and a number, found";
+        for (text, message) in [
+            ("outer=3.6,top=1", format!("{expected} \"top=1\"")),
+            ("bpfo", format!("{expected} \"bpfo\"")),
+            ("", format!("{expected} \"\"")),
+            ("bsf=x", format!("{expected} \"bsf=x\"")),
+            ("outer=3.6,BPFO=1", "outer (BPFO) is there twice".to_owned()),
+            (
+                "ball=4.714,bsf=2.357",
+                "ball (BSF) is there twice".to_owned(),
+            ),
+            (
+                "bpfo=3.585,cage=0.4,inner=3.585",
+                "outer and inner are equal: lines of two parts at one order cannot be told apart"
+                    .to_owned(),
+            ),
+            (
+                "outer=-1",
+                "order of the outer race: expected a number above 0 and at most 200, found -1"
+                    .to_owned(),
+            ),
+        ] {
+            assert_eq!(GivenOrders::parse(text).unwrap_err(), message);
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! One file or folder, analysed.
+
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::baseline::Baseline;
+use super::read::Unnamed;
+use super::source::Source;
+use super::{AnalyzeArguments, RESULT, command, warn, write_table};
+use crate::app::cli::report_files::ReportFiles;
+use crate::app::cli::results::{stages_s, windows_json};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::stages::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
+use crate::report::significant;
+use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
+
+/// Analyses an input into a folder.
+///
+/// # Errors
+/// As [`analyze`](super::analyze).
+pub(super) fn single(
+    input: &Path,
+    asked: &AnalyzeArguments,
+    options: &Options,
+    folder: &OutputFolder,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let progress = Progress::new(options.visibility());
+    progress.stage("read");
+    let source = Source::open(asked, input, Unnamed::Only, options)?;
+    let baseline = Baseline::open(asked, options)?;
+    let mut doubts = source.doubts.clone();
+    doubts.extend(baseline.iter().flat_map(Baseline::doubts));
+    warn(&doubts, options);
+    folder.claim(RESULT, options.force)?;
+    progress.stage("analyse");
+    let mut windows = Vec::new();
+    for signal in &source.signals {
+        let mut analysed = source.analyse(input, signal)?;
+        if let Some(baseline) = &baseline {
+            baseline.compare(input, &source, signal, &mut analysed)?;
+        }
+        windows.extend(analysed);
+    }
+    progress.stage("write");
+    let name = input.display().to_string();
+    let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
+    report.warnings.extend(asked.doubts());
+    report.warnings.extend(doubts);
+    let files = ReportFiles::without_case(folder, RESULT, report)?;
+    let rows: Vec<AnalysisRow> = windows
+        .iter()
+        .map(|window| AnalysisRow::of(&name, window))
+        .collect();
+    let table = write_table(folder, &rows)?;
+    let mut map = Map::new();
+    for (key, value) in [
+        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
+        ("command", json!("analyze")),
+        (
+            "case",
+            json!(source.case.as_ref().map(|path| path.display().to_string())),
+        ),
+        ("input", json!(name)),
+        ("wall_s", json!(started.elapsed().as_secs_f64())),
+        ("stages_s", stages_s(&progress)),
+        ("threads", json!(rayon::current_num_threads())),
+        ("tables", json!(files.tables)),
+        (
+            "defect_orders",
+            source.defect_orders(input, windows.first())?,
+        ),
+        ("windows", windows_json(&windows)),
+    ] {
+        map.insert(key.to_owned(), value);
+    }
+    let json = Value::Object(map);
+    let path = folder.write("analysis.json", format!("{json:#}\n").as_bytes())?;
+    progress.finish();
+    Ok(Outcome {
+        summary: summary(&windows),
+        result: json,
+        written: [vec![path, table], files.paths].concat(),
+        verdict: verdict(&windows),
+    })
+}
+
+fn judged(window: &WindowAnalysis) -> bool {
+    let diagnosis = window.diagnosis.as_ref();
+    diagnosis.is_ok_and(Diagnosis::is_judged)
+}
+
+fn verdict(windows: &[WindowAnalysis]) -> Verdict {
+    if windows.iter().any(judged) {
+        return Verdict::Good;
+    }
+    let reason = windows.iter().find_map(|window| match &window.diagnosis {
+        Ok(diagnosis) => Some(diagnosis.faults.first()?.why.clone()),
+        Err(reason) => Some(reason.clone()),
+    });
+    no_part_judged(reason.as_deref().unwrap_or("no orders"))
+}
+
+/// No verdict at all.
+pub(super) fn no_part_judged(reason: &str) -> Verdict {
+    Verdict::Bad {
+        what: format!("no part could be judged in any window: {reason}"),
+        help: Some(
+            "where the window is too short, take a longer --window; where lines coincide, check --bearing or --orders, and --speed"
+                .to_owned(),
+        ),
+    }
+}
+
+/// What grew, and the RMS.
+fn change_lines(change: &WindowChange) -> Vec<String> {
+    let mut lines: Vec<String> = change
+        .warnings
+        .iter()
+        .map(|text| format!("  warning: {text}"))
+        .collect();
+    let mut grew = change.with(ChangeConclusion::Grew).peekable();
+    if grew.peek().is_none() {
+        let compared = change.lines.iter().any(|line| line.change_db.is_some());
+        let what = if compared {
+            "nothing grew since"
+        } else {
+            "the lines of no part can be compared with"
+        };
+        lines.push(format!("  {what} {}", change.baseline));
+    }
+    lines.extend(grew.map(|line| {
+        format!(
+            "  {} grew since {}: {}",
+            line.name,
+            change.baseline,
+            line.words()
+        )
+    }));
+    if let Some(rms) = change.levels.first() {
+        let words = change_words(rms.change_db, rms.interval_db);
+        lines.push(format!("  RMS {}: {words}", rms.conclusion.words()));
+    }
+    lines
+}
+
+fn summary(windows: &[WindowAnalysis]) -> String {
+    let mut lines = Vec::new();
+    for window in windows {
+        let place = format!(
+            "{} from {} to {} s",
+            window.sensor,
+            significant(window.from, 5),
+            significant(window.to, 5)
+        );
+        match &window.diagnosis {
+            Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
+            Ok(diagnosis) => {
+                lines.push(format!(
+                    "{place} (shaft {} Hz, {} turns): {}",
+                    significant(diagnosis.speed_hz, 4),
+                    significant(diagnosis.spectrum.turns, 3),
+                    diagnosis.sentence()
+                ));
+                for verdict in &diagnosis.faults {
+                    if verdict.conclusion != Conclusion::NotSeen {
+                        lines.push(format!("  {}: {}", verdict.fault.name(), verdict.why));
+                    }
+                }
+            }
+        }
+        lines.extend(window.change.iter().flat_map(change_lines));
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,210 @@
+//! Many files and folders, analysed into one table.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde_json::{Value, json};
+
+use super::baseline::Baseline;
+use super::each::each;
+use super::failures::{Failure, failure};
+use super::read::Unnamed;
+use super::single::no_part_judged;
+use super::source::Source;
+use super::terminal;
+use super::{AnalyzeArguments, RESULT, command, warn, write_table};
+use crate::app::cli::report_files::ReportFiles;
+use crate::app::cli::results::{stages_s, window_json};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::stages::{
+    AnalysisRow, SHOWN_WINDOWS, WindowAnalysis, survey_report, survey_section,
+};
+use crate::report::Section;
+
+/// What is kept of an input: what the table, the result and the report have of it.
+#[derive(Debug, Default)]
+struct Analysed {
+    /// What `analysis.json` says of the input; nothing of one that could not be read.
+    json: Option<Value>,
+    assumptions: Vec<String>,
+    rows: Vec<AnalysisRow>,
+    windows: Vec<Value>,
+    sections: Vec<Section>,
+    warnings: Vec<String>,
+    failures: Vec<Failure>,
+}
+
+/// Analyses every input into one folder.
+///
+/// # Errors
+/// [`CliError`]: an earlier result, a file that cannot be written, no input that can be analysed.
+pub(super) fn survey(
+    inputs: &[PathBuf],
+    asked: &AnalyzeArguments,
+    options: &Options,
+    folder: &OutputFolder,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let baseline = Baseline::open(asked, options)?;
+    folder.claim(RESULT, options.force)?;
+    let progress = Progress::new(options.visibility());
+    progress.stage("analyse");
+    let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    progress.count(0, inputs.len());
+    let analysed = each(inputs, |input| {
+        let analysed = Analysed::of(input, asked, options, baseline.as_ref(), &shown);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.count(done, inputs.len());
+        analysed
+    });
+    progress.stage("write");
+    let mut all = Analysed::default();
+    let mut of_inputs = Vec::new();
+    let mut failed = 0;
+    for one in analysed {
+        failed += usize::from(!one.failures.is_empty());
+        of_inputs.extend(one.json);
+        all.rows.extend(one.rows);
+        all.windows.extend(one.windows);
+        all.sections.extend(one.sections);
+        all.warnings.extend(one.warnings);
+        all.failures.extend(one.failures);
+        for text in one.assumptions {
+            if !all.assumptions.contains(&text) {
+                all.assumptions.push(text);
+            }
+        }
+    }
+    if all.windows.is_empty() {
+        progress.finish();
+        return Err(failure(&all.failures, failed, inputs.len()));
+    }
+    let mut report = survey_report(
+        inputs.len(),
+        &all.rows,
+        all.sections,
+        &all.assumptions,
+        &command(asked),
+    );
+    report.warnings.extend(asked.doubts());
+    all.warnings
+        .extend(baseline.iter().flat_map(Baseline::doubts));
+    warn(&all.warnings, options);
+    report.warnings.extend(all.warnings);
+    let files = ReportFiles::without_case(folder, RESULT, report)?;
+    let table = write_table(folder, &all.rows)?;
+    let failures = all.failures.iter().map(|failure| {
+        json!({
+            "input": failure.input,
+            "channel": failure.channel,
+            "error": failure.message,
+        })
+    });
+    let json = json!({
+        "plummer": env!("CARGO_PKG_VERSION"),
+        "command": "analyze",
+        "inputs": of_inputs,
+        "failures": failures.collect::<Vec<_>>(),
+        "wall_s": started.elapsed().as_secs_f64(),
+        "stages_s": stages_s(&progress),
+        "threads": rayon::current_num_threads(),
+        "tables": files.tables,
+        "windows": all.windows,
+    });
+    let error = (failed > 0).then(|| failure(&all.failures, failed, inputs.len()));
+    let path = folder.write("analysis.json", format!("{json:#}\n").as_bytes())?;
+    progress.finish();
+    Ok(Outcome {
+        summary: terminal::table(&all.rows),
+        result: json,
+        written: [vec![path, table], files.paths].concat(),
+        verdict: verdict(&all.rows, error),
+    })
+}
+
+impl Analysed {
+    /// Reads and analyses an input. `shown` counts the windows of all inputs: a report shows few.
+    fn of(
+        input: &Path,
+        asked: &AnalyzeArguments,
+        options: &Options,
+        baseline: Option<&Baseline>,
+        shown: &AtomicUsize,
+    ) -> Self {
+        let mut analysed = Self::default();
+        let name = input.display().to_string();
+        let source = match Source::open(asked, input, Unnamed::Every, options) {
+            Ok(source) => source,
+            Err(error) => {
+                analysed.fail(&name, "", &error);
+                return analysed;
+            }
+        };
+        let named = |text: &String| format!("{name}: {text}");
+        analysed.warnings.extend(source.doubts.iter().map(named));
+        let mut orders = None;
+        for signal in &source.signals {
+            let compared = |mut windows: Vec<WindowAnalysis>| {
+                if let Some(baseline) = baseline {
+                    baseline.compare(input, &source, signal, &mut windows)?;
+                }
+                Ok::<_, CliError>(windows)
+            };
+            let windows = match source.analyse(input, signal).and_then(compared) {
+                Ok(windows) => windows,
+                Err(error) => {
+                    analysed.fail(&name, &signal.name, &error);
+                    continue;
+                }
+            };
+            for window in &windows {
+                analysed.rows.push(AnalysisRow::of(&name, window));
+                for text in window.change.iter().flat_map(|change| &change.warnings) {
+                    analysed.warnings.push(format!("{name}: {text}"));
+                }
+                let mut json = window_json(window);
+                json["input"] = json!(name);
+                analysed.windows.push(json);
+                if shown.fetch_add(1, Ordering::Relaxed) < SHOWN_WINDOWS {
+                    analysed.sections.push(survey_section(&name, window));
+                }
+            }
+            if orders.is_none() {
+                orders = source.defect_orders(input, windows.first()).ok();
+            }
+        }
+        analysed.json = Some(json!({
+            "input": name,
+            "case": source.case.map(|path| path.display().to_string()),
+            "defect_orders": orders,
+        }));
+        analysed.assumptions = source.assumptions;
+        analysed
+    }
+
+    fn fail(&mut self, input: &str, channel: &str, error: &CliError) {
+        let failure = Failure::of(input, channel, error);
+        let why = failure.message.clone();
+        self.rows.push(AnalysisRow::failed(input, channel, why));
+        self.failures.push(failure);
+    }
+}
+
+/// Good where all was analysed and a part was judged in any window.
+fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Verdict {
+    match error {
+        Some(CliError::WrongInput { what, help }) => return Verdict::WrongInput { what, help },
+        Some(error) => {
+            return Verdict::Bad {
+                what: error.to_string(),
+                help: error.help(),
+            };
+        }
+        None => {}
+    }
+    let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
+    if rows.iter().any(judged) {
+        return Verdict::Good;
+    }
+    no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark))
+}

@@ -1,0 +1,630 @@
+//! What can be written on the command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use super::progress::Visibility;
+use super::{AnalyzeArguments, InitArguments, SweepArguments};
+use crate::app::case::Case;
+use crate::app::shell_word::shell_word;
+use crate::app::stages::CHECKPOINT_S;
+use crate::app::studies::chart::Effort;
+use crate::numerics::units::LengthUnit;
+
+const EXAMPLES: &str = "\
+Examples:
+  plummer inspect meshes/ring_6_9.msh --length-unit mm
+  plummer run examples/tadina2011/outer-dent.toml
+  plummer modes examples/tadina2011/beam.toml --set ring.shear=true --out out/with-shear --json
+  plummer export examples/scenes/pedestal.toml --to mtx
+  plummer verify
+
+Exit codes:
+  0  done
+  1  it ran and the answer is bad, or could not be computed
+  2  the input is wrong: the message names file, line or key, what was found and what was expected";
+
+const RUN_EXAMPLE: &str = "\
+Examples: the dented bearing with a deeper dent, in a folder of its own; the same again after Ctrl-C or a power failure
+  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper
+  plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper --resume
+
+Long runs: memory does not grow with the simulated time; signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
+keeps a checkpoint and ends with exit code 1, a second Ctrl-C ends at once. --resume goes on to the same signals, to the last
+bit, as without a stop, if program, case, --set and meshes are the same.";
+
+const INIT_EXAMPLE: &str = "\
+Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings that the program knows
+  plummer init housing.msh --length-unit mm
+  plummer init housing.msh --length-unit mm --bearing 6205 --out motor.toml
+  plummer init --list-bearings
+
+The file says of every value whether it is from the mesh, the catalogue, usual or a guess; what could not be told is there as a
+template, commented out. plummer modes FILE runs at once where the mesh allows it.
+
+Bore: the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports: groups
+named like a foot, base, bolt, clamp or support.";
+
+const INSPECT_EXAMPLE: &str = "\
+Example: a solid housing drawn in millimetres
+  plummer inspect meshes/pedestal.msh --length-unit mm --density 2700";
+
+const MODES_EXAMPLE: &str = "\
+Example: the published frequencies with the consistent equations instead of the printed ones
+  plummer modes examples/tadina2011/beam.toml --set bearing.formulation=consistent --out out/consistent";
+
+const CONDENSE_EXAMPLE: &str = "\
+Example: a housing on the nodes of its bore, its frequencies against those of the full model
+  plummer condense examples/scenes/pedestal.toml --compare-full
+
+Files:
+  superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mbdyn;
+                    in another case it takes the housing's place: [housing] superelement = \"superelement.npz\"
+  condense.json     checks with limits and verdicts, estimated errors
+
+Large interfaces: condense.interface_modes = 30 in the case puts modes of the interface in the place of its coordinates. This
+belongs to this command alone: run, modes and frf keep the whole interface, export --to op4 and mbdyn refuse it.";
+
+const FRF_EXAMPLE: &str = "\
+Example: what a force on the raceway does at the sensors, against the full model at its peaks
+  plummer frf examples/transfer/pedestal.toml
+
+Files:
+  frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path
+  frf.uff   the same for test software (universal file, dataset 58)";
+
+const CHART_EXAMPLE: &str = "\
+Examples: which method and step the dented bearing needs; a first look in a fraction of the time
+  plummer chart examples/scenes/impact.toml
+  plummer chart examples/scenes/smooth.toml --quick
+  plummer chart examples/scenes/impact.toml --only stability
+
+Files:
+  chart.json      points, front, the program's choice, omissions with their reasons, horizon, statistics of the ensemble
+  chart.svg       error against wall time
+  stability.json  method x step x condition: stable, resonant or unstable, with predicted and measured limits
+  stability.svg   the same as a map; resonance.svg: a mode in resonance with the step
+  report.html     the same to zoom into, and tables
+
+Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
+
+const ANALYZE_EXAMPLE: &str = "\
+Examples: a run of this program; a recorder's table, with a bearing by its drawing, and by its name; a run-up of a bearing with orders of a catalogue;
+many files in one table
+  plummer analyze out/outer-dent --window 1.0:2.6
+  plummer analyze bench.csv --channel P1 --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 29.95
+  plummer analyze bench.csv --channel P1 --bearing 6205 --speed 1797rpm
+  plummer analyze rise.wav --orders BPFO=3.585,BPFI=5.415,BSF=2.357,FTF=0.398 --speed 0:600rpm,8:3000rpm --band 6000:12000
+  plummer analyze records/*.csv --bearing 6205 --speed 1797rpm --out out/records
+
+Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
+the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+
+Several files: a row a file, channel and window; every channel of each file unless --channel names some. A file that cannot be
+analysed has a row that says why, the others are analysed, and the exit code is 2.
+
+Verdicts: named, not enough evidence, not seen, each with its evidence and the probability that noise alone looks like it;
+docs/diagnosis.md says what they rest on. Windows need 16 events of a part at least: 7 shaft turns for most bearings.
+
+Files:
+  analysis.json  windows with strongest peaks and verdicts
+  analysis.csv   a row a window: RMS, kurtosis, what is indicated; of each part conclusion, probability, strength
+  report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons; of several files their table, and
+                 plots of up to 12 windows";
+
+const EXPORT_EXAMPLE: &str = "\
+Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
+housing for Nastran and pyYeti
+  plummer export examples/scenes/pedestal.toml --to mtx
+  plummer export out/pedestal --to vtu
+  plummer export examples/scenes/pedestal.toml --to op4
+
+Files:
+  vtu  modes.vtu, ring.vtu: elements with a field a mode (ParaView, PyVista)
+  uff  modes.uff, ring.uff: nodes, elements, mode shapes (universal file, datasets 2411, 2412, 55)
+  mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
+  npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
+  op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA, K4AA of the condensed housing, interface first (pyyeti.nastran.op4)
+  mbdyn  superelement.fem: data of MBDyn's modal joint";
+
+const SWEEP_EXAMPLE: &str = "\
+Examples: play and dent of the paper's bearing on all cores; the frequencies over the springs' stiffness; the first on a cluster
+  plummer sweep examples/tadina2011/outer-dent.toml --vary bearing.radial_play=1e-6:4e-6:4 --vary 'bearing.defects[0].depth=5e-6,15e-6'
+  plummer sweep examples/tadina2011/beam.toml --command modes --vary ring.nodes=36,72,144
+  plummer sweep examples/tadina2011/outer-dent.toml --vary bearing.radial_play=1e-6:4e-6:4 --out out/play --slurm && sh out/play/sweep/submit.sh
+
+Points that fail are listed and do not stop the others: the exit code is 0 if any point has a result. Ctrl-C keeps checkpoints;
+--resume goes on. Each point is a process with a folder of its own, DIR/sweep/NUMBER, as `plummer run` or `plummer modes` leaves it.
+
+Files:
+  sweep.csv    a row a point: values, state, wall time, figures of its result
+  sweep.npz    the same as arrays (numpy.load); shape: the lengths of the axes, for reshape
+  sweep.json   the axes; state, exit code and message of each point
+  report.html  plots over what was varied, points that are not done, the table";
+
+const COMPLETIONS_EXAMPLE: &str = "\
+Example: for bash, from the next shell on
+  plummer completions bash > ~/.local/share/bash-completion/completions/plummer";
+
+const MAN_EXAMPLE: &str = "\
+Examples: to read it; the pages of all commands, for man
+  plummer man | man -l -
+  plummer man --out ~/.local/share/man/man1";
+
+const REPORT_EXAMPLE: &str = "\
+Example: the pages of results that an earlier version computed; the results stay as they are
+  plummer report out/outer-dent
+
+Nothing is computed: the content of each page lies beside it as report.cbor.gz (CBOR, packed by gzip).";
+
+const VERIFY_EXAMPLE: &str = "\
+Examples: every built-in check of seconds; those of minutes too: orders of convergence, readings of the paper
+  plummer verify
+  plummer verify --full --out out/readings
+
+Files:
+  verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
+  report.html   the same as tables; with --full the charts of orders and readings
+  readings.csv  with --full: every reading and its frequencies (readings-that-fit.csv: those that give all three)";
+
+const SCHEMA_EXAMPLE: &str = "\
+Example: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML
+  plummer schema > plummer.schema.json
+
+The first line of a case file names the schema, relative to the case: #:schema plummer.schema.json
+Keys, kinds of values, options, and keys that exclude each other are in it; ranges and what needs the mesh are checked by every
+command that reads a case.";
+
+/// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "plummer", version, after_help = EXAMPLES, arg_required_else_help = true)]
+pub struct Arguments {
+    /// What to compute.
+    #[command(subcommand)]
+    pub command: Command,
+    /// How, and where the results go.
+    #[command(flatten)]
+    pub options: Options,
+}
+
+/// What to compute.
+#[derive(Debug, Clone, Subcommand)]
+pub enum Command {
+    /// Static equilibrium, run-up transient, signals, analysis and report
+    #[command(after_help = RUN_EXAMPLE)]
+    Run {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Say which model the run would take and why, with the estimated errors, and run nothing
+        #[arg(long, conflicts_with = "resume")]
+        explain: bool,
+        /// Go on with the unfinished run in the folder for the results
+        #[arg(long)]
+        resume: bool,
+        /// Seconds of wall time between checkpoints; longer where they would take more than 4 % of it
+        #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
+        checkpoint_every: f64,
+    },
+    /// A commented case file from a mesh: bore, bearing, parts and supports by its named groups
+    #[command(after_help = INIT_EXAMPLE)]
+    Init(InitArguments),
+    /// What a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
+    #[command(after_help = INSPECT_EXAMPLE)]
+    Inspect {
+        /// Mesh file (gmsh MSH 4.1 or 2.2)
+        mesh: PathBuf,
+        /// Unit of the mesh's coordinates: m, cm, mm, um or in (the file does not say)
+        #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
+        length_unit: Option<LengthUnit>,
+        /// Density in kg/m^3 for the mass (default: aluminium and steel)
+        #[arg(long, allow_hyphen_values = true, value_name = "RHO", value_parser = density)]
+        density: Option<f64>,
+    },
+    /// Eigenfrequencies of housing, ring, or both coupled; checks the expected ones
+    #[command(after_help = MODES_EXAMPLE)]
+    Modes {
+        /// Case file (TOML)
+        case: PathBuf,
+    },
+    /// Craig-Bampton superelement of a housing, its error estimate and its checks
+    #[command(after_help = CONDENSE_EXAMPLE)]
+    Condense {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Compute the full model too, and compare; error against size
+        #[arg(long)]
+        compare_full: bool,
+    },
+    /// Transfer paths from forces to sensors, reduced against full
+    #[command(after_help = FRF_EXAMPLE)]
+    Frf {
+        /// Case file (TOML)
+        case: PathBuf,
+    },
+    /// Speed against accuracy of the simulation over methods, steps and sizes of the model, and the stability map
+    #[command(after_help = CHART_EXAMPLE)]
+    Chart {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Fewer starts, a shorter span and fewer models; fewer conditions and steps, and shorter runs
+        #[arg(long)]
+        quick: bool,
+        /// Make one of the two charts alone
+        #[arg(long, value_name = "PART", value_enum)]
+        only: Option<ChartPart>,
+    },
+    /// Which part of a bearing is damaged, by a run's signal or a measured one
+    #[command(after_help = ANALYZE_EXAMPLE)]
+    Analyze(Box<AnalyzeArguments>),
+    /// Many runs of one case with other values of its keys, one table; on all cores or on a cluster
+    #[command(after_help = SWEEP_EXAMPLE)]
+    Sweep(Box<SweepArguments>),
+    /// Matrices and mode shapes in the formats of other programs
+    #[command(after_help = EXPORT_EXAMPLE)]
+    Export {
+        /// Case file (TOML), or a folder with results of `plummer modes`
+        #[arg(value_name = "CASE|DIR")]
+        from: PathBuf,
+        /// Format of the files
+        #[arg(long, value_name = "FORMAT", value_enum)]
+        to: ExportFormat,
+    },
+    /// Completions of this command line for a shell, on standard output
+    #[command(after_help = COMPLETIONS_EXAMPLE)]
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL", value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// The manual page, on standard output; with --out a page a command
+    #[command(after_help = MAN_EXAMPLE)]
+    Man,
+    /// The pages of earlier results again, with their tables and figures, as this version draws them
+    #[command(after_help = REPORT_EXAMPLE)]
+    Report {
+        /// Folder with the results of one or more commands
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Built-in checks against published numbers and closed forms; needs no files
+    #[command(after_help = VERIFY_EXAMPLE)]
+    Verify {
+        /// Also orders of convergence, and which readings of the paper give its eigenfrequencies (minutes)
+        #[arg(long)]
+        full: bool,
+    },
+    /// JSON Schema of the case file, for editors, on standard output
+    #[command(after_help = SCHEMA_EXAMPLE)]
+    Schema,
+}
+
+/// A part of `plummer chart`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ChartPart {
+    /// Speed against accuracy
+    Accuracy,
+    /// Which steps a method can take, under which conditions
+    Stability,
+}
+
+impl ChartPart {
+    /// The word that stands after `--only`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accuracy => "accuracy",
+            Self::Stability => "stability",
+        }
+    }
+}
+
+/// A format of `plummer export`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// VTK grids with mode shapes
+    Vtu,
+    /// Universal files with mode shapes
+    Uff,
+    /// Matrices as Matrix Market files
+    Mtx,
+    /// Matrices and mode shapes as NumPy archives
+    Npz,
+    /// The condensed housing's matrices as Nastran's OUTPUT4 file
+    Op4,
+    /// The condensed housing as a modal body of MBDyn
+    Mbdyn,
+}
+
+impl ExportFormat {
+    /// The word that stands after `--to`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vtu => "vtu",
+            Self::Uff => "uff",
+            Self::Mtx => "mtx",
+            Self::Npz => "npz",
+            Self::Op4 => "op4",
+            Self::Mbdyn => "mbdyn",
+        }
+    }
+}
+
+impl Command {
+    /// Returns the command's word, which is also its result file's name: `run` writes `run.json`; `analyze` alone writes
+    /// `analysis.json`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Run { .. } => "run",
+            Self::Modes { .. } => "modes",
+            Self::Condense { .. } => "condense",
+            Self::Frf { .. } => "frf",
+            Self::Chart { .. } => "chart",
+            Self::Analyze(_) => "analyze",
+            Self::Inspect { .. } => "inspect",
+            Self::Sweep(_) => "sweep",
+            Self::Completions { .. } => "completions",
+            Self::Man => "man",
+            Self::Init(_) => "init",
+            Self::Export { .. } => "export",
+            Self::Report { .. } => "report",
+            Self::Verify { .. } => "verify",
+            Self::Schema => "schema",
+        }
+    }
+
+    /// The result files that it writes, which an earlier result is known by.
+    #[must_use]
+    pub fn result_files(&self) -> Vec<String> {
+        let names: &[&str] = match self {
+            Self::Chart { only: None, .. } => &["chart", "stability"],
+            Self::Chart {
+                only: Some(ChartPart::Stability),
+                ..
+            } => &["stability"],
+            Self::Analyze(_) => &["analysis"],
+            other => &[other.name()],
+        };
+        names.iter().map(|name| format!("{name}.json")).collect()
+    }
+
+    /// How much a chart computes.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        match self {
+            Self::Chart { quick: true, .. } => Effort::Quick,
+            _ => Effort::Full,
+        }
+    }
+}
+
+/// Most threads: more than any machine that the program is for has cores.
+const MOST_THREADS: usize = 1024;
+
+fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok();
+    let number = number.filter(|number| number.get() <= MOST_THREADS);
+    number.ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
+}
+
+/// Options that every command takes.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Options {
+    /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; analyze: the run's own
+    /// folder, or out/ and the file's name, or out/analysis of several files; inspect writes only if named); of init: the case file
+    #[arg(long, global = true, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How many threads to compute with (default: all cores)
+    #[arg(long, global = true, allow_hyphen_values = true, value_name = "N", value_parser = number_of_threads)]
+    pub threads: Option<NonZeroUsize>,
+    /// No progress and no summary; errors only
+    #[arg(long, global = true)]
+    pub quiet: bool,
+    /// The result as JSON on standard output, instead of the summary
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Replace an earlier result of the same command
+    #[arg(long, global = true)]
+    pub force: bool,
+    /// Set a key of the case file, e.g. bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
+    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// A pause between checkpoints: not negative, at most a year.
+fn pause(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(pause) if (0.0..=3.2e7).contains(&pause) => Ok(pause),
+        _ => Err(format!(
+            "expected seconds from 0 to 3.2e7, found \"{text}\""
+        )),
+    }
+}
+
+/// A density: positive and finite.
+fn density(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(density) if density > 0.0 && density.is_finite() => Ok(density),
+        _ => Err(format!(
+            "expected a number of kg/m^3 above 0, found \"{text}\""
+        )),
+    }
+}
+
+impl Options {
+    /// The command line that computes this again.
+    #[must_use]
+    pub fn command_line(&self, command: &str, case: &Case) -> String {
+        let file = shell_word(&case.source.path.to_string_lossy());
+        let mut words = vec![format!("plummer {command} {file}")];
+        words.extend(
+            self.set
+                .iter()
+                .map(|set| format!("--set {}", shell_word(set))),
+        );
+        words.join(" ")
+    }
+
+    /// Returns whether progress may be shown at all.
+    #[must_use]
+    pub fn visibility(&self) -> Visibility {
+        if self.quiet || self.json {
+            Visibility::Hidden
+        } else {
+            Visibility::OnTerminal
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser, ValueEnum};
+
+    use super::{Arguments, ChartPart, Command, ExportFormat, Visibility};
+
+    fn parse(words: &str) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from(words.split(' '))
+    }
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn options_stand_before_or_after_the_command() {
+        for words in [
+            "plummer run a.toml --out o --threads 3 --force --set a=1 --set b=2",
+            "plummer --out o --threads 3 --force --set a=1 --set b=2 run a.toml",
+        ] {
+            let Arguments { command, options } = parse(words).unwrap();
+            assert!(
+                matches!(command, Command::Run { case, resume: false, .. } if case.as_os_str() == "a.toml")
+            );
+            assert_eq!(options.out.unwrap().as_os_str(), "o");
+            assert_eq!(options.threads.unwrap().get(), 3);
+            assert!(options.force && !options.quiet && !options.json);
+            assert_eq!(options.set, ["a=1", "b=2"]);
+        }
+    }
+
+    #[test]
+    fn wrong_arguments_are_exit_code_2_and_help_is_0() {
+        for words in [
+            "plummer",
+            "plummer run",
+            "plummer rnu a.toml",
+            "plummer run a.toml --threads 0",
+            "plummer run a.toml --threads 1025",
+            "plummer run a.toml --threads 100000",
+            "plummer modes a.toml --fast",
+            "plummer inspect a.msh --length-unit feet",
+            "plummer inspect a.msh --density -1",
+            "plummer export a.toml",
+            "plummer export a.toml --to stl",
+            "plummer chart a.toml --only speed",
+            "plummer run a.toml --checkpoint-every -1",
+            "plummer run a.toml --checkpoint-every NaN",
+            "plummer analyze",
+            "plummer analyze a.csv --window 3:2",
+            "plummer analyze a.csv --speed fast",
+            "plummer analyze a.csv --balls 9",
+            "plummer analyze a.csv --orders outer=3.6 --bearing a.toml",
+            "plummer analyze a.csv --rate 0",
+            "plummer init",
+            "plummer init a.msh --length-unit feet",
+            "plummer init a.msh --list-bearings",
+        ] {
+            assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
+        }
+        for words in ["plummer --help", "plummer run --help", "plummer --version"] {
+            assert_eq!(parse(words).unwrap_err().exit_code(), 0, "{words}");
+        }
+    }
+
+    #[test]
+    fn values_that_begin_with_a_minus_are_values() {
+        for (words, said) in [
+            ("plummer analyze a.csv --speed -30Hz", "-30Hz"),
+            (
+                "plummer analyze a.csv --rate -5",
+                "expected a number above 0",
+            ),
+            (
+                "plummer inspect a.msh --density -1",
+                "expected a number of kg/m^3 above 0",
+            ),
+        ] {
+            match parse(words) {
+                Ok(Arguments {
+                    command: Command::Analyze(asked),
+                    ..
+                }) => {
+                    assert_eq!(asked.speed.unwrap().text, said);
+                }
+                Ok(_) => panic!("{words}"),
+                Err(error) => {
+                    let text = error.to_string();
+                    assert!(text.contains(said) && !text.contains("use '--"), "{text}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_help_has_an_example() {
+        for words in [
+            "plummer --help",
+            "plummer run --help",
+            "plummer modes --help",
+            "plummer condense --help",
+            "plummer frf --help",
+            "plummer chart --help",
+            "plummer inspect --help",
+            "plummer init --help",
+            "plummer analyze --help",
+            "plummer export --help",
+            "plummer verify --help",
+            "plummer schema --help",
+        ] {
+            let help = parse(words).unwrap_err().to_string();
+            assert!(help.contains("Example"), "{words}");
+            assert!(help.contains("  plummer "), "{words}");
+        }
+    }
+
+    #[test]
+    fn formats_are_called_what_is_typed() {
+        for format in ExportFormat::value_variants() {
+            let words = format!("plummer export a.toml --to {}", format.name());
+            let command = parse(&words).unwrap().command;
+            assert!(matches!(command, Command::Export { to, .. } if to == *format));
+        }
+    }
+
+    #[test]
+    fn parts_of_a_chart_are_called_what_is_typed_and_have_their_files() {
+        let files = |words: &str| parse(words).unwrap().command.result_files();
+        assert_eq!(files("plummer chart a"), ["chart.json", "stability.json"]);
+        for (part, file) in [
+            (ChartPart::Accuracy, "chart.json"),
+            (ChartPart::Stability, "stability.json"),
+        ] {
+            let words = format!("plummer chart a --only {}", part.name());
+            assert_eq!(files(&words), [file]);
+        }
+        assert_eq!(files("plummer run a"), ["run.json"]);
+        assert_eq!(files("plummer analyze a"), ["analysis.json"]);
+    }
+
+    #[test]
+    fn quiet_and_json_hide_progress() {
+        let visibility = |words| parse(words).unwrap().options.visibility();
+        assert_eq!(visibility("plummer run a"), Visibility::OnTerminal);
+        assert_eq!(visibility("plummer run a --quiet"), Visibility::Hidden);
+        assert_eq!(visibility("plummer run a --json"), Visibility::Hidden);
+    }
+}

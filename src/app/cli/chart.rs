@@ -1,0 +1,402 @@
+//! `plummer chart`: speed against accuracy, and the stability map.
+
+use super::report_files::ReportFiles;
+use super::results::{common, warnings};
+use super::stability::{alone, stability_lines, write_stability};
+use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::case::Case;
+use crate::app::stages::{RunModel, StageError};
+use crate::app::studies::chart::{
+    Chart, ComparedFigure, Condition, Effort, Estimate, Failure, GrowthError, Point, PointError,
+    StartReference, chart_report, compute_chart, compute_stability, parameter_of,
+    stability_section, work_precision,
+};
+use crate::report::significant;
+use serde_json::{Map, Value, json};
+
+/// What of the charts is computed, and how much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Wanted {
+    pub(super) effort: Effort,
+    /// Both parts without it.
+    pub(super) only: Option<ChartPart>,
+}
+
+/// Computes the charts of a case and writes their pictures, the report, its tables and, last, `stability.json` and
+/// `chart.json`; of one part alone what belongs to it.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub(super) fn chart(
+    case: &Case,
+    wanted: Wanted,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let command = result_command(wanted, &options.command_line("chart", case));
+    if wanted.only == Some(ChartPart::Stability) {
+        return alone(case, wanted.effort, &command, options, progress);
+    }
+    let effort = wanted.effort;
+    let result = compute_chart(case, effort, progress)?;
+    let stability = match wanted.only {
+        None => {
+            let conditions = Condition::all(case, effort);
+            let map = compute_stability(case, &result.scene, conditions, effort, progress)?;
+            Some(map)
+        }
+        Some(_) => None,
+    };
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let svg = work_precision(&result).to_svg().map_err(StageError::from)?;
+    let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
+    let mut report = chart_report(case, &result, &command);
+    if let Some(stability) = &stability {
+        // after the chart itself
+        report.sections.insert(1, stability_section(stability));
+    }
+    let files = ReportFiles::write(&folder, "chart", case, report, progress)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("chart", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), json!(files.tables));
+    map.extend(fields(case, &result));
+    let mut lines = summary(&result);
+    let mut shown = map.clone();
+    if let Some(stability) = &stability {
+        let head = common("chart", case, progress, wall_s, &files.meshes);
+        let (record, paths) = write_stability(&folder, head, stability)?;
+        written.extend(paths);
+        lines = format!("{lines}\n{}", stability_lines(stability));
+        shown.insert("stability".to_owned(), record);
+    }
+    let json = Value::Object(map);
+    written.push(folder.write("chart.json", format!("{json:#}\n").as_bytes())?);
+    Ok(Outcome {
+        summary: lines,
+        result: Value::Object(shown),
+        written: [written, files.paths].concat(),
+        verdict: verdict(&result),
+    })
+}
+
+/// The command line with what it computed.
+fn result_command(wanted: Wanted, line: &str) -> String {
+    let part = wanted
+        .only
+        .map_or(String::new(), |part| format!(" --only {}", part.name()));
+    match wanted.effort {
+        Effort::Full => format!("{line}{part}"),
+        Effort::Quick => format!("{line}{part} --quick"),
+    }
+}
+
+fn verdict(result: &Chart) -> Verdict {
+    if result.reference.agreed {
+        return Verdict::Good;
+    }
+    let [by, beside] = result.reference.models.map(|model| model.method.name());
+    Verdict::Bad {
+        what: format!(
+            "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
+            result.reference.disagreement, result.settings.target
+        ),
+        help: Some(
+            "points below that are not marked; a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
+                .to_owned(),
+        ),
+    }
+}
+
+fn summary(result: &Chart) -> String {
+    let reference = &result.reference;
+    let [by, beside] = reference.models.map(|model| model.method.name());
+    let ms = |seconds: f64| significant(1e3 * seconds, 3);
+    let mut lines = vec![
+        format!(
+            "{} starts over {} ms; {by} and {beside} on all {} modes differ by {} (the floor)",
+            result.starts.starts.len(),
+            ms(result.starts.spread_s),
+            result.scene.stage.modes.count(),
+            significant(reference.disagreement, 2),
+        ),
+        format!(
+            "nearby solutions stay together for {} ms (mean; least {} ms) of {} ms",
+            ms(reference.mean_horizon_s()),
+            ms(reference.least_horizon_s()),
+            ms(result.settings.span_s),
+        ),
+        format!(
+            "{} points, {} omitted; front, by wall time a simulated second:",
+            result.points.len(),
+            result.omissions().count()
+        ),
+    ];
+    lines.extend(warnings(&result.scene.doubts));
+    lines.extend(
+        result
+            .front
+            .iter()
+            .map(|&place| line(&result.points[place])),
+    );
+    let [chosen, source] = &result.over_all_starts;
+    let starts = reference.starts.len();
+    for (name, place, error) in [
+        ("the program's choice", result.chosen, chosen),
+        ("the source's method", result.source, source),
+    ] {
+        lines.push(format!("{name}, error over all {starts} starts:"));
+        lines.push(line(&Point {
+            error: error.clone(),
+            ..result.points[place].clone()
+        }));
+    }
+    lines.join("\n")
+}
+
+fn line(point: &Point) -> String {
+    let (name, value) = point.parameter();
+    let error = match &point.error {
+        Ok(error) => format!(
+            "error {} (+- {})",
+            significant(error.mean, 2),
+            significant(error.deviation, 2)
+        ),
+        Err(failure) => failure.reason.clone(),
+    };
+    let wall = point
+        .wall_s
+        .map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
+    format!(
+        "  {wall} s/s  {}, {}, {name} {}: {error}",
+        point.method(),
+        point.model_name(),
+        significant(value, 3)
+    )
+}
+
+/// What `chart.json` says beside what every result carries.
+fn fields(case: &Case, result: &Chart) -> Map<String, Value> {
+    let reference = &result.reference;
+    let fields = json!({
+        "scene": case.title,
+        "warnings": result.scene.doubts,
+        "band_hz": case.band_hz(),
+        "target": result.settings.target,
+        "span_s": result.settings.span_s,
+        "ensemble": {
+            "starts_s": reference.starts.iter().map(|s| s.start.time_s).collect::<Vec<_>>(),
+            "spread_s": result.starts.spread_s,
+            "perturbation": result.settings.ensemble.perturbation,
+            "seed": result.settings.ensemble.seed,
+            "left_out": result.starts.left_out,
+        },
+        "reference": {
+            "methods": reference.models.map(|model| method(&model)),
+            "model": "all modes, balls with inertia",
+            "modes": result.scene.stage.modes.count(),
+            "disagreement": reference.disagreement,
+            "agreed": reference.agreed,
+            "starts": reference.starts.iter().map(of_start).collect::<Vec<_>>(),
+        },
+        "horizon_s": reference.mean_horizon_s(),
+        "least_horizon_s": reference.least_horizon_s(),
+        "growth_rate_per_s": reference.growth_rate_per_s(),
+        "points": result.points.iter().map(|point| of_point(result, point)).collect::<Vec<_>>(),
+        "front": result.front,
+        "omissions": result.omissions().map(|(place, failure)| json!({
+            "point": place,
+            "method": result.points[place].method(),
+            "model": result.points[place].model_name(),
+            "parameter": parameter(&result.points[place]),
+            "kind": failure.kind.name(),
+            "reason": failure.reason,
+        })).collect::<Vec<_>>(),
+        "chosen": result.chosen,
+        "source": result.source,
+        "over_all_starts": {
+            "chosen": of_error(&result.over_all_starts[0]),
+            "source": of_error(&result.over_all_starts[1]),
+        },
+        "statistics": {
+            "seconds": result.settings.statistics_s,
+            "models": result.statistics.iter().map(|of| json!({
+                "point": of.point,
+                "figures": of.figures.as_ref().ok().map(|all| all.iter().map(|figure| of_figure(result, figure)).collect::<Vec<_>>()),
+                "reason": of.figures.as_ref().err(),
+            })).collect::<Vec<_>>(),
+        },
+    });
+    match fields {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// A method of the reference and what it was refined to.
+fn method(model: &RunModel) -> Value {
+    let (name, value) = parameter_of(model);
+    json!({ "method": model.method.name(), name: value })
+}
+
+fn of_start(start: &StartReference) -> Value {
+    json!({
+        "start_s": start.start.time_s,
+        "horizon_s": start.horizon_s,
+        "disagreement": start.disagreement,
+        "refinements": start.refinements,
+        "growth_rate_per_s": start.growth.rate_per_s(),
+        "time_s": start.growth.times_s(),
+        "perturbed": start.growth.distances(),
+        "methods": start.between.distances(),
+    })
+}
+
+fn parameter(point: &Point) -> Value {
+    let (name, value) = point.parameter();
+    json!({ name: value })
+}
+
+fn of_point(result: &Chart, point: &Point) -> Value {
+    let mut fields = json!({
+        "method": point.method(),
+        "model": point.model_name(),
+        "parameter": parameter(point),
+        "wall_s": point.wall_s,
+        "below_floor": result.below_floor(point),
+    });
+    if let (Value::Object(fields), Value::Object(error)) = (&mut fields, of_error(&point.error)) {
+        fields.extend(error);
+    }
+    fields
+}
+
+fn of_error(error: &Result<PointError, Failure>) -> Value {
+    let (error, failure) = (error.as_ref().ok(), error.as_ref().err());
+    json!({
+        "error": error.map(|error| error.mean),
+        "deviation": error.map(|error| error.deviation),
+        "largest_error": error.map(|error| error.largest),
+        "by_growth": error.map(|error| by_growth(&error.by_growth)),
+        "ok": failure.is_none(),
+        "reason": failure.map(|failure| &failure.reason),
+    })
+}
+
+/// Errors while nearby solutions have parted by less than over the horizon.
+fn by_growth(parts: &[GrowthError]) -> Value {
+    let parts = parts
+        .iter()
+        .map(|part| json!({ "growth": part.growth, "span_s": part.span_s, "error": part.mean }));
+    parts.collect()
+}
+
+fn of_figure(result: &Chart, figure: &ComparedFigure) -> Value {
+    let estimate = |of: &Estimate| {
+        json!({
+            "mean": of.mean,
+            "deviation": of.deviation,
+            "standard_error": of.standard_error,
+        })
+    };
+    json!({
+        "name": figure.name,
+        "unit": figure.unit,
+        "own": estimate(&figure.own),
+        "reference": estimate(&figure.reference),
+        "difference": estimate(&figure.difference),
+        "standard_errors": figure.standard_errors(),
+        "differs": figure.differs(result.settings.target),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use serde_json::Value;
+
+    use super::{ChartPart, Effort, Options, Progress, Wanted, chart};
+    use crate::app::case::Case;
+    use crate::app::cli::Visibility;
+
+    /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
+    fn small() -> Case {
+        let set = [
+            "ring.nodes=12",
+            "accuracy.band_hz=[0,160000]",
+            "transient.end=0.13e-3",
+            "transient.ensemble.runs=2",
+        ];
+        Case::example("scenes/smooth", &set)
+    }
+
+    #[test]
+    fn a_chart_has_its_files_and_fields() {
+        let case = small();
+        let out = std::env::temp_dir().join(format!("plummer-{}-chart", std::process::id()));
+        fs::create_dir_all(&out).unwrap();
+        let options = Options {
+            out: Some(out.clone()),
+            ..Options::default()
+        };
+        let progress = Progress::new(Visibility::Hidden);
+        let wanted = Wanted {
+            effort: Effort::Quick,
+            only: Some(ChartPart::Accuracy),
+        };
+        let outcome = chart(&case, wanted, &options, &progress).unwrap();
+        let json = outcome.result;
+        assert_eq!(json["scene"], "Preloaded bearing at constant speed");
+        // nothing grows where all balls stay in contact: the span, in whole windows of ten periods
+        assert!((json["horizon_s"].as_f64().unwrap() - 0.125e-3).abs() < 1e-9);
+        let floor = json["reference"]["disagreement"].as_f64().unwrap();
+        // below a tenth of the target, or the chart says so
+        assert!(floor > 0.0 && floor < 1e-3, "{floor:e}");
+        assert_eq!(json["reference"]["agreed"], true);
+        assert_eq!(json["reference"]["methods"][0]["method"], "dop853");
+        let points = json["points"].as_array().unwrap();
+        for point in points {
+            let ok = point["ok"] == true;
+            for key in ["wall_s", "error", "deviation", "largest_error"] {
+                assert_eq!(point[key].as_f64().is_some(), ok, "{point}");
+            }
+            assert_eq!(point["reason"].is_null(), ok, "{point}");
+            for part in point["by_growth"].as_array().into_iter().flatten() {
+                // nothing grows: all of them are the error over the span
+                assert_eq!(part["error"], point["error"], "{point}");
+                assert_eq!(part["span_s"], json["horizon_s"], "{point}");
+            }
+        }
+        let at = |place: &Value| &points[place.as_u64().unwrap() as usize];
+        assert_eq!(at(&json["chosen"])["method"], "exponential-adams");
+        // two starts: points take all of them
+        let all = &json["over_all_starts"]["chosen"]["error"];
+        assert_eq!(all, &at(&json["chosen"])["error"]);
+        assert_eq!(at(&json["source"])["method"], "newmark-explicit");
+        assert_eq!(at(&json["source"])["model"], "all modes");
+        let front = json["front"].as_array().unwrap();
+        assert!(!front.is_empty());
+        for pair in front.windows(2) {
+            let [first, next] = [&pair[0], &pair[1]].map(at);
+            assert!(first["wall_s"].as_f64() < next["wall_s"].as_f64());
+            assert!(first["error"].as_f64() > next["error"].as_f64());
+            assert_eq!(next["below_floor"], false);
+        }
+        for omitted in json["omissions"].as_array().unwrap() {
+            assert_eq!(at(&omitted["point"])["reason"], omitted["reason"]);
+        }
+        let figures = &json["statistics"]["models"][0]["figures"];
+        assert_eq!(figures[0]["name"], "root mean square");
+        assert!(figures[0]["reference"]["mean"].as_f64().unwrap() > 0.0);
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        assert!(read("chart.svg").starts_with("<svg "));
+        assert!(read("report.html").contains("Points that none beats"));
+        let written: Value = serde_json::from_str(&read("chart.json")).unwrap();
+        for key in ["front", "chosen", "omissions", "scene"] {
+            assert_eq!(written[key], json[key], "{key}");
+        }
+        fs::remove_dir_all(out).unwrap();
+    }
+}

@@ -1,0 +1,194 @@
+//! `plummer condense`: a superelement and its certificate.
+
+use super::report_files::ReportFiles;
+use super::results::{common, condense_fields, imported_fields, warnings};
+use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::case::Case;
+use crate::app::stages::{
+    Boundary, Comparison, CondenseResult, ImportedHousing, StageError, compute_condense,
+    condense_report, imported_report, reduced_superelement_record, superelement_record,
+};
+use crate::fe::reduction::{Bound, Check};
+use crate::formats::write_superelement_npz;
+use serde_json::Value;
+
+/// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
+/// A superelement from a file is checked instead.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn condense(
+    case: &Case,
+    arguments: &Arguments,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let options = &arguments.options;
+    let comparison = match &arguments.command {
+        Command::Condense {
+            compare_full: true, ..
+        } => Comparison::Full,
+        _ => Comparison::None,
+    };
+    if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
+        progress.stage("check");
+        let (imported, _) = ImportedHousing::read(case, ring, path)?;
+        return check_imported(case, options, &imported, progress, started);
+    }
+    let result = compute_condense(case, comparison, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let mut command = options.command_line("condense", case);
+    if comparison == Comparison::Full {
+        command.push_str(" --compare-full");
+    }
+    let report = condense_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
+    let element = folder.path().join("superelement.npz");
+    let record = match &result.interface {
+        Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
+        None => superelement_record(case, &result.stage)?,
+    };
+    write_superelement_npz(&element, &record).map_err(StageError::from)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("condense", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), serde_json::json!(files.tables));
+    map.extend(condense_fields(&result));
+    let json = Value::Object(map);
+    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: [vec![path, element], files.paths].concat(),
+        verdict: verdict(
+            &result.checks,
+            match result.interface {
+                None => {
+                    "more vectors (condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
+                }
+                Some(_) => {
+                    "more coordinates (condense.interface_modes, condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
+                }
+            },
+        ),
+    })
+}
+
+/// What is condensed already is checked, no more: `report.html` and, last, `condense.json`.
+fn check_imported(
+    case: &Case,
+    options: &Options,
+    imported: &ImportedHousing,
+    progress: &Progress,
+    started: std::time::Instant,
+) -> Result<Outcome, CliError> {
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let command = options.command_line("condense", case);
+    let report = imported_report(case, imported, &command);
+    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("condense", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), serde_json::json!(files.tables));
+    map.extend(imported_fields(imported));
+    let json = Value::Object(map);
+    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    let mut lines = imported.notes.clone();
+    lines.extend(check_lines(&imported.checks));
+    Ok(Outcome {
+        summary: lines.join("\n"),
+        result: json,
+        written: [vec![path], files.paths].concat(),
+        verdict: verdict(&imported.checks, "`modes` and `run` refuse these matrices"),
+    })
+}
+
+fn verdict(checks: &[Check], help: &str) -> Verdict {
+    let failed: Vec<String> = checks
+        .iter()
+        .filter(|check| !check.ok())
+        .map(|check| {
+            let bound = match check.bound {
+                Bound::AtMost => "at most",
+                Bound::AtLeast => "at least",
+            };
+            format!(
+                "{}: found {:.3e}, expected {bound} {:.3e} ({})",
+                check.name, check.value, check.limit, check.what
+            )
+        })
+        .collect();
+    if failed.is_empty() {
+        Verdict::Good
+    } else {
+        Verdict::Bad {
+            what: failed.join("; "),
+            help: Some(help.to_owned()),
+        }
+    }
+}
+
+fn summary(result: &CondenseResult) -> String {
+    let (element, basis) = (
+        &result.stage.condensed.superelement,
+        &result.stage.condensed.basis,
+    );
+    let of_modes = result.interface.as_ref().map(|interface| {
+        format!(
+            "{} modes of the interface in place of its coordinates: frequencies up to {:.1e} higher, on average {:.0} % of \
+             the interface's static flexibility lost",
+            interface.reduction.kept(),
+            interface.largest_rise(),
+            100.0 * interface.lost.mean
+        )
+    });
+    let mut lines = vec![
+        format!(
+            "{} interface coordinates, {} fixed-interface modes, {} residual vectors, for {} interior degrees of freedom",
+            element.interface_dof,
+            basis.count() - basis.residual_vectors(),
+            basis.residual_vectors(),
+            result.stage.condensed.substructure.interior_dof()
+        ),
+        format!(
+            "estimated error of the {} frequencies up to {:.0} Hz: {:.1e}",
+            result.estimate.modes.len(),
+            result.estimate.band_hz,
+            result.estimate.largest()
+        ),
+    ];
+    lines.splice(1..1, of_modes);
+    lines.extend(warnings(&result.doubts));
+    if let Boundary::Nodes(nodes) = &result.stage.boundary
+        && !nodes.held.is_empty()
+    {
+        lines.push(format!(
+            "{} displacements of the interface's nodes are no coordinates: held by {}",
+            nodes.held.len(),
+            nodes.holders(&result.stage.housing.model)
+        ));
+    }
+    if let Some(full) = &result.full {
+        let errors = full.relative_errors.iter().flatten();
+        let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));
+        lines.push(format!("error against the full model: {largest:.1e}"));
+    }
+    lines.extend(check_lines(&result.checks));
+    lines.join("\n")
+}
+
+/// How many checks pass, and which do not.
+fn check_lines(checks: &[Check]) -> Vec<String> {
+    let failed = || checks.iter().filter(|check| !check.ok());
+    let passed = checks.len() - failed().count();
+    let mut lines = vec![format!("checks passed: {passed} of {}", checks.len())];
+    lines.extend(failed().map(line));
+    lines
+}
+
+fn line(check: &Check) -> String {
+    format!(
+        "  {} FAILS: {}: {:.3e}",
+        check.name, check.what, check.value
+    )
+}

@@ -1,0 +1,210 @@
+//! The results of an earlier command that another one reads: files that belong together, and the case that they are of.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+use thiserror::Error;
+
+use super::CliError;
+use crate::app::case::Case;
+use crate::app::shell_word::shell_word;
+use crate::app::stages::MeshDigest;
+use crate::files;
+
+/// Where a result has the digests of the files beside it.
+pub(super) const ARRAYS: &str = "arrays";
+/// Where a result has the digest of its case, [`Source::digest`](crate::app::case::Source::digest).
+pub(super) const CASE_DIGEST: &str = "case_digest";
+
+/// What is read of the results of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Wanted {
+    /// The command; `COMMAND.json` is its result.
+    pub(super) command: &'static str,
+    /// The file with its arrays.
+    pub(super) arrays: &'static str,
+    /// What could have been named instead of a folder.
+    pub(super) instead: &'static str,
+}
+
+/// Why earlier results cannot be used.
+#[derive(Debug, Error)]
+pub enum ResultsError {
+    /// There are none.
+    #[error("{} has no {command}.json and {arrays}: expected a folder with results of `plummer {command}`, or {instead}", folder.display())]
+    Missing {
+        /// The folder.
+        folder: PathBuf,
+        /// The command.
+        command: &'static str,
+        /// The file with its arrays.
+        arrays: &'static str,
+        /// What could have been named instead.
+        instead: &'static str,
+    },
+    /// A `COMMAND.json` that cannot be read, or is none.
+    #[error("{}: expected {expected}, found {found}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What should be there.
+        expected: &'static str,
+        /// What is there.
+        found: String,
+    },
+    /// The case is elsewhere.
+    #[error("{} names the case file {}, which is not there", path.display(), case.display())]
+    CaseGone {
+        /// The result file.
+        path: PathBuf,
+        /// The case file.
+        case: PathBuf,
+    },
+    /// The case has other values now.
+    #[error("{} is the result of other values than {} has now", path.display(), case.display())]
+    CaseChanged {
+        /// The result file.
+        path: PathBuf,
+        /// The case file.
+        case: PathBuf,
+    },
+    /// `--set` gives the case other values than the results were computed with.
+    #[error("{} is the result of other values than --set gives", path.display())]
+    SetChanges {
+        /// The result file.
+        path: PathBuf,
+    },
+    /// A file that was replaced or damaged since.
+    #[error("{} is not the file that {} speaks of: expected SHA-256 {expected}, found {found}", arrays.display(), path.display())]
+    OtherFile {
+        /// The result file.
+        path: PathBuf,
+        /// The file beside it.
+        arrays: PathBuf,
+        /// 64 hexadecimal digits.
+        expected: String,
+        /// 64 hexadecimal digits.
+        found: String,
+    },
+}
+
+impl ResultsError {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::Missing {
+                folder, command, ..
+            } => format!(
+                "run `plummer {command} CASE.toml --out {}` first",
+                shell_word(&folder.to_string_lossy())
+            ),
+            Self::CaseGone { .. } => {
+                "go to the folder in which the results were computed, or compute them again"
+                    .to_owned()
+            }
+            Self::CaseChanged { .. } => {
+                "compute the results again with --force, or give the case file its old values; [analysis] may change"
+                    .to_owned()
+            }
+            Self::SetChanges { .. } => {
+                "of results, --set changes [analysis] alone; compute others with these values"
+                    .to_owned()
+            }
+            Self::Damaged { .. } | Self::OtherFile { .. } => {
+                "compute the results again with --force".to_owned()
+            }
+        }
+    }
+}
+
+/// SHA-256 of files by their names, for the result that speaks of them.
+///
+/// # Errors
+/// [`CliError::Write`] for a file that is gone.
+pub(super) fn digests(files: &[PathBuf]) -> Result<Value, CliError> {
+    let mut map = Map::new();
+    for path in files {
+        let digest = MeshDigest::of_file(path).map_err(|source| CliError::Write {
+            path: path.clone(),
+            source,
+        })?;
+        let name = path.file_name().unwrap_or_default();
+        map.insert(name.to_string_lossy().into_owned(), json!(digest.sha256));
+    }
+    Ok(Value::Object(map))
+}
+
+/// The case of the results in a folder, which are whole and belong together; `set` is applied after what they were computed with.
+///
+/// # Errors
+/// [`CliError::Results`], [`CliError::Case`].
+pub(super) fn case_of_results(
+    folder: &Path,
+    wanted: Wanted,
+    set: &[String],
+) -> Result<Case, CliError> {
+    let Wanted {
+        command,
+        arrays,
+        instead,
+    } = wanted;
+    let path = folder.join(format!("{command}.json"));
+    let beside = folder.join(arrays);
+    if !path.is_file() || !beside.is_file() {
+        return Err(ResultsError::Missing {
+            folder: folder.to_owned(),
+            command,
+            arrays,
+            instead,
+        }
+        .into());
+    }
+    let damaged = |expected, found: String| ResultsError::Damaged {
+        path: path.clone(),
+        expected,
+        found,
+    };
+    let result = files::read(&path).map_err(|error| error.to_string());
+    let result = result.and_then(|text| serde_json::from_slice(&text).map_err(|e| e.to_string()));
+    let result: Value = result.map_err(|found| damaged("a result of this command", found))?;
+    let Some(file) = result["case"].as_str().map(PathBuf::from) else {
+        let found = result["case"].to_string();
+        return Err(damaged("the case file's name under \"case\"", found).into());
+    };
+    let own: Vec<String> = match &result["set"] {
+        Value::Null => Vec::new(),
+        set => serde_json::from_value(set.clone())
+            .map_err(|_| damaged("a list of texts under \"set\"", set.to_string()))?,
+    };
+    if !file.exists() {
+        return Err(ResultsError::CaseGone { path, case: file }.into());
+    }
+    let case = Case::load(&file, &own)?;
+    let digest = result[CASE_DIGEST].as_str();
+    if digest.is_some_and(|digest| case.source.digest().is_ok_and(|now| now != digest)) {
+        return Err(ResultsError::CaseChanged { path, case: file }.into());
+    }
+    if let Some(expected) = result[ARRAYS][arrays].as_str() {
+        let found = MeshDigest::of_file(&beside);
+        let found = found.map_err(|error| damaged("a file that can be read", error.to_string()))?;
+        if found.sha256 != expected {
+            return Err(ResultsError::OtherFile {
+                path,
+                arrays: beside,
+                expected: expected.to_owned(),
+                found: found.sha256,
+            }
+            .into());
+        }
+    }
+    if set.is_empty() {
+        return Ok(case);
+    }
+    let all: Vec<String> = own.into_iter().chain(set.iter().cloned()).collect();
+    let looked_at = Case::load(&file, &all)?;
+    if looked_at.source.digest().ok() != case.source.digest().ok() {
+        return Err(ResultsError::SetChanges { path }.into());
+    }
+    Ok(looked_at)
+}

@@ -1,0 +1,133 @@
+//! The condensed housing for finite-element and multibody programs.
+
+use super::record::WrittenFile;
+use super::{CliError, Export, ExportError};
+use crate::app::case::{Case, Interface, InterfaceModes};
+use crate::app::cli::{ExportFormat, OutputFolder, Progress};
+use crate::app::stages::{CondensedStage, StageError, superelement_record};
+use crate::formats::{
+    DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
+    write_superelement_op4,
+};
+
+/// Whether a case has a housing and something that it is condensed on, coordinates and not modes of an interface.
+///
+/// # Errors
+/// [`ExportError::NothingCondensed`], [`ExportError::InterfaceModes`].
+pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportError> {
+    let tied = case.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
+    let found = if case.superelement().is_some() {
+        "a superelement, which is condensed already"
+    } else if case.meshed_housing().is_none() {
+        "a ring alone"
+    } else if !tied && case.condense.interface == Interface::Ring {
+        "a housing that nothing is attached to"
+    } else if case.condense.interface_modes != InterfaceModes::None {
+        return Err(ExportError::InterfaceModes { format: to.name() });
+    } else {
+        return Ok(());
+    };
+    Err(ExportError::NothingCondensed {
+        format: to.name(),
+        found,
+    })
+}
+
+/// `superelement.op4`, `superelement_dofs.csv`.
+pub(super) fn op4(
+    case: &Case,
+    folder: &OutputFolder,
+    progress: &Progress,
+) -> Result<Export, CliError> {
+    let record = condensed(case, progress)?;
+    let at = |name: &str| folder.path().join(name);
+    let write = || -> Result<(), ExportError> {
+        write_superelement_op4(&at("superelement.op4"), &record, Op4Format::Binary)?;
+        Ok(write_dofs_csv(
+            &at("superelement_dofs.csv"),
+            &record.labels(),
+        )?)
+    };
+    write()?;
+    let damping = record.damping.as_ref().map(|_| "BAA");
+    let structural = record.structural.as_ref().map(|_| "K4AA");
+    let matrices: Vec<&str> = ["KAA", "MAA"]
+        .into_iter()
+        .chain(damping)
+        .chain(structural)
+        .collect();
+    let matrices = matrices.join(", ");
+    let order = record.order();
+    let of_matrices = format!(
+        "{matrices} [{order} x {order}] of the condensed housing, interface first, SI; binary OUTPUT4"
+    );
+    let of_rows = "which row is which coordinate: row from 0, mtx_row from 1";
+    Ok(Export {
+        files: vec![
+            WrittenFile::new(folder.path(), "superelement.op4", &of_matrices)?,
+            WrittenFile::new(folder.path(), "superelement_dofs.csv", of_rows)?,
+        ],
+        summary: format!("{}: {matrices}", counts(&record)),
+    })
+}
+
+/// `superelement.fem`. A free housing's shapes are relative to the first interface node with six motions, if there is one.
+pub(super) fn mbdyn(
+    case: &Case,
+    folder: &OutputFolder,
+    progress: &Progress,
+) -> Result<Export, CliError> {
+    let record = condensed(case, progress)?;
+    let reference = reference(&record.interface);
+    let path = folder.path().join("superelement.fem");
+    let written = write_mbdyn_fem(&path, &record, reference).map_err(ExportError::from)?;
+    let joint = match (written.mass, reference) {
+        (None, _) => "held by its supports: `clamped` in MBDyn's joint".to_owned(),
+        (Some(mass), MbdynReference::Node { body, node }) => format!(
+            "free, {mass:.6e} kg, shapes relative to {} node {node}: `origin node` in MBDyn's joint",
+            body.name()
+        ),
+        (Some(mass), MbdynReference::Floating) => {
+            format!("free, {mass:.6e} kg, free-free shapes")
+        }
+    };
+    let what = format!(
+        "{} modes at {} nodes for MBDyn's modal joint, SI; {joint}",
+        written.frequency_hz.len(),
+        written.nodes
+    );
+    Ok(Export {
+        files: vec![WrittenFile::new(folder.path(), "superelement.fem", &what)?],
+        summary: format!("{}\n{what}", counts(&record)),
+    })
+}
+
+fn condensed(case: &Case, progress: &Progress) -> Result<SuperelementRecord, CliError> {
+    // a case with nothing to condense was refused before
+    let stage = CondensedStage::build(case, progress)?.ok_or(StageError::NothingToCondense)?;
+    progress.stage("write");
+    Ok(superelement_record(case, &stage)?)
+}
+
+fn counts(record: &SuperelementRecord) -> String {
+    format!(
+        "{} interface coordinates, {} modes",
+        record.interface.len(),
+        record.modal_hz.len()
+    )
+}
+
+/// The first node of the interface that has six coordinates.
+fn reference(interface: &[DofLabel]) -> MbdynReference {
+    let coordinates = |of: &DofLabel| {
+        let own = |label: &&DofLabel| (label.body, label.node) == (of.body, of.node);
+        interface.iter().filter(own).count()
+    };
+    match interface.iter().find(|label| coordinates(label) == 6) {
+        Some(label) => MbdynReference::Node {
+            body: label.body,
+            node: label.node,
+        },
+        None => MbdynReference::Floating,
+    }
+}

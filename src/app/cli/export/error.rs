@@ -1,0 +1,121 @@
+//! What can go wrong with an export, and whose fault it is.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::formats::{
+    DofTableError, MatrixMarketError, MbdynError, ModeShapesError, NpzError, NpzReadError,
+    Op4Error, UffError, VtuError,
+};
+
+/// Why something was not exported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A case with nothing to condense.
+    #[error(
+        "--to {format} writes a condensed housing: expected [housing] with a mesh, and ring.tie or condense.interface, found \
+         {found}"
+    )]
+    NothingCondensed {
+        /// The format.
+        format: &'static str,
+        /// What the case has instead.
+        found: &'static str,
+    },
+    /// A case that puts modes in the place of an interface.
+    #[error(
+        "--to {format} writes the displacements of an interface, by which others attach it: expected \
+         condense.interface_modes = \"none\", found modes in their place"
+    )]
+    InterfaceModes {
+        /// The format.
+        format: &'static str,
+    },
+    /// Keys set for results that are computed already.
+    #[error("--set changes the case, but {} holds results of it as it was", folder.display())]
+    SetForResults {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Mode shapes of another model.
+    #[error("{} does not fit the case: expected {expected}, found {found}", path.display())]
+    DoesNotFit {
+        /// The file with the shapes.
+        path: PathBuf,
+        /// What the case has.
+        expected: String,
+        /// What the file has.
+        found: String,
+    },
+    /// No modes, or some that contradict themselves.
+    #[error("mode shapes: {0}")]
+    Shapes(#[from] ModeShapesError),
+    /// Mode shapes that cannot be read.
+    #[error(transparent)]
+    Read(#[from] NpzReadError),
+    /// A NumPy archive.
+    #[error(transparent)]
+    Npz(#[from] NpzError),
+    /// A Matrix Market file.
+    #[error(transparent)]
+    MatrixMarket(#[from] MatrixMarketError),
+    /// A table of degrees of freedom.
+    #[error(transparent)]
+    Dofs(#[from] DofTableError),
+    /// A grid.
+    #[error(transparent)]
+    Vtu(#[from] VtuError),
+    /// A universal file.
+    #[error(transparent)]
+    Uff(#[from] UffError),
+    /// An OUTPUT4 file.
+    #[error(transparent)]
+    Op4(#[from] Op4Error),
+    /// The data of a modal element.
+    #[error("--to mbdyn: {0}")]
+    Mbdyn(#[from] MbdynError),
+}
+
+impl ExportError {
+    /// Whether the input is wrong, rather than writing failed.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        !matches!(
+            self,
+            Self::Npz(_)
+                | Self::MatrixMarket(_)
+                | Self::Dofs(_)
+                | Self::Vtu(VtuError::Write { .. })
+                | Self::Uff(UffError::Write { .. })
+                | Self::Op4(Op4Error::Write { .. })
+                | Self::Mbdyn(MbdynError::Write { .. } | MbdynError::Eigen { .. })
+        )
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::SetForResults { .. } => "name the case file to compute it again".to_owned(),
+            Self::DoesNotFit { .. } | Self::Read(_) => {
+                "run `plummer modes` again with --force, or name the case file".to_owned()
+            }
+            Self::NothingCondensed { .. } => {
+                "--to mtx and --to npz write matrices that are not condensed".to_owned()
+            }
+            Self::InterfaceModes { .. } => {
+                "--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"
+                    .to_owned()
+            }
+            Self::Mbdyn(MbdynError::RigidMotions { .. }) => {
+                "MBDyn's bodies are solid: a housing that is free in space, or held by its supports"
+                    .to_owned()
+            }
+            Self::Shapes(_) => "ask for more modes in [modes]".to_owned(),
+            _ => return None,
+        };
+        Some(text)
+    }
+}

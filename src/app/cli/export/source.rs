@@ -1,0 +1,152 @@
+//! Where an export takes its data from: a case file, or a folder with results of `plummer modes`.
+
+use std::path::{Path, PathBuf};
+
+use super::{CliError, ExportError};
+use crate::app::case::Case;
+use crate::app::cli::earlier_results::{Wanted, case_of_results};
+use crate::app::cli::{Options, Progress, ResultsError};
+use crate::app::stages::{MeshDigest, StageError, compute_mode_shapes, mesh_digests};
+use crate::fe::mesh::Mesh;
+use crate::formats::{ModeShapes, read_modes_npz};
+use serde_json::Value;
+
+/// Farthest that a point of the results may be from its node, relative to the mesh's largest coordinate. Coordinates are
+/// written with every bit; a mesh read in another unit or made again is off by far more.
+const SAME_POINT: f64 = 1e-9;
+
+/// The results that shapes are taken from.
+const MODES: Wanted = Wanted {
+    command: "modes",
+    arrays: "modes.npz",
+    instead: "a case file",
+};
+
+/// A case, and the folder with its results if they are to be taken from there.
+pub(super) struct Source {
+    case: Case,
+    folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// Opens a case file, or the case that the `modes.json` of a folder names.
+    ///
+    /// # Errors
+    /// [`CliError::Case`], [`ExportError`] for a folder without usable results.
+    pub(super) fn open(from: &Path, options: &Options) -> Result<Self, CliError> {
+        if !from.is_dir() {
+            let case = Case::load(from, &options.set)?;
+            return Ok(Self { case, folder: None });
+        }
+        let folder = from.to_owned();
+        if !options.set.is_empty() {
+            return Err(ExportError::SetForResults { folder }.into());
+        }
+        let case = case_of_results(from, MODES, &[])?;
+        same_meshes(&case, &from.join("modes.json"))?;
+        Ok(Self {
+            case,
+            folder: Some(folder),
+        })
+    }
+
+    pub(super) fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// The folder with results; `None`: they are to be computed.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// The file with the mode shapes of earlier results.
+    pub(super) fn modes_npz(&self) -> Option<PathBuf> {
+        self.folder().map(|folder| folder.join(MODES.arrays))
+    }
+
+    /// The mesh, if the case has one, and the mode shapes: at the mesh's nodes, then at the ring's.
+    ///
+    /// # Errors
+    /// [`CliError::Stage`] of the computation, [`ExportError`] if earlier results cannot be read or are of another mesh.
+    pub(super) fn shapes(
+        &self,
+        progress: &Progress,
+    ) -> Result<(Option<Mesh>, ModeShapes), CliError> {
+        let Some(path) = self.modes_npz() else {
+            let (mesh, shapes) = compute_mode_shapes(&self.case, progress)?;
+            shapes.check().map_err(ExportError::from)?;
+            return Ok((mesh, shapes));
+        };
+        progress.stage("read");
+        let shapes = read_modes_npz(&path).map_err(ExportError::from)?;
+        let housing = self.case.meshed_housing();
+        let mesh = housing
+            .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
+            .transpose()
+            .map_err(StageError::from)?;
+        let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
+        check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
+        Ok((mesh, shapes))
+    }
+}
+
+/// Whether the files that a case rests on are those that its result speaks of.
+fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
+    let text = std::fs::read(result).unwrap_or_default();
+    let json: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let then: Vec<MeshDigest> = serde_json::from_value(json["meshes"].clone()).unwrap_or_default();
+    let now = mesh_digests(case)?;
+    match then
+        .iter()
+        .zip(now)
+        .find(|(then, now)| then.sha256 != now.sha256)
+    {
+        None => Ok(()),
+        Some((then, now)) => Err(ResultsError::OtherFile {
+            path: result.to_owned(),
+            arrays: now.path,
+            expected: then.sha256.clone(),
+            found: now.sha256,
+        }
+        .into()),
+    }
+}
+
+/// Whether shapes are at the nodes of this mesh and of a ring of so many nodes.
+fn check_fit(
+    path: &Path,
+    mesh: Option<&Mesh>,
+    ring_nodes: usize,
+    shapes: &ModeShapes,
+) -> Result<(), ExportError> {
+    let wrong = |expected: String, found: String| ExportError::DoesNotFit {
+        path: path.to_owned(),
+        expected,
+        found,
+    };
+    let nodes: &[[f64; 3]] = mesh.map_or(&[], |mesh| &mesh.nodes);
+    let found = shapes.count_points();
+    if found != nodes.len() + ring_nodes {
+        let expected = format!(
+            "{} nodes of the mesh and {ring_nodes} of the ring",
+            nodes.len()
+        );
+        return Err(wrong(expected, format!("{found} nodes")));
+    }
+    let largest = nodes
+        .as_flattened()
+        .iter()
+        .fold(0.0_f64, |size, x| size.max(x.abs()));
+    let points = shapes.points.iter().flatten();
+    for (index, (node, point)) in nodes.iter().zip(points).enumerate() {
+        let apart = (0..3).any(|axis| (node[axis] - point[axis]).abs() > SAME_POINT * largest);
+        if let (true, Some(mesh)) = (apart, mesh) {
+            let tag = mesh.node_tags[index];
+            return Err(wrong(
+                format!("node {tag} of {} at {node:?} m", mesh.source.display()),
+                format!("{point:?} m"),
+            ));
+        }
+    }
+    Ok(())
+}

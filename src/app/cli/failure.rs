@@ -1,0 +1,524 @@
+//! Why a command did not end well: exit code, message, what to do.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::output::printable;
+use super::{AnalyzeError, ExportError, InitError, RecordError, ResultsError};
+use crate::app::case::CaseError;
+use crate::app::stages::StageError;
+use crate::app::studies::chart::ChartError;
+use crate::app::studies::sweep::SweepError;
+use crate::app::verification::VerificationError;
+
+/// Why a command did not end well.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// The case file or a `--set` argument is wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// `--set` beside a command that reads no case.
+    #[error("--set {argument}: `plummer {command}` reads no case that it could change")]
+    SetWithoutCase {
+        /// The first argument.
+        argument: String,
+        /// The command.
+        command: &'static str,
+    },
+    /// A `--set` argument that a later one replaces.
+    #[error("--set {later} replaces --set {earlier}: expected each key once")]
+    SetTwice {
+        /// The argument of which nothing would be left.
+        earlier: String,
+        /// The one that replaces it.
+        later: String,
+    },
+    /// The folder holds a result of the same command.
+    #[error("{} is the result of an earlier run", path.display())]
+    ResultExists {
+        /// The result file.
+        path: PathBuf,
+    },
+    /// Another process writes into the folder.
+    #[error("another plummer writes into {}", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Earlier results that cannot be used.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// The run that is to go on has ended.
+    #[error("{} is the result of a finished run: there is nothing to go on with", path.display())]
+    Finished {
+        /// The result file.
+        path: PathBuf,
+    },
+    /// A run cannot go on and begin anew.
+    #[error(
+        "--resume goes on with a run, --force begins it anew: expected one of them, found both"
+    )]
+    ResumeAnew,
+    /// The command was asked to stop and can go on.
+    #[error("{what}; {kept} in {}", folder.display())]
+    Interrupted {
+        /// How far it came.
+        what: String,
+        /// What it left, with a verb.
+        kept: &'static str,
+        /// The folder with that.
+        folder: PathBuf,
+        /// The command line that goes on.
+        command: String,
+    },
+    /// Signals of the system cannot be caught.
+    #[error("cannot catch interrupts: {0}")]
+    Signals(#[source] io::Error),
+    /// The threads that compute cannot be started.
+    #[error("the threads that compute cannot be started: {0}")]
+    Threads(String),
+    /// The folder for the results cannot be made.
+    #[error("cannot make the folder {}: {source}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A result cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Standard output cannot be written, for another reason than a closed pipe.
+    #[error("cannot write to standard output: {0}")]
+    StandardOutput(#[source] io::Error),
+    /// The computation ended and its answer is bad; its results are written.
+    #[error("{what}")]
+    BadAnswer {
+        /// What is bad, where and when.
+        what: String,
+        /// What to try.
+        help: Option<String>,
+    },
+    /// Some of many inputs, or all of them, are wrong; the results of the others are written.
+    #[error("{what}")]
+    WrongInput {
+        /// Which, and what is wrong with it.
+        what: String,
+        /// What to try.
+        help: Option<String>,
+    },
+    /// A stage of the computation failed, by its input or by itself.
+    #[error(transparent)]
+    Stage(Box<StageError>),
+    /// Something was not exported.
+    #[error(transparent)]
+    Export(Box<ExportError>),
+    /// There is nothing to analyse, or nothing to analyse it by.
+    #[error(transparent)]
+    Analyze(#[from] AnalyzeError),
+    /// No case file could be made.
+    #[error(transparent)]
+    Init(Box<InitError>),
+    /// There is no report to draw again.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A chart could not be made.
+    #[error(transparent)]
+    Chart(Box<ChartError>),
+    /// A sweep cannot be planned or not go on.
+    #[error(transparent)]
+    Sweep(Box<SweepError>),
+    /// A built-in check could not be carried out.
+    #[error(transparent)]
+    Verification(Box<VerificationError>),
+}
+
+impl From<VerificationError> for CliError {
+    fn from(error: VerificationError) -> Self {
+        Self::Verification(Box::new(error))
+    }
+}
+
+impl From<SweepError> for CliError {
+    fn from(error: SweepError) -> Self {
+        Self::Sweep(Box::new(error))
+    }
+}
+
+impl From<InitError> for CliError {
+    fn from(error: InitError) -> Self {
+        Self::Init(Box::new(error))
+    }
+}
+
+impl From<ChartError> for CliError {
+    fn from(error: ChartError) -> Self {
+        Self::Chart(Box::new(error))
+    }
+}
+
+impl From<ExportError> for CliError {
+    fn from(error: ExportError) -> Self {
+        Self::Export(Box::new(error))
+    }
+}
+
+impl From<StageError> for CliError {
+    fn from(error: StageError) -> Self {
+        Self::Stage(Box::new(error))
+    }
+}
+
+impl CliError {
+    /// Returns the program's exit code: 2 when the input is to blame, 1 otherwise.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Case(_)
+            | Self::Analyze(_)
+            | Self::Init(_)
+            | Self::Record(_)
+            | Self::WrongInput { .. }
+            | Self::ResultExists { .. }
+            | Self::Busy { .. }
+            | Self::Results(_)
+            | Self::Folder { .. }
+            | Self::Finished { .. }
+            | Self::SetWithoutCase { .. }
+            | Self::SetTwice { .. }
+            | Self::ResumeAnew => 2,
+            Self::Stage(error) if error.is_input() => 2,
+            Self::Export(error) if error.is_input() => 2,
+            Self::Chart(error) if error.is_input() => 2,
+            Self::Sweep(error) if error.is_input() => 2,
+            Self::Write { .. }
+            | Self::StandardOutput(_)
+            | Self::BadAnswer { .. }
+            | Self::Interrupted { .. }
+            | Self::Signals(_)
+            | Self::Stage(_)
+            | Self::Export(_)
+            | Self::Chart(_)
+            | Self::Sweep(_)
+            | Self::Threads(_)
+            | Self::Verification(_) => 1,
+        }
+    }
+
+    /// Returns what to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Case(error) => error.help(),
+            Self::Stage(error) => error.help(),
+            Self::Export(error) => error.help(),
+            Self::Analyze(error) => error.help(),
+            Self::Init(error) => error.help(),
+            Self::Record(error) => error.help(),
+            Self::Chart(error) => error.help(),
+            Self::Sweep(error) => error.help(),
+            Self::Busy { .. } => {
+                Some("wait for its end, or choose another folder with --out".to_owned())
+            }
+            Self::Results(error) => Some(error.help()),
+            Self::ResultExists { .. } => {
+                Some("replace it with --force, or choose another folder with --out".to_owned())
+            }
+            Self::Finished { .. } => {
+                Some("leave --resume out, and begin anew with --force".to_owned())
+            }
+            Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
+            Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
+            Self::SetWithoutCase { .. } => Some(
+                "leave it out; the command has options of its own, which --help lists".to_owned(),
+            ),
+            Self::SetTwice { .. } => Some("leave one of the two out".to_owned()),
+            Self::BadAnswer { help, .. } | Self::WrongInput { help, .. } => help.clone(),
+            Self::Threads(_) => Some(
+                "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"
+                    .to_owned(),
+            ),
+            Self::Write { .. }
+            | Self::StandardOutput(_)
+            | Self::ResumeAnew
+            | Self::Signals(_)
+            | Self::Verification(_) => None,
+        }
+    }
+
+    /// Writes the lines `error: ...` and, for each thing that can be done, `help: ...`. Nothing can be done about a failure
+    /// to write them.
+    pub fn report(&self, to: &mut impl Write) {
+        let _ = writeln!(to, "error: {}", printable(&self.to_string()));
+        for line in self.help().iter().flat_map(|help| help.lines()) {
+            let _ = writeln!(to, "help: {}", printable(line));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+    use std::path::PathBuf;
+
+    use super::super::analyze::Missing;
+    use super::{
+        AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, ResultsError,
+        SweepError, VerificationError,
+    };
+    use crate::app::case::Case;
+    use crate::app::stages::{StageError, UnfinishedError};
+    use crate::formats::DofTableError;
+
+    fn every() -> Vec<(CliError, u8, &'static str)> {
+        let path = || PathBuf::from("out/a");
+        let source = || io::Error::other("full");
+        vec![
+            (
+                CliError::Case(Case::load("no/such.toml", &[]).unwrap_err()),
+                2,
+                "error: cannot read the case file no/such.toml: No such file or directory (os error 2)\n",
+            ),
+            (
+                CliError::ResultExists { path: path() },
+                2,
+                "error: out/a is the result of an earlier run\n\
+                 help: replace it with --force, or choose another folder with --out\n",
+            ),
+            (
+                CliError::Folder {
+                    path: path(),
+                    source: source(),
+                },
+                2,
+                "error: cannot make the folder out/a: full\nhelp: choose another folder with --out\n",
+            ),
+            (
+                CliError::Write {
+                    path: path(),
+                    source: source(),
+                },
+                1,
+                "error: cannot write out/a: full\n",
+            ),
+            (
+                CliError::StandardOutput(source()),
+                1,
+                "error: cannot write to standard output: full\n",
+            ),
+            (
+                CliError::BadAnswer {
+                    what: "blew up at 0.3 s".to_owned(),
+                    help: Some("halve the step".to_owned()),
+                },
+                1,
+                "error: blew up at 0.3 s\nhelp: halve the step\n",
+            ),
+            (
+                CliError::Finished { path: path() },
+                2,
+                "error: out/a is the result of a finished run: there is nothing to go on with\n\
+                 help: leave --resume out, and begin anew with --force\n",
+            ),
+            (
+                CliError::ResumeAnew,
+                2,
+                "error: --resume goes on with a run, --force begins it anew: expected one of them, found both\n",
+            ),
+            (
+                CliError::Interrupted {
+                    what: "interrupted at t = 1.25 s of 4 s".to_owned(),
+                    kept: "the signals so far and a checkpoint are",
+                    folder: path(),
+                    command: "plummer run a.toml --resume".to_owned(),
+                },
+                1,
+                "error: interrupted at t = 1.25 s of 4 s; the signals so far and a checkpoint are in out/a\n\
+                 help: go on with: plummer run a.toml --resume\n",
+            ),
+            (
+                CliError::Signals(source()),
+                1,
+                "error: cannot catch interrupts: full\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::InTheWay { path: path() })),
+                2,
+                "error: out/a holds an unfinished run\n\
+                 help: go on with --resume, or give it up and begin anew with --force\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::Nothing { path: path() })),
+                2,
+                "error: out/a has no checkpoint: there is no unfinished run to go on with\n\
+                 help: leave --resume out to begin a run\n",
+            ),
+            (
+                CliError::from(StageError::from(UnfinishedError::Changed {
+                    path: path(),
+                    changes: vec![
+                        "no --set, now --set a=1".to_owned(),
+                        "another content of b".to_owned(),
+                    ],
+                })),
+                2,
+                "error: the run in out/a was begun with something else: no --set, now --set a=1; another content of b\n\
+                 help: go on with what it was begun with, or begin anew with --force\n",
+            ),
+            (
+                CliError::from(StageError::TieFrame),
+                2,
+                "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
+            ),
+            (
+                CliError::from(ExportError::NothingCondensed {
+                    format: "op4",
+                    found: "a ring alone",
+                }),
+                2,
+                "error: --to op4 writes a condensed housing: expected [housing] with a mesh, and ring.tie or \
+                 condense.interface, found a ring alone\n\
+                 help: --to mtx and --to npz write matrices that are not condensed\n",
+            ),
+            (
+                CliError::from(ResultsError::Missing {
+                    folder: path(),
+                    command: "modes",
+                    arrays: "modes.npz",
+                    instead: "a case file",
+                }),
+                2,
+                "error: out/a has no modes.json and modes.npz: expected a folder with results of `plummer modes`, or a case file\n\
+                 help: run `plummer modes CASE.toml --out out/a` first\n",
+            ),
+            (
+                CliError::Busy { path: path() },
+                2,
+                "error: another plummer writes into out/a\n\
+                 help: wait for its end, or choose another folder with --out\n",
+            ),
+            (
+                CliError::from(InitError::Exists {
+                    path: PathBuf::from("a.toml"),
+                }),
+                2,
+                "error: a.toml exists\nhelp: replace it with --force, or name another file with --out\n",
+            ),
+            (
+                CliError::from(RecordError::None { folder: path() }),
+                2,
+                "error: out/a has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page\n\
+                 help: name the folder with the results of a command\n",
+            ),
+            (
+                CliError::from(AnalyzeError::Missing {
+                    input: path(),
+                    missing: vec![
+                        Missing::Channel {
+                            known: vec!["P1".to_owned(), "P2".to_owned()],
+                        },
+                        Missing::Rate,
+                        Missing::Speed,
+                    ],
+                }),
+                2,
+                "error: out/a: nothing says which channel is meant, how fast it was sampled and how fast the shaft turns\n\
+                 help: --channel NAME (repeatable), of \"P1\", \"P2\"\n\
+                 help: --rate HZ, the sampling rate\n\
+                 help: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n",
+            ),
+            (
+                CliError::from(AnalyzeError::Missing {
+                    input: path(),
+                    missing: vec![Missing::Bearing],
+                }),
+                2,
+                "error: out/a: nothing says which bearing it is\n\
+                 help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
+            ),
+            (
+                CliError::from(ChartError::TooShort {
+                    found: 1e-4,
+                    band_hz: 4e4,
+                    needed: 5e-4,
+                }),
+                2,
+                "error: transient.end - transient.start is 0.0001 s: a chart in the band up to 40000 Hz needs at least 0.0005 s\n\
+                 help: a later transient.end, by at least 0.0005 s after transient.start\n",
+            ),
+            (
+                CliError::from(ChartError::NoReference {
+                    method: "dop853",
+                    start_s: 2.3,
+                    reason: "the solution blew up".to_owned(),
+                }),
+                1,
+                "error: the reference by dop853 failed at the start at 2.3 s: the solution blew up\n\
+                 help: `plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere\n",
+            ),
+            (
+                CliError::from(SweepError::InTheWay { folder: path() }),
+                2,
+                "error: out/a holds a sweep\n\
+                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
+            ),
+            (
+                CliError::from(SweepError::Changed {
+                    folder: path(),
+                    changes: vec!["another text of the case file".to_owned()],
+                }),
+                2,
+                "error: the sweep in out/a was begun with something else: another text of the case file\n\
+                 help: go on with what it was begun with, or begin anew with --force\n",
+            ),
+            (
+                CliError::from(SweepError::NoPlan {
+                    folder: path(),
+                    plan: PathBuf::from("out/a/sweep/plan.json"),
+                }),
+                2,
+                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
+                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
+            ),
+            (
+                CliError::from(SweepError::Io {
+                    path: path(),
+                    source: source(),
+                }),
+                1,
+                "error: out/a: full\n",
+            ),
+            (
+                CliError::from(VerificationError::NoBearing),
+                1,
+                "error: the built-in case has no bearing\n",
+            ),
+            (
+                CliError::from(ExportError::Dofs(DofTableError {
+                    path: path(),
+                    source: source(),
+                })),
+                1,
+                "error: cannot write out/a: full\n",
+            ),
+        ]
+    }
+
+    #[test]
+    fn each_has_its_exit_code_and_its_lines() {
+        for (error, code, lines) in every() {
+            assert_eq!(error.exit_code(), code, "{error}");
+            let mut written = Vec::new();
+            error.report(&mut written);
+            assert_eq!(String::from_utf8(written).unwrap(), lines);
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! `plummer frf`: transfer paths.
+
+use super::report_files::ReportFiles;
+use super::results::{common, warnings};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::case::Case;
+use crate::app::stages::{FrfResult, StageError, TransferPath, compute_frf, frf_report};
+use crate::fe::reduction::frf::FrfQuantity;
+use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
+use serde_json::{Value, json};
+
+/// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let result = compute_frf(case, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let command = options.command_line("frf", case);
+    let report = frf_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "frf", case, report, progress)?;
+    let uff = folder.path().join("frf.uff");
+    write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(StageError::from)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("frf", case, progress, wall_s, &files.meshes);
+    map.insert("tables".to_owned(), json!(files.tables));
+    map.extend(fields(&result));
+    let json = Value::Object(map);
+    let path = folder.write("frf.json", format!("{json:#}\n").as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: [vec![path, uff], files.paths].concat(),
+        verdict: verdict(&result),
+    })
+}
+
+fn verdict(result: &FrfResult) -> Verdict {
+    if result.passes() {
+        return Verdict::Good;
+    }
+    let found = |how: &str, (hz, error): (f64, f64)| {
+        (error > result.target).then(|| format!("{how} {error:.1e} at {hz:.0} Hz"))
+    };
+    let estimated = result.largest_estimate();
+    let compared = result.largest_difference();
+    let misses: Vec<String> = [
+        estimated.and_then(|at| found("estimated error", at)),
+        compared.and_then(|at| found("difference from the full model", at)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    Verdict::Bad {
+        what: format!(
+            "the reduced responses miss the target {:.1e}: {}",
+            result.target,
+            misses.join(", ")
+        ),
+        help: Some(
+            "close to zeros of a response, and on paths that carry little, small differences are large: ask for the other paths alone, narrow frf.band_hz, or raise condense.fixed_interface_modes".to_owned(),
+        ),
+    }
+}
+
+fn summary(result: &FrfResult) -> String {
+    let element = result.housing.element();
+    let mut lines = vec![format!(
+        "{} paths at {} frequencies from {:.0} to {:.0} Hz; {} interface coordinates, {} vectors",
+        result.paths.len(),
+        result.response.frequencies_hz().len(),
+        result.band_hz[0],
+        result.band_hz[1],
+        element.interface_dof,
+        element.modal_dof()
+    )];
+    lines.extend(warnings(&result.doubts));
+    for path in &result.paths {
+        if path.is_closed() {
+            lines.push(format!(
+                "{} to {}: {}",
+                path.from,
+                path.to,
+                TransferPath::CLOSED
+            ));
+            continue;
+        }
+        let modes: Vec<String> = path
+            .shares
+            .modes
+            .iter()
+            .take(3)
+            .map(|share| {
+                format!(
+                    "{:.0} Hz ({:.0} %)",
+                    share.frequency_hz,
+                    100.0 * share.share
+                )
+            })
+            .collect();
+        lines.push(format!(
+            "{} to {}: carried by {}",
+            path.from,
+            path.to,
+            modes.join(", ")
+        ));
+    }
+    if let Some((hz, error)) = result.largest_estimate() {
+        lines.push(format!(
+            "estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"
+        ));
+    }
+    if let Some(why) = &result.not_compared {
+        lines.push(format!("nothing was compared with the full model: {why}"));
+    }
+    if let Some((hz, difference)) = result.largest_difference() {
+        lines.push(format!(
+            "against the full model at {} frequencies: up to {difference:.1e}, at {hz:.0} Hz",
+            result.compared.len()
+        ));
+    }
+    for ranked in &result.ranking {
+        let path = &result.paths[ranked.path];
+        if let Some(quietest) = ranked.variants.first() {
+            lines.push(format!(
+                "{} to {}: least transmitted by \"{}\"",
+                path.from, path.to, quietest.name
+            ));
+        }
+    }
+    lines.join("\n")
+}
+
+/// What `frf.json` says beside what every result carries.
+fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
+    let receptance = |place: (usize, usize)| {
+        let values = result.response.receptance().iter();
+        values.map(|at| at[place]).collect::<Vec<_>>()
+    };
+    let full = |path: usize| {
+        let compared = result.compared.iter();
+        compared.map(|at| at.full[path]).collect::<Vec<_>>()
+    };
+    let paths: Vec<Value> = result
+        .paths
+        .iter()
+        .enumerate()
+        .map(|(index, path)| {
+            let (values, full) = (receptance(path.place), full(index));
+            json!({
+                "from": path.from,
+                "to": path.to,
+                "closed": path.is_closed(),
+                "re": values.iter().map(|h| h.re).collect::<Vec<_>>(),
+                "im": values.iter().map(|h| h.im).collect::<Vec<_>>(),
+                "full_re": full.iter().map(|h| h.re).collect::<Vec<_>>(),
+                "full_im": full.iter().map(|h| h.im).collect::<Vec<_>>(),
+                "modes": path.shares.modes.iter().map(|share| json!({
+                    "mode": share.mode,
+                    "frequency_hz": share.frequency_hz,
+                    "damping_ratio": share.ratio,
+                    "share": share.share,
+                    "alone": share.alone,
+                })).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let fields = json!({
+        "unit": "m/N",
+        "band_hz": result.band_hz,
+        "interface_dof": result.housing.element().interface_dof,
+        "vectors": result.housing.element().modal_dof(),
+        "frequency_hz": result.response.frequencies_hz(),
+        "paths": paths,
+        "full_frequency_hz": result.compared.iter().map(|at| at.frequency_hz).collect::<Vec<_>>(),
+        "full_residual": result.compared.iter().map(|at| at.residual).collect::<Vec<_>>(),
+        "estimated_error": result.estimate.as_ref().map(|estimate| &estimate.relative_errors),
+        "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
+        "target": result.target,
+        "not_compared": result.not_compared,
+        "warnings": result.doubts,
+        "ranking": result.ranking.iter().map(|ranked| json!({
+            "path": ranked.path,
+            "variants": ranked.variants.iter().map(|variant| json!({
+                "name": variant.name,
+                "mean_db": variant.mean_db,
+                "above_quietest_db": variant.above_quietest_db,
+            })).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
+    });
+    match fields {
+        Value::Object(map) => map,
+        _ => serde_json::Map::new(),
+    }
+}
+
+/// A direction of the case, which may have any length; none where the case has none, as of a superelement's sensor.
+fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
+    let length = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
+    (length > 0.0).then(|| direction.map(|part| part / length))
+}
+
+/// The receptances as other programs read them.
+fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, StageError> {
+    let direction = |name: &str| {
+        let pushes = case.frf.iter().flat_map(|frf| &frf.from);
+        let push = pushes
+            .filter(|push| push.name == name)
+            .map(|push| push.direction);
+        let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
+        let given = push.chain(sensors.map(|sensor| sensor.direction)).next();
+        given.and_then(unit)
+    };
+    let node = |name: &str| {
+        use crate::app::case::SensorSpot;
+        let pushes = case.frf.iter().flat_map(|frf| &frf.from);
+        let push = pushes
+            .filter(|push| push.name == name)
+            .map(|push| &push.spot);
+        let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
+        let spot = push.chain(sensors.map(|sensor| &sensor.spot)).next();
+        match spot {
+            Some(SensorSpot::Node(tag)) => Some(*tag),
+            _ => None,
+        }
+    };
+    let point = |name: &str| ResponsePoint {
+        name: name.to_owned(),
+        node: node(name),
+        direction: direction(name),
+    };
+    let mut responses = Vec::with_capacity(result.paths.len());
+    for path in &result.paths {
+        let (sensor, load) = path.place;
+        let values = result
+            .response
+            .path(sensor, load, FrfQuantity::Receptance)?;
+        let response = FrequencyResponse {
+            name: format!("{} to {}", path.from, path.to),
+            frequency_hz: result.response.frequencies_hz().to_vec(),
+            value: values.iter().map(|h| [h.re, h.im]).collect(),
+            kind: ResponseKind::Receptance,
+            from: point(&path.from),
+            to: point(&path.to),
+        };
+        responses.push(response.told_apart());
+    }
+    Ok(responses)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unit;
+
+    #[test]
+    fn directions_have_length_one_or_are_not_known() {
+        assert_eq!(unit([0.0, -2.0, 0.0]), Some([0.0, -1.0, 0.0]));
+        assert_eq!(unit([3.0, 0.0, 4.0]), Some([0.6, 0.0, 0.8]));
+        assert_eq!(unit([0.0; 3]), None);
+    }
+}

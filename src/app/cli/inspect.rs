@@ -1,0 +1,245 @@
+//! `plummer inspect`: a look at a mesh.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::json;
+
+use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use crate::app::stages::{Inspection, StageError};
+use crate::numerics::units::LengthUnit;
+use crate::report::significant;
+
+/// Densities (kg/m^3) for which the mass is shown when none is asked for: aluminium and steel.
+const DENSITIES: [f64; 2] = [2700.0, 7850.0];
+
+/// Inspects a mesh; writes `inspect.json` if a folder was named with `--out`.
+///
+/// # Errors
+/// [`CliError`] when the mesh cannot be read or the result cannot be written.
+pub fn inspect(
+    path: &Path,
+    unit: Option<LengthUnit>,
+    density: Option<f64>,
+    options: &Options,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let found = Inspection::of_file(path, unit).map_err(StageError::from)?;
+    let mut result = json!({
+        "plummer": env!("CARGO_PKG_VERSION"),
+        "command": "inspect",
+        "mesh": path,
+        "wall_s": started.elapsed().as_secs_f64(),
+        "mass_kg": density.filter(|_| unit.is_some()).map(|density| density * found.size),
+    });
+    if let (Some(map), Ok(serde_json::Value::Object(fields))) =
+        (result.as_object_mut(), serde_json::to_value(&found))
+    {
+        map.extend(fields);
+    }
+    let mut written = Vec::new();
+    if let Some(folder) = &options.out {
+        let folder = OutputFolder::at(folder);
+        folder.claim("inspect", options.force)?;
+        written.push(folder.write("inspect.json", format!("{result:#}\n").as_bytes())?);
+    }
+    Ok(Outcome {
+        summary: summary(path, &found, density),
+        result,
+        written,
+        verdict: verdict(&found),
+    })
+}
+
+/// A mesh is good unless elements of it are folded or count twice.
+pub(super) fn verdict(found: &Inspection) -> Verdict {
+    let overlapping = found.overlapping.iter();
+    let overlapping: Vec<String> = overlapping.map(|overlap| overlap.sentence()).collect();
+    match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
+        (None, None, None) if overlapping.is_empty() => Verdict::Good,
+        (None, None, None) => Verdict::Bad {
+            what: overlapping.join("; "),
+            help: Some("cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are".to_owned()),
+        },
+        (None, None, Some(mixed)) => Verdict::Bad {
+            what: mixed.sentence(),
+            help: Some("set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order".to_owned()),
+        },
+        (None, Some(doubled), _) => Verdict::Bad {
+            what: doubled.sentence(),
+            help: Some("keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again".to_owned()),
+        },
+        (Some(first), ..) => Verdict::Bad {
+            what: format!(
+                "{} elements are inverted, folded or without size (the first is element {})",
+                found.invalid_elements, first.tag
+            ),
+            help: Some("mesh again, or look at them in gmsh (Tools, Visibility)".to_owned()),
+        },
+    }
+}
+
+fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
+    let mut text = String::new();
+    let inventory = &found.inventory;
+    let unit = found.length_unit.map_or("unit", |_| "m");
+    let counts = |kinds: &[crate::fe::mesh::KindCount]| {
+        let names = kinds
+            .iter()
+            .map(|kind| format!("{} {}", kind.count, kind.kind.name()));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let mut line = |name: &str, value: String| {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "{name:<18}{value}");
+    };
+    line("file", format!("{} ({})", path.display(), inventory.format));
+    line("elements", counts(&inventory.elements));
+    line(
+        "nodes",
+        format!("{}{}", inventory.nodes, node_faults(found)),
+    );
+    let [x, y, z] = inventory
+        .bounding_box
+        .extent()
+        .map(|side| significant(side, 5));
+    line("extent", format!("{x} x {y} x {z} {unit}"));
+    let solid = inventory.dimension == 3;
+    let what = if solid { "volume" } else { "area" };
+    let power = if solid { 3 } else { 2 };
+    line(
+        what,
+        format!("{} {unit}^{power}", significant(found.size, 7)),
+    );
+    if solid {
+        line("mass", masses(found, density));
+    }
+    if let Some(worst) = &found.worst {
+        let [x, y, z] = worst.position.map(|at| significant(at, 5));
+        let shape = format!(
+            "Jacobian ratio {} at element {} ({}), ({x}, {y}, {z}) {unit}",
+            significant(worst.scaled_jacobian, 3),
+            worst.tag,
+            worst.kind.name()
+        );
+        line("worst shape", shape);
+    }
+    if found.invalid_elements > 0 {
+        let tags: Vec<String> = found
+            .invalid
+            .iter()
+            .map(|bad| bad.tag.to_string())
+            .collect();
+        let more = if found.invalid_elements > tags.len() {
+            ", ..."
+        } else {
+            ""
+        };
+        line(
+            "INVALID",
+            format!(
+                "{} elements: {}{more}",
+                found.invalid_elements,
+                tags.join(", ")
+            ),
+        );
+    }
+    if let Some(doubled) = &found.doubled {
+        line("DOUBLED", doubled.sentence());
+    }
+    if let Some(mixed) = &found.mixed_orders {
+        line("MIXED ORDERS", mixed.sentence());
+    }
+    for overlap in &found.overlapping {
+        line("OVERLAP", overlap.sentence());
+    }
+    for touching in &found.touching {
+        line("warning", touching.sentence());
+    }
+    for crossing in &found.crossing {
+        line("warning", crossing.sentence());
+    }
+    line("connected parts", inventory.parts.len().to_string());
+    if inventory.parts.len() > 1 {
+        for part in &inventory.parts {
+            let [x, y, z] = part.bounding_box.extent().map(|side| significant(side, 4));
+            let size = format!("{} elements, {x} x {y} x {z} {unit}", part.elements);
+            line("", format!("{size}, node {}", part.node_tag));
+        }
+    }
+    if inventory.ungrouped_elements > 0 {
+        line(
+            "in no group",
+            format!("{} elements", inventory.ungrouped_elements),
+        );
+    }
+    for overlap in &inventory.overlaps {
+        let [a, b] = &overlap.names;
+        line(
+            "overlap",
+            format!("\"{a}\" and \"{b}\": {} elements", overlap.elements),
+        );
+    }
+    let _ = write!(text, "groups");
+    for group in &inventory.groups {
+        let what = ["points", "curves", "surfaces", "volumes"][group.dimension.min(3)];
+        let (name, tag) = (format!("\"{}\"", group.name), group.tag);
+        let _ = write!(
+            text,
+            "\n  {name:<22}{what:<9} tag {tag:<5}{:>8} nodes  ",
+            group.nodes
+        );
+        let _ = write!(text, "{}", counts(&group.kinds));
+        let same = |size: &&crate::app::stages::GroupSize| {
+            size.name == group.name && size.dimension == group.dimension
+        };
+        if let Some(size) = found.group_sizes.iter().find(same) {
+            let power = ["", "", "^2", "^3"][group.dimension.min(3)];
+            let _ = write!(text, "  {} {unit}{power}", significant(size.size, 5));
+        }
+    }
+    if found.length_unit.is_none() {
+        let _ = write!(
+            text,
+            "\nThe file does not say its unit of length; give --length-unit mm (m, cm, um, in) for sizes in metres."
+        );
+    }
+    text
+}
+
+fn node_faults(found: &Inspection) -> String {
+    let inventory = &found.inventory;
+    let mut faults = String::new();
+    if inventory.unused.count > 0 {
+        let _ = write!(
+            faults,
+            ", {} unused (tags {:?} ...)",
+            inventory.unused.count, inventory.unused.first_tags
+        );
+    }
+    if inventory.duplicates.count > 0 {
+        let _ = write!(
+            faults,
+            ", {} in the place of another (pairs {:?} ...)",
+            inventory.duplicates.count, inventory.duplicates.first_pairs
+        );
+    }
+    faults
+}
+
+/// Mass for the density asked for, else for common ones; without a unit for millimetres and metres.
+fn masses(found: &Inspection, density: Option<f64>) -> String {
+    let densities = density.map_or(DENSITIES.to_vec(), |density| vec![density]);
+    let units = match found.length_unit {
+        Some(_) => vec![(1.0, "")],
+        None => vec![(1e-9, " if in mm"), (1.0, " if in m")],
+    };
+    let mut words = Vec::new();
+    for (scale, unit) in units {
+        for &density in &densities {
+            let mass = significant(density * scale * found.size, 5);
+            words.push(format!("{mass} kg at {density} kg/m^3{unit}"));
+        }
+    }
+    words.join(", ")
+}

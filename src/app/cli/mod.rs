@@ -1,0 +1,186 @@
+//! The command line: arguments to a case, a case to a computation, its outcome to files and text.
+//!
+//! Computations return data; only this module prints. Exit codes: 0 done; 1 it ran and the answer is bad, or could not
+//! be computed; 2 the input is wrong. A result goes to standard output, progress and errors to standard error.
+
+mod analyze;
+mod arguments;
+mod chart;
+mod condense;
+mod earlier_results;
+mod export;
+mod failure;
+mod folder_lock;
+mod frf;
+mod init;
+mod inspect;
+mod interrupt;
+mod mode_checks;
+mod modes;
+mod outcome;
+mod output;
+mod progress;
+mod report;
+mod report_files;
+mod results;
+mod run;
+mod set_arguments;
+mod shell;
+mod stability;
+mod sweep;
+mod verify;
+
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
+pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
+pub use earlier_results::ResultsError;
+pub use export::ExportError;
+pub use failure::CliError;
+pub use init::{InitArguments, InitError};
+pub use outcome::{Outcome, Verdict};
+pub use output::{OutputFolder, emit, write_atomic};
+pub use progress::{Progress, StageTime, Visibility};
+pub use report::RecordError;
+pub use sweep::{Share, SweepArguments};
+
+use crate::app::case::{Case, Purpose};
+
+/// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
+const STACK: usize = 8 << 20;
+
+/// Runs the program on the process's arguments and returns its exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    let named = std::thread::Builder::new().name("main".to_owned());
+    match named.stack_size(STACK).spawn(on_arguments) {
+        Ok(work) => work
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Err(error) => {
+            let _ = writeln!(
+                io::stderr(),
+                "error: a thread with a stack of {} MiB could not be started: {error}\nhelp: raise the limits of memory and threads (ulimit -v, ulimit -u)",
+                STACK >> 20
+            );
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn on_arguments() -> ExitCode {
+    if let Some(word) = std::env::args_os().find(|word| word.to_str().is_none()) {
+        let word = word.to_string_lossy();
+        let _ = writeln!(
+            io::stderr(),
+            "error: argument \"{word}\": expected text in UTF-8, found other bytes\nhelp: rename the file or its folder"
+        );
+        return ExitCode::from(2);
+    }
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help or version to a pipe that was closed is no failure.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let done = interrupt::fail_at_limits()
+        .map_err(CliError::Signals)
+        .and_then(|()| execute(&arguments, &mut io::stdout().lock()));
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.report(&mut io::stderr().lock());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// Carries out one command and writes its result to `to`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
+pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
+    set_arguments::check_set(arguments)?;
+    let options = &arguments.options;
+    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    // a pool that is already there stays: results do not depend on the number of threads
+    if let Err(error) = pool.build_global()
+        && let Some(source) = std::error::Error::source(&error)
+    {
+        return Err(CliError::Threads(source.to_string()));
+    }
+    let outcome = match &arguments.command {
+        Command::Completions { shell } => return shell::completions(*shell, to),
+        Command::Man => return shell::man(options, to),
+        Command::Run { case, .. } => compute(case, Purpose::Run, arguments),
+        Command::Modes { case } => compute(case, Purpose::Modes, arguments),
+        Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
+        Command::Frf { case } => compute(case, Purpose::Frf, arguments),
+        Command::Chart { case, .. } => compute(case, Purpose::Chart, arguments),
+        Command::Export { from, to } => export::export(from, *to, options),
+        Command::Analyze(asked) => analyze::analyze(asked, options),
+        Command::Sweep(asked) => sweep::sweep(asked, options),
+        Command::Report { folder } => report::report(folder, options),
+        Command::Verify { full } => verify::verify(*full, options),
+        Command::Schema => return emit(to, &format!("{:#}", Case::schema())),
+        Command::Init(asked) => init::init(asked, options),
+        Command::Inspect {
+            mesh,
+            length_unit,
+            density,
+        } => inspect::inspect(mesh, *length_unit, *density, options),
+    }?;
+    outcome.show(options, to)?;
+    match outcome.verdict {
+        Verdict::Good => Ok(()),
+        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
+        Verdict::WrongInput { what, help } => Err(CliError::WrongInput { what, help }),
+    }
+}
+
+/// Reads a case and carries out what it is to be used for.
+fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outcome, CliError> {
+    let options = &arguments.options;
+    let case = Case::load(path, &options.set)?;
+    case.ready_for(purpose)?;
+    let folder = OutputFolder::of(&case, options);
+    if let Command::Run { explain: true, .. } = arguments.command {
+        let progress = Progress::new(options.visibility());
+        let outcome = run::explain(&case, &progress);
+        progress.finish();
+        return outcome;
+    }
+    match arguments.command {
+        Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
+        _ => {
+            let files = arguments.command.result_files();
+            let names: Vec<&str> = files.iter().map(String::as_str).collect();
+            folder.claim_files(&names, options.force)?;
+        }
+    }
+    let progress = Progress::new(options.visibility());
+    let outcome = match purpose {
+        Purpose::Run => run::run(&case, arguments, &progress),
+        Purpose::Modes => modes::modes(&case, options, &progress),
+        Purpose::Condense => condense::condense(&case, arguments, &progress),
+        Purpose::Frf => frf::frf(&case, options, &progress),
+        Purpose::Chart => {
+            let only = match arguments.command {
+                Command::Chart { only, .. } => only,
+                _ => None,
+            };
+            let effort = arguments.command.effort();
+            chart::chart(&case, chart::Wanted { effort, only }, options, &progress)
+        }
+    };
+    progress.finish();
+    outcome
+}

@@ -1,0 +1,275 @@
+//! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::{CliError, Options, folder_lock};
+use crate::app::case::Case;
+use crate::files;
+
+/// Text for a terminal: names of a case or a mesh may have control characters in them, which could rewrite what is shown. All but
+/// the ends of lines and tabs become the replacement character.
+pub(super) fn printable(text: &str) -> Cow<'_, str> {
+    let control = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if text.contains(control) {
+        Cow::Owned(text.replace(control, "\u{fffd}"))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+/// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
+///
+/// # Errors
+/// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
+pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
+    match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::StandardOutput(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file under a temporary name beside it and renames it: a half-written file never carries its name.
+///
+/// # Errors
+/// [`CliError::Write`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
+/// name is as it was.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    files::write_atomic(path, |file| file.write_all(bytes)).map_err(|source| CliError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
+/// be written last, after the files that it speaks of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Returns the folder of a case: `--out`, else `out/` and the case's name. Makes nothing yet.
+    #[must_use]
+    pub fn of(case: &Case, options: &Options) -> Self {
+        let path = match &options.out {
+            Some(path) => path.clone(),
+            None => Path::new("out").join(case.name()),
+        };
+        Self { path }
+    }
+
+    /// Returns the folder of this path.
+    #[must_use]
+    pub fn at(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+        }
+    }
+
+    /// Returns the folder's path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
+    ///
+    /// # Errors
+    /// [`CliError::ResultExists`], [`CliError::Busy`] or [`CliError::Folder`].
+    pub fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
+        self.claim_files(&[&format!("{command}.json")], force)
+    }
+
+    /// Makes the folder, takes it for this process and checks that none of these files would be replaced without `force`.
+    ///
+    /// # Errors
+    /// As [`claim`](Self::claim).
+    pub fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
+        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder {
+            path: self.path.clone(),
+            source,
+        })?;
+        self.lock()?;
+        let mut paths = names.iter().map(|name| self.path.join(name));
+        match paths.find(|path| !force && path.exists()) {
+            Some(path) => Err(CliError::ResultExists { path }),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
+    ///
+    /// # Errors
+    /// [`CliError::Busy`], [`CliError::Folder`].
+    pub fn lock(&self) -> Result<(), CliError> {
+        let path = self.path.clone();
+        match folder_lock::take(&path) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(CliError::Busy { path }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            Err(source) => Err(CliError::Folder { path, source }),
+        }
+    }
+
+    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
+    #[must_use]
+    pub fn report_name(&self, command: &str) -> String {
+        let others = [
+            "run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify",
+        ]
+        .into_iter()
+        .filter(|&other| other != command);
+        let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
+        if others.into_iter().any(shared) {
+            format!("{command}-report.html")
+        } else {
+            "report.html".to_owned()
+        }
+    }
+
+    /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
+    ///
+    /// # Errors
+    /// [`CliError::Folder`] or [`CliError::Write`].
+    pub fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+        self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
+        self.write(name, bytes)
+    }
+
+    /// Makes a folder below this one; none between may be a symbolic link.
+    ///
+    /// # Errors
+    /// [`CliError::Folder`].
+    pub fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
+        files::make_below(&self.path, name).map_err(|source| CliError::Folder {
+            path: self.path.join(name),
+            source,
+        })
+    }
+
+    /// Writes a file of this name into the folder, whole or not at all, and returns its path.
+    ///
+    /// # Errors
+    /// [`CliError::Write`].
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+        let path = self.path.join(name);
+        write_atomic(&path, bytes)?;
+        Ok(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::io::{self, Write};
+    use std::path::{Path, PathBuf};
+
+    use super::{CliError, Options, OutputFolder, emit, write_atomic};
+    use crate::app::case::{Case, Source};
+
+    struct Broken(io::ErrorKind);
+
+    impl Write for Broken {
+        fn write(&mut self, _bytes: &[u8]) -> io::Result<usize> {
+            Err(self.0.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    /// An empty folder of this test's own.
+    fn folder(name: &str) -> PathBuf {
+        let path = std::env::temp_dir().join(format!("plummer-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        path
+    }
+
+    fn names(path: &Path) -> Vec<String> {
+        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let mut names: Vec<String> = fs::read_dir(path)
+            .unwrap()
+            .map(|entry| name(entry).into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_name_does_not_steer_the_terminal() {
+        let mut written = Vec::new();
+        emit(&mut written, "a\tb\n\u{1b}[2Jc\r\u{9b}d é").unwrap();
+        let text = String::from_utf8(written).unwrap();
+        assert_eq!(text, "a\tb\n\u{fffd}[2Jc\u{fffd}\u{fffd}d é\n");
+    }
+
+    #[test]
+    fn a_closed_pipe_is_success_and_a_full_disk_is_not() {
+        emit(&mut Broken(io::ErrorKind::BrokenPipe), "line").unwrap();
+        let error = emit(&mut Broken(io::ErrorKind::StorageFull), "line").unwrap_err();
+        assert!(matches!(error, CliError::StandardOutput(_)));
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_is_left_beside() {
+        let folder = folder("whole");
+        let path = folder.join("run.json");
+        write_atomic(&path, b"first").unwrap();
+        write_atomic(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(&folder), ["run.json"]);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_failed_write_leaves_nothing_behind() {
+        let folder = folder("failed");
+        // A folder of that name cannot be replaced by a file.
+        let path = folder.join("run.json");
+        fs::create_dir_all(path.join("inside")).unwrap();
+        let error = write_atomic(&path, b"text").unwrap_err();
+        assert!(matches!(error, CliError::Write { path: named, .. } if named == path));
+        assert_eq!(names(&folder), ["run.json"]);
+        assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
+        assert!(write_atomic(Path::new("/"), b"text").is_err());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_result_is_replaced_only_by_force() {
+        let path = folder("force");
+        let options = Options {
+            out: Some(path.join("new")),
+            ..Options::default()
+        };
+        let case = Case::from_source(Source {
+            path: PathBuf::from("folder/case.v2.toml"),
+            text: include_str!("../case/full.toml").to_owned(),
+            set: Vec::new(),
+        })
+        .unwrap();
+        let folder = OutputFolder::of(&case, &options);
+        folder.claim("run", false).unwrap();
+        let written = folder.write("run.json", b"{}").unwrap();
+        assert_eq!(written, path.join("new/run.json"));
+        let error = folder.claim("run", false).unwrap_err();
+        assert!(matches!(error, CliError::ResultExists { path } if path == written));
+        folder.claim("modes", false).unwrap();
+        folder.claim("run", true).unwrap();
+        let default = OutputFolder::of(&case, &Options::default());
+        assert_eq!(default.path(), Path::new("out/case.v2"));
+        let blocked = OutputFolder {
+            path: written.join("below a file"),
+        };
+        let error = blocked.claim("run", false).unwrap_err();
+        assert!(matches!(error, CliError::Folder { .. }));
+        fs::remove_dir_all(path).unwrap();
+    }
+}

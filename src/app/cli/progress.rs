@@ -1,0 +1,291 @@
+//! Progress on a terminal, with the time left; and how long each stage took.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+
+use crate::app::stages::MeshDigest;
+
+/// Whether progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Visibility {
+    /// On standard error, if that is a terminal.
+    OnTerminal,
+    /// Never.
+    Hidden,
+}
+
+/// How long a stage took.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageTime {
+    /// The stage.
+    pub name: String,
+    /// Wall time in s.
+    pub seconds: f64,
+}
+
+/// Steps of the bar: finer than any terminal shows.
+const STEPS: u64 = 10_000;
+const WITHOUT_END: &str = "{spinner} {msg} {elapsed}";
+const WITH_END: &str = "{spinner} {msg} {bar:30} {percent} %, {eta} left";
+const COUNTED: &str = "{spinner} {msg} {bar:30} {pos} of {len} files, {eta} left";
+
+/// The progress of a command through its stages. It can be shared between threads.
+#[derive(Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+    stages: Mutex<Vec<(String, Instant)>>,
+    files: Mutex<Vec<MeshDigest>>,
+}
+
+impl Progress {
+    /// Starts without a stage; nothing is shown yet.
+    #[must_use]
+    pub fn new(visibility: Visibility) -> Self {
+        Self::on(match visibility {
+            Visibility::OnTerminal => ProgressDrawTarget::stderr(),
+            Visibility::Hidden => ProgressDrawTarget::hidden(),
+        })
+    }
+
+    fn on(target: ProgressDrawTarget) -> Self {
+        Self {
+            bar: ProgressBar::with_draw_target(None, target),
+            stages: Mutex::new(Vec::new()),
+            files: Mutex::new(Vec::new()),
+        }
+    }
+
+    /// Ends the stage before and begins one of this name, of unknown length until [`Progress::set`].
+    pub fn stage(&self, name: &str) {
+        self.stages().push((name.to_owned(), Instant::now()));
+        self.bar.unset_length();
+        self.bar.set_style(style(WITHOUT_END));
+        self.bar.reset();
+        self.bar.set_message(name.to_owned());
+    }
+
+    /// Shows how much of the stage is done: 0 to 1; values beyond are taken as the nearest of these, NaN as 0. The first value is
+    /// where the stage begins: the time left is estimated from there on.
+    pub fn set(&self, fraction: f64) {
+        // From 0 to STEPS; NaN gives 0.
+        let position = (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64;
+        if self.bar.length().is_none() {
+            self.bar.set_length(STEPS);
+            self.bar.set_style(style(WITH_END));
+            self.bar.set_position(position);
+            // what was done before the stage began, by a run that goes on, says nothing of the time left: the estimate sees
+            // it and forgets it
+            self.bar.tick();
+            self.bar.reset_eta();
+            return;
+        }
+        self.bar.set_position(position);
+    }
+
+    /// Shows how many files of a stage are done.
+    pub fn count(&self, done: usize, of: usize) {
+        if self.bar.length().is_none() {
+            self.bar.set_style(style(COUNTED));
+            self.bar.set_length(of as u64);
+        }
+        self.bar.set_position(done as u64);
+    }
+
+    /// The meshes that were read, with each content that they had.
+    #[must_use]
+    pub fn files(&self) -> Vec<MeshDigest> {
+        let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        files.clone()
+    }
+
+    /// Takes the bar off the terminal.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Returns how long each stage took; the last one lasts until now.
+    #[must_use]
+    pub fn times(&self) -> Vec<StageTime> {
+        let stages = self.stages();
+        let ends = stages.iter().skip(1).map(|&(_, start)| start);
+        stages
+            .iter()
+            .zip(ends.chain([Instant::now()]))
+            .map(|((name, start), end)| StageTime {
+                name: name.clone(),
+                seconds: end.duration_since(*start).as_secs_f64(),
+            })
+            .collect()
+    }
+
+    /// The list stays usable when a thread that held it panicked.
+    fn stages(&self) -> MutexGuard<'_, Vec<(String, Instant)>> {
+        self.stages.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The templates are constants that a test reads; indicatif's own style stands in if one were wrong.
+impl crate::app::stages::Watch for Progress {
+    fn read(&self, file: &MeshDigest) {
+        let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        if !files.contains(file) {
+            files.push(file.clone());
+        }
+    }
+
+    fn stage(&self, name: &str) {
+        Progress::stage(self, name);
+    }
+
+    fn fraction(&self, done: f64) {
+        self.set(done);
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+    use std::sync::{Arc, Mutex};
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    use indicatif::{ProgressDrawTarget, ProgressStyle, TermLike};
+
+    use super::{COUNTED, Progress, STEPS, Visibility, WITH_END, WITHOUT_END};
+
+    /// A terminal that keeps what is written to it.
+    #[derive(Debug, Clone, Default)]
+    struct Paper(Arc<Mutex<String>>);
+
+    impl TermLike for Paper {
+        fn width(&self) -> u16 {
+            100
+        }
+        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> io::Result<()> {
+            self.write_str(text)
+        }
+        fn write_str(&self, text: &str) -> io::Result<()> {
+            self.0.lock().unwrap().push_str(text);
+            Ok(())
+        }
+        fn clear_line(&self) -> io::Result<()> {
+            Ok(())
+        }
+        fn flush(&self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn templates_are_well_formed() {
+        for template in [WITH_END, WITHOUT_END, COUNTED] {
+            assert!(ProgressStyle::with_template(template).is_ok());
+        }
+    }
+
+    #[test]
+    fn a_terminal_shows_stage_share_and_time_left() {
+        let paper = Paper::default();
+        let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
+        let progress = Progress::on(target);
+        progress.stage("factor");
+        sleep(Duration::from_millis(100));
+        assert!(paper.0.lock().unwrap().contains("factor"));
+        assert!(!paper.0.lock().unwrap().contains("left"));
+        progress.set(0.25);
+        sleep(Duration::from_millis(100));
+        progress.set(0.5);
+        let shown = paper.0.lock().unwrap().clone();
+        assert!(shown.contains("50 %"), "{shown}");
+        // The estimate itself is indicatif's: whole seconds.
+        let before = shown.split("s left").next().unwrap_or_default();
+        assert!(before.len() < shown.len(), "{shown}");
+        assert!(
+            before.ends_with(|last: char| last.is_ascii_digit()),
+            "{shown}"
+        );
+        progress.finish();
+    }
+
+    #[test]
+    fn what_was_done_before_is_not_taken_for_speed() {
+        let progress = Progress::new(Visibility::Hidden);
+        progress.stage("step");
+        progress.set(0.9);
+        sleep(Duration::from_millis(100));
+        progress.set(0.91);
+        progress.bar.tick();
+        // a hundredth took a tenth of a second: nine more take 0.9 s, or longer on a busy machine; 0.9 in no time at all would
+        // leave a hundredth of a second
+        let left = progress.bar.eta();
+        assert!(left > Duration::from_millis(300), "{left:?}");
+    }
+
+    #[test]
+    fn files_are_counted() {
+        let paper = Paper::default();
+        let progress = Progress::on(ProgressDrawTarget::term_like(Box::new(paper.clone())));
+        progress.stage("analyse");
+        progress.count(0, 79);
+        sleep(Duration::from_millis(100));
+        progress.count(12, 79);
+        progress.bar.tick();
+        let shown = paper.0.lock().unwrap().clone();
+        assert!(shown.contains("12 of 79 files"), "{shown}");
+        progress.stage("write");
+        assert_eq!((progress.bar.position(), progress.bar.length()), (0, None));
+    }
+
+    #[test]
+    fn fractions_beyond_the_ends_are_held() {
+        let progress = Progress::new(Visibility::Hidden);
+        progress.stage("step");
+        for (fraction, position) in [
+            (0.5, STEPS / 2),
+            (2.0, STEPS),
+            (-1.0, 0),
+            (f64::NAN, 0),
+            (1.0, STEPS),
+        ] {
+            progress.set(fraction);
+            assert_eq!(progress.bar.position(), position);
+        }
+        progress.stage("write");
+        assert_eq!((progress.bar.position(), progress.bar.length()), (0, None));
+    }
+
+    #[test]
+    fn stages_are_timed_in_order() {
+        let progress = Progress::new(Visibility::Hidden);
+        assert!(progress.times().is_empty());
+        progress.stage("read");
+        sleep(Duration::from_millis(20));
+        progress.stage("assemble");
+        let times = progress.times();
+        assert_eq!(
+            (times[0].name.as_str(), times[1].name.as_str()),
+            ("read", "assemble")
+        );
+        assert!(times[0].seconds >= 0.02);
+        assert!(times[1].seconds >= 0.0);
+    }
+}

@@ -1,0 +1,267 @@
+//! `plummer run`: the simulation in time.
+
+use super::earlier_results::{ARRAYS, digests};
+use super::report_files::ReportFiles;
+use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
+use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
+use crate::app::case::{Case, Method, Transient};
+use crate::app::shell_word::shell_word;
+use crate::app::stages::{
+    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, SHOWN_WINDOWS, StageError,
+    UnfinishedError, UnfinishedRun, compute_kept_run, explain_run, run_report,
+};
+use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
+use crate::report::significant;
+use std::time::Duration;
+
+/// Folder of an unfinished run, in that of the results.
+pub(super) const PARTIAL: &str = ".run.partial";
+
+/// Checks that there is an unfinished run to go on with.
+///
+/// # Errors
+/// [`CliError::Busy`], [`CliError::ResumeAnew`], [`CliError::Finished`], [`CliError::Stage`] if there never was one.
+pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
+    folder.lock()?;
+    let (partial, finished) = (folder.path().join(PARTIAL), folder.path().join("run.json"));
+    if force {
+        Err(CliError::ResumeAnew)
+    } else if !UnfinishedRun::is_in(&partial) && finished.exists() {
+        Err(CliError::Finished { path: finished })
+    } else {
+        Ok(())
+    }
+}
+
+/// Says which model the run of a case would take; writes nothing.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong or there is nothing to start from.
+pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
+    let (choice, told) = explain_run(case, progress)?;
+    let lines = std::iter::once(choice.table().plain()).chain(warnings(&told));
+    let mut result = choice_json(&choice);
+    result["warnings"] = serde_json::json!(told);
+    Ok(Outcome {
+        summary: lines.collect::<Vec<_>>().join("\n"),
+        result,
+        written: Vec::new(),
+        verdict: Verdict::Good,
+    })
+}
+
+/// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`. Until then its rows
+/// and checkpoints are in a folder that is removed at the end.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or is interrupted, or a file cannot be written.
+pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
+    let (started, options) = (std::time::Instant::now(), &arguments.options);
+    let folder = OutputFolder::of(case, options);
+    let mut unfinished = unfinished(case, arguments, &folder)?;
+    let result = compute_kept_run(case, progress, &mut unfinished);
+    let result = result.map_err(|error| match error {
+        StageError::Interrupted { .. } => CliError::Interrupted {
+            what: error.to_string(),
+            kept: "the signals so far and a checkpoint are",
+            folder: unfinished.folder().to_owned(),
+            command: again(case, arguments),
+        },
+        error => error.into(),
+    })?;
+    progress.stage("write");
+    let mut arrays = vec![write_signals(&folder, &result)?];
+    arrays.extend(write_scalograms(&folder, &result.scalograms)?);
+    let command = options.command_line("run", case);
+    let report = run_report(case, &result, &command)?;
+    let files = ReportFiles::write(&folder, "run", case, report, progress)?;
+    let mut json = run_json(
+        case,
+        &result,
+        progress,
+        started.elapsed().as_secs_f64(),
+        &files,
+    );
+    json[ARRAYS] = digests(&arrays)?;
+    let text = format!("{json:#}\n");
+    let json_path = folder.write("run.json", text.as_bytes())?;
+    unfinished.remove().map_err(StageError::from)?;
+    Ok(Outcome {
+        summary: summary(&result, started.elapsed().as_secs_f64()),
+        result: json,
+        written: [arrays, vec![json_path], files.paths].concat(),
+        verdict: verdict(&result, case.transient.as_ref()),
+    })
+}
+
+/// The run to begin or to go on with.
+fn unfinished(
+    case: &Case,
+    arguments: &Arguments,
+    folder: &OutputFolder,
+) -> Result<UnfinishedRun, CliError> {
+    let partial = folder.path().join(PARTIAL);
+    let (resume, pause) = match arguments.command {
+        Command::Run {
+            resume,
+            checkpoint_every,
+            ..
+        } => (resume, checkpoint_every),
+        _ => (false, CHECKPOINT_S),
+    };
+    let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
+    if in_the_way {
+        return Err(StageError::from(UnfinishedError::InTheWay { path: partial }).into());
+    }
+    let identity = RunIdentity::of(case)?;
+    let run = if resume {
+        UnfinishedRun::resume(&partial, identity).map_err(StageError::from)?
+    } else {
+        UnfinishedRun::begin(&partial, identity)
+    };
+    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    Ok(run.every(Duration::from_secs_f64(pause)).stopped_by(stop))
+}
+
+/// The command line that goes on with a run.
+fn again(case: &Case, arguments: &Arguments) -> String {
+    let options = &arguments.options;
+    let mut line = options.command_line("run", case);
+    if let Some(out) = &options.out {
+        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
+    }
+    line + " --resume"
+}
+
+fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Verdict {
+    match &result.simulation.end {
+        RunEnd::Complete => match result.distrust() {
+            None => Verdict::Good,
+            Some(why) => Verdict::Bad {
+                what: format!("the signals cannot be trusted: {why}"),
+                help: Some("the warnings of run.json and of the report say by how much, and what helps; signals.npz has the signals all the same".to_owned()),
+            },
+        },
+        RunEnd::BlewUp(blow_up) => Verdict::Bad {
+            what: blow_up.to_string(),
+            help: Some(format!(
+                "{}; {} instants computed until then are in signals.npz",
+                smaller_steps(blow_up, asked),
+                result.simulation.record.rows()
+            )),
+        },
+    }
+}
+
+/// What to try after a blow-up.
+fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
+    let no_step = |limit: StepLimit| {
+        asked.is_some_and(|asked| {
+            limit.step_s < 2.0 / (f64::from(MOST_STEPS_PER_INTERVAL) * asked.output_hz)
+        })
+    };
+    if let Some(limit) = blow_up.limit.filter(|limit| no_step(*limit)) {
+        return format!(
+            "contacts that vibrate at {:.1e} Hz need shorter steps than a run takes, a millionth of an output interval: check the mass of a ball (bearing.ball_mass, bearing.density) and bearing.stiffness, or leave the balls' inertia out (bearing.balls_inertia = \"quasi-static\", which takes no bearing.contact_damping)",
+            limit.highest_hz
+        );
+    }
+    let asked = asked.map(|asked| asked.method);
+    if blow_up.method.chooses_its_steps() {
+        // a method that the program chose has a tolerance of its own
+        let method = match asked {
+            Some(Method::Auto) => format!("--set transient.method={} and ", blow_up.method.name()),
+            _ => String::new(),
+        };
+        return format!(
+            "{method}a smaller --set transient.tolerance, 1e-6 or below, says whether the steps are the cause"
+        );
+    }
+    let by_itself = "or leave it to the program with --set transient.step=auto";
+    if let Some(resonance) = blow_up.resonance {
+        return format!(
+            "the step is in resonance with a mode: stay below half its period with --set transient.step={:.1e}, {by_itself}",
+            0.4 / resonance.mode_hz
+        );
+    }
+    match (blow_up.limit, blow_up.beyond_the_limit()) {
+        (Some(limit), Some(true)) => format!(
+            "the step is beyond the method's limit: stay well below it with --set transient.step={:.1e}, {by_itself}",
+            0.5 * limit.step_s
+        ),
+        (Some(_), _) => format!(
+            "the step was below the method's limit just before: see whether the steps are the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+            0.5 * blow_up.step_s
+        ),
+        (None, _) => format!(
+            "see whether the step is the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+            0.5 * blow_up.step_s
+        ),
+    }
+}
+
+fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
+    let mut lines = vec![result.bearing_table().plain()];
+    lines.push(format!(
+        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
+        significant(result.simulation.simulated_s, 4),
+        significant(result.simulation.stepping_s, 3),
+        significant(wall_s, 3),
+        result.simulation.statistics.steps,
+        result.simulation.step_s(),
+        result.simulation.method.name(),
+        result.simulation.modes,
+        result.scene.stage.structure.dof(),
+        if result.simulation.residual {
+            " with static residual"
+        } else {
+            ""
+        },
+        result.simulation.realtime_factor(),
+    ));
+    lines.push(result.estimate_sentence());
+    for window in result.windows.iter().take(SHOWN_WINDOWS) {
+        lines.push(format!(
+            "{} from {} to {} s (shaft {:.2} Hz): rms {} m/s^2, peak {} m/s^2",
+            window.sensor,
+            window.from,
+            window.to,
+            window.speed_hz,
+            significant(window.rms, 3),
+            significant(window.peak, 3)
+        ));
+        lines.push(match &window.diagnosis {
+            Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
+            Err(reason) => format!("  no verdict: {reason}"),
+        });
+        // a line that the speed smears over Hz is not looked for
+        let shown = !result.scene.outer_race_is_sound() && window.smeared_above.is_none();
+        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().filter(|_| shown)) {
+            lines.push(match found {
+                Some((hz, amplitude)) => format!(
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {} {}",
+                    100.0 * (hz / expected - 1.0),
+                    significant(*amplitude, 3),
+                    window.spectrum.unit
+                ),
+                None => format!(
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"
+                ),
+            });
+        }
+    }
+    if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
+        lines.push(format!(
+            "{} windows more: run.json and the report have them",
+            more + 1
+        ));
+    }
+    if let Some(imported) = &result.scene.stage.imported {
+        lines.extend(imported.notes.iter().cloned());
+    }
+    lines.extend(warnings(&result.warnings));
+    for text in &result.not_analysed {
+        lines.push(format!("warning: not analysed: {text}"));
+    }
+    lines.join("\n")
+}

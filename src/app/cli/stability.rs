@@ -1,0 +1,117 @@
+//! The stability map of `plummer chart`: its files and its lines.
+
+use super::report_files::ReportFiles;
+use super::results::common;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::case::Case;
+use crate::app::stages::{Scene, StageError};
+use crate::app::studies::chart::{
+    Condition, Effort, Stability, compute_stability, resonance_plot, stability_map,
+    stability_record, stability_report,
+};
+use crate::report::significant;
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// Computes the map alone and writes `stability.svg`, `resonance.svg`, the report, its tables and, last, `stability.json`.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
+pub(super) fn alone(
+    case: &Case,
+    effort: Effort,
+    command: &str,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    let scene = Scene::with_all_modes(case, progress)?;
+    let conditions = Condition::all(case, effort);
+    let stability = compute_stability(case, &scene, conditions, effort, progress)?;
+    progress.stage("write");
+    let folder = OutputFolder::of(case, options);
+    let report = stability_report(case, &stability, command);
+    let files = ReportFiles::write(&folder, "stability", case, report, progress)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut head = common("chart", case, progress, wall_s, &files.meshes);
+    head.insert("tables".to_owned(), json!(files.tables));
+    let (result, written) = write_stability(&folder, head, &stability)?;
+    Ok(Outcome {
+        summary: stability_lines(&stability),
+        result,
+        written: [written, files.paths].concat(),
+        verdict: Verdict::Good,
+    })
+}
+
+/// Writes the pictures and `stability.json`, which begins with `head`; gives what it says, and the files.
+///
+/// # Errors
+/// [`CliError`] when a file cannot be written.
+pub(super) fn write_stability(
+    folder: &OutputFolder,
+    head: Map<String, Value>,
+    stability: &Stability,
+) -> Result<(Value, Vec<PathBuf>), CliError> {
+    let map = stability_map(stability)
+        .to_svg()
+        .map_err(StageError::from)?;
+    let map = folder.write("stability.svg", map.as_bytes())?;
+    let resonance = resonance_plot().to_svg().map_err(StageError::from)?;
+    let resonance = folder.write("resonance.svg", resonance.as_bytes())?;
+    let mut all = head;
+    if let Value::Object(fields) = stability_record(stability) {
+        all.extend(fields);
+    }
+    let json = Value::Object(all);
+    let path = folder.write("stability.json", format!("{json:#}\n").as_bytes())?;
+    Ok((json, vec![path, map, resonance]))
+}
+
+/// The limits of the case as it is, and the range of the measured ones over all conditions.
+pub(super) fn stability_lines(stability: &Stability) -> String {
+    let mut lines = vec![format!(
+        "largest stable steps as given, and over {} conditions:",
+        stability.conditions.len()
+    )];
+    let micro = |step: Option<f64>| {
+        step.map_or_else(
+            || "–".to_owned(),
+            |step| format!("{} µs", significant(1e6 * step, 3)),
+        )
+    };
+    let given = stability.conditions.first();
+    let methods = given.and_then(|of| of.methods.as_ref().ok());
+    for of in methods
+        .into_iter()
+        .flatten()
+        .filter(|of| !of.steps.is_empty())
+    {
+        let conditions = stability.conditions.iter();
+        let measured = conditions.filter_map(|condition| {
+            let all = condition.methods.as_ref().ok()?;
+            all.iter()
+                .find(|other| other.method == of.method)?
+                .measured_limit_s
+        });
+        let (low, high) = measured.fold((f64::INFINITY, 0.0_f64), |(low, high), limit| {
+            (low.min(limit), high.max(limit))
+        });
+        let range = if high > 0.0 {
+            format!("{} to {}", micro(Some(low)), micro(Some(high)))
+        } else {
+            of.note.clone().unwrap_or_default()
+        };
+        lines.push(format!(
+            "  {}: predicted {}, measured {}; {range}",
+            of.method.name(),
+            micro(of.predicted_limit_s),
+            micro(of.measured_limit_s)
+        ));
+    }
+    lines.join("\n")
+}
+
+#[cfg(test)]
+#[path = "stability_tests.rs"]
+mod tests;

@@ -1,0 +1,397 @@
+//! `plummer sweep`: many runs of one case, one table.
+
+mod arguments;
+mod points;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+
+pub use arguments::{Share, SweepArguments};
+
+use super::report_files::ReportFiles;
+use super::results::{common, stages_s, warnings};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interrupt, write_atomic};
+use crate::app::case::Case;
+use crate::app::shell_word::shell_word;
+use crate::app::studies::sweep::{
+    Axis, Plan, PointState, SweepError, SweepResult, slurm_scripts, sweep_report, write_sweep_npz,
+};
+use crate::report::Document;
+use points::Workers;
+
+/// Folder of the points and the plan, in that of the results.
+const POINTS: &str = "sweep";
+/// The plan's file in it.
+const PLAN: &str = "plan.json";
+/// Most tasks of a job array unless told otherwise: Slurm takes 1000 by default (`MaxArraySize`).
+const MOST_TASKS: usize = 1000;
+
+/// What an interrupted sweep leaves.
+const POINTS_KEPT: &str = "the points so far and checkpoints of the others are";
+
+/// Plans a sweep and computes its points, or writes job scripts for them, or does a task of such a job, or merges what is there.
+///
+/// # Errors
+/// [`CliError`] when the input is wrong, no point is a valid case, the sweep was interrupted or a file cannot be written.
+pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome, CliError> {
+    let progress = Progress::new(options.visibility());
+    let outcome = if let Some(share) = asked.task {
+        task(&asked.from, share, options, &progress)
+    } else if asked.merge {
+        let folder = OutputFolder::at(&asked.from);
+        let plan = read_plan(&folder)?;
+        folder.claim("sweep", options.force)?;
+        merge(plan, &folder, &progress)
+    } else {
+        whole(asked, options, &progress)
+    };
+    progress.finish();
+    outcome
+}
+
+/// Plans a sweep, or goes on with one, computes its points and merges them; or writes job scripts.
+fn whole(
+    asked: &SweepArguments,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let case = Case::load(&asked.from, &options.set)?;
+    let axes = asked.vary.iter().map(|argument| {
+        Axis::parse(argument).map_err(|problem| SweepError::Axis {
+            argument: argument.clone(),
+            problem,
+        })
+    });
+    let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
+    check_points(&plan, &case)?;
+    let folder = OutputFolder::of(&case, options);
+    let points = folder.path().join(POINTS);
+    if asked.resume {
+        if options.force {
+            return Err(CliError::ResumeAnew);
+        }
+        folder.lock()?;
+        let changes = read_plan(&folder)?.changes(&plan);
+        if !changes.is_empty() {
+            let folder = folder.path().to_owned();
+            return Err(SweepError::Changed { folder, changes }.into());
+        }
+    } else {
+        begin(&plan, &folder, options.force)?;
+    }
+    if let Some(tasks) = asked.slurm {
+        let tasks = tasks.map_or(MOST_TASKS, std::num::NonZeroUsize::get);
+        return write_scripts(&plan, &folder, tasks.min(plan.count()), options);
+    }
+    progress.stage("points");
+    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    let workers = Workers::new(options, plan.count(), stop)?;
+    let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
+    if let Some(done) = stopped {
+        return Err(CliError::Interrupted {
+            what: format!("interrupted at {done} of {} points", plan.count()),
+            kept: POINTS_KEPT,
+            folder: points,
+            command: again(&case, asked, options),
+        });
+    }
+    merge(plan, &folder, progress)
+}
+
+/// One share of the points, of the sweep in a folder.
+fn task(
+    from: &Path,
+    share: Share,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let folder = OutputFolder::at(from);
+    let plan = read_plan(&folder)?;
+    let case = Case::load(&plan.case, &plan.set)?;
+    let changes = plan.changes(&Plan::new(&case, plan.command, plan.axes.clone())?);
+    if !changes.is_empty() {
+        let folder = folder.path().to_owned();
+        return Err(SweepError::Changed { folder, changes }.into());
+    }
+    let points = folder.path().join(POINTS);
+    progress.stage("points");
+    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    let numbers: Vec<usize> = (1..=plan.count())
+        .filter(|&number| share.has(number))
+        .collect();
+    let workers = Workers::new(options, numbers.len(), stop)?;
+    let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;
+    if let Some(done) = stopped {
+        return Err(CliError::Interrupted {
+            what: format!("interrupted at {done} of {} points", numbers.len()),
+            kept: POINTS_KEPT,
+            folder: points,
+            command: format!(
+                "plummer sweep --task {}/{} {}",
+                share.number,
+                share.of,
+                shell_word(&from.to_string_lossy())
+            ),
+        });
+    }
+    let result = SweepResult::collect(plan, &points)?;
+    let mut lines = Vec::new();
+    for point in result
+        .points
+        .iter()
+        .filter(|point| share.has(point.point.number))
+    {
+        let message = point
+            .record
+            .as_ref()
+            .map_or("", |record| record.message.as_str());
+        let line = format!(
+            "point {}: {} {message}",
+            point.point.number,
+            point.state.name()
+        );
+        lines.push(line.trim_end().to_owned());
+    }
+    Ok(Outcome {
+        summary: lines.join("\n"),
+        result: json!({ "command": "sweep", "task": share.number, "of": share.of, "points": numbers }),
+        written: vec![points],
+        verdict: Verdict::Good,
+    })
+}
+
+/// Checks that at least one point is a valid case: a misspelled key is an error before anything is computed.
+fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
+    let mut first = None;
+    for point in plan.points() {
+        match plan.case_at(&point, &case.source.text) {
+            Ok(_) => return Ok(()),
+            Err(error) => {
+                first.get_or_insert((point.number, error));
+            }
+        }
+    }
+    first.map_or(Ok(()), |(number, error)| {
+        let source = Box::new(error);
+        Err(SweepError::NoCase { number, source }.into())
+    })
+}
+
+/// Writes the plan into an empty folder of points.
+fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError> {
+    let points = folder.path().join(POINTS);
+    let file = points.join(PLAN);
+    if file.exists() && !force {
+        let folder = folder.path().to_owned();
+        return Err(SweepError::InTheWay { folder }.into());
+    }
+    folder.claim("sweep", force)?;
+    if file.exists() {
+        // a folder that has a plan is a sweep's own
+        fs::remove_dir_all(&points).map_err(|source| CliError::Folder {
+            path: points.clone(),
+            source,
+        })?;
+    }
+    folder.make_below(Path::new(POINTS))?;
+    let text = serde_json::to_string_pretty(plan).unwrap_or_default();
+    write_atomic(&file, format!("{text}\n").as_bytes())
+}
+
+fn read_plan(folder: &OutputFolder) -> Result<Plan, SweepError> {
+    let plan = folder.path().join(POINTS).join(PLAN);
+    let text = match fs::read(&plan) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let folder = folder.path().to_owned();
+            return Err(SweepError::NoPlan { folder, plan });
+        }
+        Err(source) => return Err(SweepError::Io { path: plan, source }),
+    };
+    serde_json::from_slice(&text).map_err(|error| SweepError::Plan {
+        plan,
+        message: error.to_string(),
+    })
+}
+
+/// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
+fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
+    progress.stage("write");
+    let case = Case::load(&plan.case, &plan.set)?;
+    let result = SweepResult::collect(plan, &folder.path().join(POINTS))?;
+    let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
+    let npz = folder.path().join("sweep.npz");
+    write_sweep_npz(&npz, &result).map_err(SweepError::from)?;
+    let command = command_line(&result.plan);
+    let document = Document::new().case(case.source.path.display().to_string());
+    let report = sweep_report(&case.title, &result, &command).document(document);
+    let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut map = common("sweep", &case, progress, wall_s, &files.meshes);
+    map.insert("stages_s".to_owned(), stages_s(progress));
+    map.insert("tables".to_owned(), json!(files.tables));
+    map.extend(fields(&result));
+    let json = Value::Object(map);
+    let path = folder.write("sweep.json", format!("{json:#}\n").as_bytes())?;
+    Ok(Outcome {
+        summary: summary(&result),
+        result: json,
+        written: [vec![csv, npz, path], files.paths].concat(),
+        verdict: verdict(&result),
+    })
+}
+
+/// What `sweep.json` says beside what every result carries.
+fn fields(result: &SweepResult) -> Map<String, Value> {
+    let point = |point: &crate::app::studies::sweep::PointResult| {
+        json!({
+            "point": point.point.number,
+            "values": point.point.values,
+            "state": point.state.name(),
+            "exit_code": point.record.as_ref().and_then(|record| record.exit_code),
+            "message": point.record.as_ref().map(|record| &record.message),
+            "wall_s": point.record.as_ref().map(|record| record.wall_s),
+        })
+    };
+    let count = |state| result.count(state);
+    let fields = json!({
+        "of": result.plan.command.name(),
+        "axes": result.plan.axes,
+        "done": count(PointState::Done),
+        "bad": count(PointState::Bad),
+        "failed": count(PointState::Failed),
+        "not_computed": count(PointState::Missing),
+        "warnings": result.warnings(),
+        "points": result.points.iter().map(point).collect::<Vec<_>>(),
+    });
+    match fields {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// Points that are not done, and how many are.
+fn summary(result: &SweepResult) -> String {
+    /// Points and warnings that are listed here; the report has all.
+    const LISTED: usize = 10;
+    let done = result.count(PointState::Done);
+    let all = result.points.len();
+    let told = result.warnings();
+    let sentences: Vec<String> = told.iter().map(|one| one.sentence(all)).collect();
+    let mut lines: Vec<String> = warnings(&sentences).take(LISTED).collect();
+    if told.len() > LISTED {
+        let more = told.len() - LISTED;
+        lines.push(format!("and {more} more warnings, see the report"));
+    }
+    lines.push(format!("{done} of {all} points done"));
+    for point in result.not_done().take(LISTED) {
+        let values = point.point.values.join(", ");
+        let message = point
+            .record
+            .as_ref()
+            .map_or("", |record| record.message.as_str());
+        let first = message.lines().next().unwrap_or_default();
+        let state = point.state.name();
+        lines.push(format!(
+            "  point {} ({values}): {state} {first}",
+            point.point.number
+        ));
+    }
+    let more = result.not_done().count().saturating_sub(LISTED);
+    if more > 0 {
+        lines.push(format!("  and {more} more, see the report"));
+    }
+    lines.join("\n")
+}
+
+/// Single points that fail are listed; a sweep without any answer, or one that is not complete, is bad.
+fn verdict(result: &SweepResult) -> Verdict {
+    let missing = result.count(PointState::Missing);
+    let all = result.points.len();
+    if missing > 0 {
+        return Verdict::Bad {
+            what: format!("{missing} of {all} points are not computed"),
+            help: Some("submit the job array again, or go on with --resume".to_owned()),
+        };
+    }
+    if result.points.iter().any(|point| point.state.has_result()) {
+        return Verdict::Good;
+    }
+    Verdict::Bad {
+        what: format!("none of {all} points has a result"),
+        help: Some("their messages are in the report and in sweep.json".to_owned()),
+    }
+}
+
+fn write_scripts(
+    plan: &Plan,
+    folder: &OutputFolder,
+    tasks: usize,
+    options: &Options,
+) -> Result<Outcome, CliError> {
+    let absolute = |path: &Path| {
+        std::path::absolute(path).map_err(|source| SweepError::Io {
+            path: path.to_owned(),
+            source,
+        })
+    };
+    let program = points::program()?;
+    let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
+    let scripts = slurm_scripts(&program, &absolute(folder.path())?, tasks, threads);
+    let mut written: Vec<PathBuf> = Vec::new();
+    for (name, text) in [
+        ("array.sbatch", &scripts.array),
+        ("merge.sbatch", &scripts.merge),
+        ("submit.sh", &scripts.submit),
+    ] {
+        written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
+    }
+    let submit = folder.path().join(POINTS).join("submit.sh");
+    Ok(Outcome {
+        summary: format!(
+            "{} points in {tasks} tasks; submit them by: sh {}",
+            plan.count(),
+            shell_word(&submit.to_string_lossy())
+        ),
+        result: json!({ "command": "sweep", "points": plan.count(), "tasks": tasks, "scripts": written }),
+        written,
+        verdict: Verdict::Good,
+    })
+}
+
+/// The command line of a plan.
+fn command_line(plan: &Plan) -> String {
+    let file = shell_word(&plan.case.to_string_lossy());
+    let mut words = vec![format!("plummer sweep {file}")];
+    words.extend(
+        plan.set
+            .iter()
+            .map(|set| format!("--set {}", shell_word(set))),
+    );
+    for axis in &plan.axes {
+        let values = format!("{}={}", axis.key, axis.values.join(","));
+        words.push(format!("--vary {}", shell_word(&values)));
+    }
+    if plan.command != crate::app::studies::sweep::SweptCommand::default() {
+        words.push(format!("--command {}", plan.command.name()));
+    }
+    words.join(" ")
+}
+
+/// The command line that goes on with a sweep.
+fn again(case: &Case, asked: &SweepArguments, options: &Options) -> String {
+    let mut line = options.command_line("sweep", case);
+    for vary in &asked.vary {
+        line.push_str(&format!(" --vary {}", shell_word(vary)));
+    }
+    if asked.command != crate::app::studies::sweep::SweptCommand::default() {
+        line.push_str(&format!(" --command {}", asked.command.name()));
+    }
+    if let Some(out) = &options.out {
+        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
+    }
+    line + " --resume"
+}

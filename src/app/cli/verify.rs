@@ -1,0 +1,204 @@
+//! `plummer verify`: the built-in verification suite.
+
+use super::report_files::ReportFiles;
+use super::results::stages_s;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::verification::{Check, SectionResult, suite};
+use crate::report::Report;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// Folder of the results unless another is named.
+const FOLDER: &str = "out/verify";
+
+/// Carries the suite out and writes `report.html`, its tables, the sections' own files and, last, `verify.json`; `full` adds
+/// the study of readings.
+///
+/// # Errors
+/// [`CliError`] when a check cannot be carried out or a file cannot be written.
+pub fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
+    let folder = OutputFolder::at(options.out.as_deref().unwrap_or(Path::new(FOLDER)));
+    folder.claim("verify", options.force)?;
+    let progress = Progress::new(options.visibility());
+    let started = std::time::Instant::now();
+    let sections = suite(full, &progress).map_err(CliError::from);
+    let outcome = sections.and_then(|sections| {
+        let wall_s = started.elapsed().as_secs_f64();
+        conclude(&sections, full, &folder, &progress, wall_s)
+    });
+    progress.finish();
+    outcome
+}
+
+/// Writes what the sections hand on, and judges.
+fn conclude(
+    sections: &[SectionResult],
+    full: bool,
+    folder: &OutputFolder,
+    progress: &Progress,
+    wall_s: f64,
+) -> Result<Outcome, CliError> {
+    progress.stage("write");
+    let command = if full {
+        "plummer verify --full"
+    } else {
+        "plummer verify"
+    };
+    let report = report(sections, command);
+    let files = ReportFiles::without_case(folder, "verify", report)?;
+    let mut written = Vec::new();
+    for (name, text) in sections.iter().flat_map(|section| &section.files) {
+        written.push(folder.write_below(name, text.as_bytes())?);
+    }
+    let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
+    let information: Vec<_> = sections.iter().flat_map(|s| &s.information).collect();
+    let mut map = Map::new();
+    for (key, value) in [
+        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
+        ("command", json!("verify")),
+        ("full", json!(full)),
+        ("wall_s", json!(wall_s)),
+        ("stages_s", stages_s(progress)),
+        ("threads", json!(rayon::current_num_threads())),
+        ("tables", json!(files.tables)),
+        ("checks", json!(checks)),
+        ("information", json!(information)),
+    ] {
+        map.insert(key.to_owned(), value);
+    }
+    let values = sections.iter().flat_map(|section| section.values.clone());
+    map.extend(values);
+    let json = Value::Object(map);
+    let text = format!("{json:#}\n");
+    let path = folder.write("verify.json", text.as_bytes())?;
+    let failed: Vec<String> = checks
+        .iter()
+        .filter(|check| !check.ok())
+        .map(|check| check.line())
+        .collect();
+    Ok(Outcome {
+        summary: summary(sections),
+        result: json,
+        written: [vec![path], written, files.paths].concat(),
+        verdict: if failed.is_empty() {
+            Verdict::Good
+        } else {
+            Verdict::Bad {
+                what: failed.join("; "),
+                help: Some("the program does not compute here what it computed where it was made: please report it with verify.json".to_owned()),
+            }
+        },
+    })
+}
+
+fn report(sections: &[SectionResult], command: &str) -> Report {
+    let checks = || sections.iter().flat_map(|section| &section.checks);
+    let good = checks().filter(|check| check.ok()).count();
+    let total = checks().count();
+    let verdict = crate::report::Verdict::of(good == total);
+    let mut report = Report::new("Verification", command, env!("CARGO_PKG_VERSION"))
+        .subtitle("The program against published numbers and closed forms")
+        .judgement("Checks", format!("{good} of {total} pass"), verdict);
+    for section in sections {
+        let good = section.checks.iter().filter(|check| check.ok()).count();
+        let value = format!("{good} of {}", section.checks.len());
+        let verdict = crate::report::Verdict::of(good == section.checks.len());
+        report = report.headline(&section.title, value, verdict);
+        for part in section.sections() {
+            report = report.section(part);
+        }
+    }
+    report
+}
+
+fn summary(sections: &[SectionResult]) -> String {
+    let mut lines = Vec::new();
+    for section in sections {
+        if !section.checks.is_empty() {
+            lines.push(section.check_table().plain());
+        }
+        if let Some(table) = section.information_table() {
+            lines.push(table.plain());
+        }
+        lines.extend(section.lines.iter().cloned());
+    }
+    let checks = || sections.iter().flat_map(|section| &section.checks);
+    let good = checks().filter(|check| check.ok()).count();
+    lines.push(format!("{good} of {} checks pass", checks().count()));
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::cli::Visibility;
+    use crate::report::Section;
+
+    fn section(reference: f64) -> SectionResult {
+        let check = |name: &str, reference| Check {
+            name: name.to_owned(),
+            section: "Numbers".to_owned(),
+            computed: 2.0,
+            reference,
+            unit: "N".to_owned(),
+            source: "hand".to_owned(),
+            assumptions: "none".to_owned(),
+            limit: 0.01,
+            reason: "two digits".to_owned(),
+        };
+        SectionResult {
+            title: "Numbers".to_owned(),
+            checks: vec![check("right", 2.0), check("judged", reference)],
+            information: Vec::new(),
+            report: vec![Section::new("").paragraph("Told beside.")],
+            values: vec![("beside".to_owned(), json!(3))],
+            files: vec![("below/a.csv".to_owned(), "a\n".to_owned())],
+            lines: vec!["a line".to_owned()],
+        }
+    }
+
+    fn concluded(name: &str, reference: f64) -> (Outcome, OutputFolder) {
+        let path = std::env::temp_dir().join(format!("plummer-{}-{name}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&path);
+        let folder = OutputFolder::at(&path);
+        folder.claim("verify", false).unwrap();
+        let progress = Progress::new(Visibility::Hidden);
+        let sections = [section(reference)];
+        let outcome = conclude(&sections, false, &folder, &progress, 0.5).unwrap();
+        (outcome, folder)
+    }
+
+    #[test]
+    fn a_reference_that_is_missed_is_named_and_everything_is_written_all_the_same() {
+        let (outcome, folder) = concluded("verify-bad", 2.1);
+        let Verdict::Bad { what, .. } = &outcome.verdict else {
+            panic!("{outcome:?}");
+        };
+        assert!(
+            what.starts_with("judged: 2.0") && !what.contains("right"),
+            "{what}"
+        );
+        assert!(
+            outcome.summary.ends_with("1 of 2 checks pass"),
+            "{}",
+            outcome.summary
+        );
+        let text = std::fs::read_to_string(folder.path().join("verify.json")).unwrap();
+        let json: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(json["checks"][0]["ok"], true);
+        assert_eq!(json["checks"][1]["ok"], false);
+        assert_eq!(json["beside"], 3);
+        let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+        assert!(page.contains("1 of 2 pass") && page.contains("Told beside."));
+        let beside = std::fs::read_to_string(folder.path().join("below/a.csv")).unwrap();
+        assert_eq!(beside, "a\n");
+        std::fs::remove_dir_all(folder.path()).unwrap();
+    }
+
+    #[test]
+    fn references_that_are_met_are_good() {
+        let (outcome, folder) = concluded("verify-good", 2.01);
+        assert_eq!(outcome.verdict, Verdict::Good);
+        std::fs::remove_dir_all(folder.path()).unwrap();
+    }
+}

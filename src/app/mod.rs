@@ -1,0 +1,18 @@
+//! The program: case files, commands, studies and the command line.
+//!
+//! In come a TOML file and arguments; out go result files, figures and one HTML page.
+//!
+//! - [`case`]: the case file, read and checked;
+//! - [`stages`]: what a command computes, as a value;
+//! - [`verification`]: the built-in checks of `plummer verify`;
+//! - [`studies`]: many runs of one case;
+//! - [`cli`]: arguments, progress, files, exit codes.
+//!
+//! Read [`case::Case`] first.
+
+pub mod case;
+pub mod cli;
+pub mod shell_word;
+pub mod stages;
+pub mod studies;
+pub mod verification;

@@ -1,0 +1,262 @@
+//! The chart of a scene, from its case.
+
+use super::candidates::families;
+use super::points::{self, Point, PointError, evaluate, measure, point};
+use super::reference::models;
+use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
+use super::systems::{Ready, Systems};
+use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
+use crate::app::case::{self, Case, ModesKept, StepLength};
+use crate::app::stages::{AskedBand, ModelChoice, RunModel, Scene, Watch};
+use crate::system::SystemError;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Speed against accuracy of a scene.
+#[derive(Debug)]
+pub struct Chart {
+    /// What was simulated.
+    pub scene: Scene,
+    /// What was compared.
+    pub settings: Settings,
+    /// Where the runs began.
+    pub starts: Starts,
+    /// What the errors are measured by.
+    pub reference: Reference,
+    /// Every candidate that was computed; those without an error are the omissions.
+    pub points: Vec<Point>,
+    /// Places of the points that none beats in cost and error, by cost; none that is below the floor.
+    pub front: Vec<usize>,
+    /// Place of the program's own choice.
+    pub chosen: usize,
+    /// Place of the source paper's method.
+    pub source: usize,
+    /// Errors of these two over every start, where points take [some of them](Settings::point_stride).
+    pub over_all_starts: [Result<PointError, Failure>; 2],
+    /// Statistics beyond the horizon.
+    pub statistics: Vec<ModelStatistics>,
+}
+
+/// Statistics of a model against those of the reference, from the same starts.
+#[derive(Debug)]
+pub struct ModelStatistics {
+    /// Place of its point.
+    pub point: usize,
+    /// The figures, or why there are none.
+    pub figures: Result<Vec<ComparedFigure>, String>,
+}
+
+impl Chart {
+    /// Points without an error, and why.
+    pub fn omissions(&self) -> impl Iterator<Item = (usize, &super::Failure)> {
+        let points = self.points.iter().enumerate();
+        points.filter_map(|(place, point)| Some((place, point.error.as_ref().err()?)))
+    }
+
+    /// Whether a point's error is below what the reference can tell.
+    pub fn below_floor(&self, point: &Point) -> bool {
+        let error = point.error.as_ref();
+        error.is_ok_and(|error| error.mean < self.reference.disagreement)
+    }
+}
+
+/// Computes the chart of a case.
+///
+/// # Errors
+/// [`ChartError`]; a candidate that fails is no error but an omission.
+pub fn compute_chart(
+    case: &Case,
+    effort: Effort,
+    watch: &(impl Watch + Sync),
+) -> Result<Chart, ChartError> {
+    let scene = Scene::with_all_modes(case, watch)?;
+    // a chart without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let settings = Settings::of(case, asked, effort)?;
+    watch.stage("starts");
+    let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
+    watch.stage("reference");
+    let progress = Counter::new(watch, starts.starts.len());
+    let reference = Reference::find(&scene, &starts, &settings, || progress.done())?;
+    let chosen = |asked: &case::Transient| -> Result<RunModel, ChartError> {
+        Ok(ModelChoice::of_case(case, asked, &scene)?.model)
+    };
+    let automatic = chosen(&automatic(asked, case::Method::Auto))?;
+    let source = chosen(&automatic_source(asked))?;
+    watch.stage("points");
+    let (mut points, places) =
+        candidates(&scene, &reference, &settings, [automatic, source], watch);
+    let [chosen, source] = places;
+    watch.stage("time");
+    if let Some(first) = reference.starts.first() {
+        measure(&scene, &mut points, first, &settings, |part| {
+            watch.fraction(part);
+        });
+    }
+    let front = front(&points, reference.disagreement);
+    watch.stage("all starts");
+    let over_all_starts = [chosen, source].map(|place| {
+        let Point { model, error, .. } = &points[place];
+        match error {
+            Ok(_) if settings.point_stride() > 1 => {
+                points::over_all_starts(&scene, model, &reference, &settings)
+            }
+            known => known.clone(),
+        }
+    });
+    watch.stage("statistics");
+    let statistics = statistics(
+        case,
+        &scene,
+        &reference,
+        &settings,
+        [&points[chosen], &points[source]],
+        places,
+        watch,
+    );
+    Ok(Chart {
+        scene,
+        settings,
+        starts,
+        reference,
+        points,
+        front,
+        chosen,
+        source,
+        over_all_starts,
+        statistics,
+    })
+}
+
+/// What a case asks for with everything left to the program but the method.
+pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::Transient {
+    case::Transient {
+        method,
+        step: StepLength::Auto,
+        modes: ModesKept::Auto,
+        residual: true,
+        tolerance: None,
+        spectral_radius: None,
+        ..asked.clone()
+    }
+}
+
+/// The source paper's method as it is used there: all displacements, its own step.
+fn automatic_source(asked: &case::Transient) -> case::Transient {
+    case::Transient {
+        residual: false,
+        ..automatic(asked, case::Method::NewmarkExplicit)
+    }
+}
+
+/// All points, and the places of the two that must be there.
+fn candidates(
+    scene: &Scene,
+    reference: &Reference,
+    settings: &Settings,
+    wanted: [RunModel; 2],
+    watch: &(impl Watch + Sync),
+) -> (Vec<Point>, [usize; 2]) {
+    let modes = &scene.stage.modes;
+    let frequencies_hz: Vec<f64> = (0..modes.count())
+        .map(|mode| modes.frequency_hz(mode))
+        .collect();
+    let families = families(settings, &frequencies_hz, &wanted);
+    let progress = Counter::new(watch, families.len());
+    let found: Vec<Vec<Point>> = families
+        .par_iter()
+        .map(|family| {
+            let points = evaluate(scene, family, reference, settings);
+            progress.done();
+            points
+        })
+        .collect();
+    let mut points = found.concat();
+    let mut systems = Systems::new(scene);
+    let places = wanted.map(|model| {
+        let known = points.iter().position(|point| point.model == model);
+        known.unwrap_or_else(|| {
+            points.push(point(systems.of(&model), &model, reference, settings));
+            points.len() - 1
+        })
+    });
+    (points, places)
+}
+
+/// Places of the points that none beats, without what lies below the floor.
+fn front(points: &[Point], floor: f64) -> Vec<usize> {
+    let measured = points.iter().enumerate();
+    let measured: Vec<(usize, (f64, f64))> = measured
+        .filter_map(|(place, point)| Some((place, point.measured()?)))
+        .filter(|(_, (_, error))| *error >= floor)
+        .collect();
+    let values: Vec<(f64, f64)> = measured.iter().map(|(_, value)| *value).collect();
+    let places = pareto_front(&values).into_iter();
+    places.map(|place| measured[place].0).collect()
+}
+
+/// Statistics of points against the reference's second method, which is the cheaper one, with its first step.
+fn statistics(
+    case: &Case,
+    scene: &Scene,
+    reference: &Reference,
+    settings: &Settings,
+    points: [&Point; 2],
+    places: [usize; 2],
+    watch: &(impl Watch + Sync),
+) -> Vec<ModelStatistics> {
+    let starts: Vec<Start> = reference.starts.iter().map(|s| s.start.clone()).collect();
+    let analysis = FigureSettings {
+        band_hz: [case.band_hz().map_or(0.0, |band| band[0]), settings.band_hz],
+        high_pass_hz: AskedBand::of(case).map(|band| band.corner_hz(settings.output_hz)),
+    };
+    let progress = Counter::new(watch, 3 * starts.len());
+    let run = |system: &Ready, model: &RunModel| {
+        let done = || progress.done();
+        ensemble(system, &starts, model, settings, &analysis, done)
+    };
+    let [_, beside] = models(settings, 0);
+    let measured_by = scene
+        .system(&beside)
+        .map_err(Failure::from)
+        .and_then(|system| run(&Ready::new(scene, system), &beside));
+    let mut systems = Systems::new(scene);
+    let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
+        let by = measured_by.as_ref().map_err(Clone::clone)?;
+        if let Err(failure) = &point.error {
+            return Err(failure.clone());
+        }
+        let model = &point.model;
+        Ok(compare(&run(systems.of(model)?, model)?, by))
+    };
+    points
+        .into_iter()
+        .zip(places)
+        .map(|(of, point)| ModelStatistics {
+            point,
+            figures: own(of).map_err(|failure| failure.reason),
+        })
+        .collect()
+}
+
+/// Tells a watch how many of the parts are done.
+pub(super) struct Counter<'a, W> {
+    watch: &'a W,
+    count: usize,
+    done: AtomicUsize,
+}
+
+impl<'a, W: Watch> Counter<'a, W> {
+    pub(super) fn new(watch: &'a W, count: usize) -> Self {
+        Self {
+            watch,
+            count: count.max(1),
+            done: AtomicUsize::new(0),
+        }
+    }
+
+    pub(super) fn done(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        self.watch.fraction(done as f64 / self.count as f64);
+    }
+}

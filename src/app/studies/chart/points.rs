@@ -1,0 +1,358 @@
+//! The points of the chart: how far each candidate is from the reference, and what it costs.
+
+use super::candidates::{Family, model_name, parameter_of};
+use super::systems::{Ready, Systems};
+use super::trace::{Failure, FailureKind, Trace, simulate};
+use super::{Reference, Settings, StartReference};
+use crate::app::stages::{RunModel, Scene, Span};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// An error of the signal's own size or more shows nothing.
+const TOO_INACCURATE: f64 = 1.0;
+
+/// An error from which a refinement is expected to bring something, and what it must then bring to go on.
+const CONVERGING: f64 = 0.3;
+const GAIN: f64 = 0.85;
+
+/// Points in a row that differ by less than this part, where the error is larger: refining does not reach what is wrong.
+const STUCK: (usize, f64) = (3, 0.1);
+
+/// Simulated time by which costs are measured, s, and how often; the median counts.
+const TIMED: f64 = 2e-3;
+const ROUNDS: usize = 3;
+
+/// Mean and scatter of the errors of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointError {
+    /// Mean over the starts.
+    pub mean: f64,
+    /// Standard deviation over the starts.
+    pub deviation: f64,
+    /// Largest.
+    pub largest: f64,
+    /// Over the earlier part of the horizons, growths ascending.
+    pub by_growth: [GrowthError; GROWTHS.len()],
+}
+
+/// Growths of the distance of nearby solutions up to which errors are given beside that over the horizon: what a model leaves
+/// out grows as they do.
+pub const GROWTHS: [f64; 3] = [3.0, 10.0, 30.0];
+
+/// Error while nearby solutions have parted by no more than a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GrowthError {
+    /// The factor.
+    pub growth: f64,
+    /// How long that takes, mean over the starts, s.
+    pub span_s: f64,
+    /// Relative difference from the reference over that time, mean over the starts.
+    pub mean: f64,
+}
+
+/// A candidate and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Method, model and step.
+    pub model: RunModel,
+    /// Wall time a simulated second, on one thread, s; `None` where it was not measured.
+    pub wall_s: Option<f64>,
+    /// Relative difference from the reference over the horizons, or why there is none.
+    pub error: Result<PointError, Failure>,
+}
+
+impl Point {
+    /// The method's name.
+    pub fn method(&self) -> &'static str {
+        self.model.method.name()
+    }
+
+    /// The model in words.
+    pub fn model_name(&self) -> String {
+        model_name(&self.model)
+    }
+
+    /// "step_s" or "tolerance", and its value.
+    pub fn parameter(&self) -> (&'static str, f64) {
+        parameter_of(&self.model)
+    }
+
+    /// Cost and mean error of a point that has both.
+    pub fn measured(&self) -> Option<(f64, f64)> {
+        Some((self.wall_s?, self.error.as_ref().ok()?.mean))
+    }
+}
+
+/// Part of the target below which nothing finer is tried.
+const FINE: f64 = 0.01;
+
+/// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
+/// or until the error is far below the target or at the floor. Starts in parallel.
+pub(super) fn evaluate(
+    scene: &Scene,
+    family: &Family,
+    reference: &Reference,
+    settings: &Settings,
+) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
+    let mut means: Vec<f64> = Vec::new();
+    let mut systems = Systems::new(scene);
+    for model in &family.models {
+        let point = point(systems.of(model), model, reference, settings);
+        let (mean, refused) = match &point.error {
+            Ok(error) => (Some(error.mean), false),
+            Err(failure) => (failure.error, failure.kind == FailureKind::Refused),
+        };
+        points.push(point);
+        match mean {
+            Some(mean) => means.push(mean),
+            None => means.clear(),
+        }
+        let fine = reference.disagreement.max(FINE * settings.target);
+        let fine_enough = means.last().is_some_and(|mean| *mean <= fine);
+        if refused || fine_enough || gains_nothing(&means) {
+            break;
+        }
+    }
+    points
+}
+
+/// Whether the last of a family's errors, from the roughest on, say that refining brings nothing more.
+fn gains_nothing(means: &[f64]) -> bool {
+    let [.., before, last] = means else {
+        return false;
+    };
+    let (count, part) = STUCK;
+    let stuck = means.len() >= count
+        && means[means.len() - count..]
+            .iter()
+            .all(|mean| (mean / last - 1.0).abs() < part);
+    (*last < CONVERGING && *last > GAIN * before) || stuck
+}
+
+/// A point without its cost.
+pub(super) fn point(
+    system: Result<&Ready, Failure>,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+) -> Point {
+    let stride = settings.point_stride();
+    let error = system.and_then(|system| error(system, model, reference, settings, stride));
+    Point {
+        model: *model,
+        wall_s: None,
+        error,
+    }
+}
+
+/// Error of a model over every start, where a point takes some of them.
+pub(super) fn over_all_starts(
+    scene: &Scene,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+) -> Result<PointError, Failure> {
+    let mut systems = Systems::new(scene);
+    error(systems.of(model)?, model, reference, settings, 1)
+}
+
+/// Mean error over every so many of the starts.
+fn error(
+    system: &Ready,
+    model: &RunModel,
+    reference: &Reference,
+    settings: &Settings,
+    stride: usize,
+) -> Result<PointError, Failure> {
+    // the first start that fails tells enough; which one does not depend on the number of threads
+    let failed = AtomicBool::new(false);
+    let starts: Vec<&StartReference> = reference.starts.iter().step_by(stride).collect();
+    let errors: Vec<Option<Result<StartErrors, Failure>>> = starts
+        .par_iter()
+        .map(|start| {
+            if failed.load(Ordering::Relaxed) {
+                return None;
+            }
+            let error = error_of(system, model, start, settings);
+            if error.is_err() {
+                failed.store(true, Ordering::Relaxed);
+            }
+            Some(error)
+        })
+        .collect();
+    if failed.into_inner() {
+        return Err(first_failure(system, model, &starts, settings, errors));
+    }
+    let values: Vec<StartErrors> = errors.into_iter().flatten().flatten().collect();
+    judged(&values)
+}
+
+/// Errors from one start.
+#[derive(Debug, Clone, Copy)]
+struct StartErrors {
+    over_horizon: f64,
+    by_growth: [GrowthError; GROWTHS.len()],
+}
+
+/// The failure of the first start that fails, computed where it was left out.
+fn first_failure(
+    system: &Ready,
+    model: &RunModel,
+    starts: &[&StartReference],
+    settings: &Settings,
+    errors: Vec<Option<Result<StartErrors, Failure>>>,
+) -> Failure {
+    let starts = starts.iter().zip(errors);
+    let failures = starts.filter_map(|(start, known)| {
+        let error = known.unwrap_or_else(|| error_of(system, model, start, settings));
+        error.err()
+    });
+    let first = failures.into_iter().next();
+    first.unwrap_or_else(|| Failure::new(FailureKind::Refused, String::new()))
+}
+
+/// Relative differences from the reference over a start's horizon and parts of it.
+fn error_of(
+    system: &Ready,
+    model: &RunModel,
+    start: &StartReference,
+    settings: &Settings,
+) -> Result<StartErrors, Failure> {
+    let (system, state) = system.at(&start.start);
+    let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
+    let over = |span_s: f64| {
+        let error = trace.error(&start.trace, 0.0, span_s);
+        error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
+    };
+    let mut by_growth = [GrowthError::default(); GROWTHS.len()];
+    for (part, growth) in by_growth.iter_mut().zip(GROWTHS) {
+        let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
+        let mean = over(span_s)?;
+        *part = GrowthError {
+            growth,
+            span_s,
+            mean,
+        };
+    }
+    Ok(StartErrors {
+        over_horizon: over(start.horizon_s)?,
+        by_growth,
+    })
+}
+
+/// Mean and scatter, or that they show nothing.
+fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
+    let count = starts.len() as f64;
+    let errors: Vec<f64> = starts.iter().map(|start| start.over_horizon).collect();
+    let mean = errors.iter().sum::<f64>() / count;
+    let squares = errors.iter().map(|error| (error - mean).powi(2));
+    let deviation = (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    if mean < TOO_INACCURATE {
+        let mut by_growth = [GrowthError::default(); GROWTHS.len()];
+        for (place, part) in by_growth.iter_mut().enumerate() {
+            part.growth = GROWTHS[place];
+            for start in starts {
+                part.span_s += start.by_growth[place].span_s / count;
+                part.mean += start.by_growth[place].mean / count;
+            }
+        }
+        Ok(PointError {
+            mean,
+            deviation,
+            largest,
+            by_growth,
+        })
+    } else {
+        Err(Failure {
+            kind: FailureKind::TooInaccurate,
+            reason: format!(
+                "the signal differs from the reference by {mean:.2e} of its root mean square"
+            ),
+            error: Some(mean),
+        })
+    }
+}
+
+/// Measures what the points cost, one run at a time and on this thread: the median of some rounds over all points, so that what
+/// else the machine does for a while falls on a round and not on a point. `done` is told the share that is done.
+pub(super) fn measure(
+    scene: &Scene,
+    points: &mut [Point],
+    start: &StartReference,
+    settings: &Settings,
+    done: impl Fn(f64),
+) {
+    let span = Span {
+        duration: TIMED.min(settings.span_s),
+        output_hz: settings.output_hz,
+    };
+    let mut systems = Systems::new(scene);
+    let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
+    for round in 0..ROUNDS {
+        for (place, point) in points.iter().enumerate() {
+            walls[place].extend(wall(&mut systems, point, start, span));
+            let count = (ROUNDS * points.len()) as f64;
+            done((round * points.len() + place + 1) as f64 / count);
+        }
+    }
+    for (point, mut walls) in points.iter_mut().zip(walls) {
+        walls.sort_by(f64::total_cmp);
+        point.wall_s = walls.get(walls.len() / 2).copied();
+    }
+}
+
+/// Wall time of one run over its simulated time; `None` for a point without an error.
+fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
+    point.error.as_ref().ok()?;
+    let (system, state) = systems.of(&point.model).ok()?.at(&start.start);
+    let simulation = simulate(system, state, &point.model, span).ok()?;
+    Some(simulation.stepping_s / simulation.simulated_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refining_ends_where_it_brings_nothing() {
+        assert!(!gains_nothing(&[0.01]));
+        assert!(!gains_nothing(&[0.1, 0.05]));
+        assert!(gains_nothing(&[0.1, 0.05, 0.049]));
+        // far from converged: errors that are alike by chance go on, three of them do not
+        assert!(!gains_nothing(&[1.47, 1.46]));
+        assert!(!gains_nothing(&[3.0, 1.47, 1.46]));
+        assert!(gains_nothing(&[1.47, 1.46, 1.47]));
+    }
+
+    #[test]
+    fn errors_have_a_mean_and_a_scatter_or_show_nothing() {
+        let starts = |errors: [f64; 2]| {
+            errors.map(|over_horizon| StartErrors {
+                over_horizon,
+                by_growth: GROWTHS.map(|growth| GrowthError {
+                    growth,
+                    span_s: 1e-3 * growth * over_horizon,
+                    mean: 0.01 * growth * over_horizon,
+                }),
+            })
+        };
+        let error = judged(&starts([0.1, 0.3])).unwrap();
+        for (part, growth) in error.by_growth.iter().zip(GROWTHS) {
+            assert!((part.growth - growth).abs() < 1e-15);
+            assert!((part.span_s - 0.2e-3 * growth).abs() < 1e-15);
+            assert!((part.mean - 2e-3 * growth).abs() < 1e-15);
+        }
+        assert!((error.mean - 0.2).abs() < 1e-15 && (error.largest - 0.3).abs() < 1e-15);
+        // the sample's: sqrt(2) 0.1
+        assert!((error.deviation - 0.02_f64.sqrt()).abs() < 1e-15);
+        let failure = judged(&starts([0.5, 2.5])).unwrap_err();
+        assert_eq!(failure.kind, FailureKind::TooInaccurate);
+        assert!(
+            failure.reason.contains("by 1.50e0 of its"),
+            "{}",
+            failure.reason
+        );
+    }
+}

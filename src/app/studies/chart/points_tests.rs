@@ -1,0 +1,122 @@
+//! Candidates on a small scene: the same whatever the number of threads, and what fails is told.
+
+use super::candidates::Family;
+use super::points::{Point, evaluate, over_all_starts};
+use super::{Effort, FailureKind, Reference, Settings, Starts};
+use crate::app::case::Case;
+use crate::app::stages::{RunModel, Scene, Unwatched};
+use crate::numerics::ode::Method;
+use crate::system::{BallsInertia, ModeSelection};
+
+/// The smooth scene with a ring of 12 nodes, 0.5 ms from two starts.
+fn small() -> (Scene, Settings) {
+    let set = [
+        "ring.nodes=12",
+        "transient.end=0.5e-3",
+        "transient.ensemble.runs=2",
+    ];
+    let case = Case::example("scenes/smooth", &set);
+    let asked = case.transient.as_ref().unwrap();
+    let settings = Settings::of(&case, asked, Effort::Quick).unwrap();
+    (Scene::build(&case, &Unwatched).unwrap(), settings)
+}
+
+fn all_modes(method: Method, steps: &[f64]) -> Family {
+    let model = |step: &f64| RunModel {
+        modes: ModeSelection::All,
+        residual: false,
+        balls_inertia: BallsInertia::Dynamic,
+        method,
+        step: *step,
+    };
+    Family {
+        models: steps.iter().map(model).collect(),
+    }
+}
+
+#[test]
+fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
+    let (scene, settings) = small();
+    let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
+    assert!((starts.starts[1].time_s - 0.25e-3).abs() < 1e-12);
+    let computed = |threads: usize| -> (Reference, Vec<Point>) {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
+            let families = [
+                all_modes(
+                    Method::ExponentialAdams { tolerance: None },
+                    &[1.25e-6, 3e-7, 1.5e-7],
+                ),
+                all_modes(Method::NewmarkExplicit, &[2e-6]),
+                all_modes(Method::Exponential, &[-1.0, 1e-7]),
+            ];
+            let points = families
+                .iter()
+                .flat_map(|family| evaluate(&scene, family, &reference, &settings));
+            let points = points.collect();
+            (reference, points)
+        })
+    };
+    let (reference, points) = computed(2);
+    let (other, again) = computed(1);
+    assert_eq!(points, again);
+    assert_eq!(
+        reference.disagreement.to_bits(),
+        other.disagreement.to_bits()
+    );
+    for (a, b) in reference.starts.iter().zip(&other.starts) {
+        assert_eq!((&a.trace, &a.growth), (&b.trace, &b.growth));
+    }
+    // all balls in contact: nothing grows
+    assert!((reference.least_horizon_s() - settings.span_s).abs() < 1e-9);
+    let failure = |place: usize| points[place].error.as_ref().unwrap_err();
+    assert_eq!(failure(0).kind, FailureKind::BlewUp);
+    let reason = &failure(0).reason;
+    assert!(
+        reason.starts_with("the solution blew up at t = 0.0"),
+        "{reason}"
+    );
+    // of third order: halving the step leaves an eighth; a sixth with what the first one does not resolve
+    let error = |place: usize| points[place].error.as_ref().unwrap().mean;
+    assert!(error(2) < error(1) / 6.0, "{:e} {:e}", error(1), error(2));
+    assert!(error(2) < 0.05, "{:e}", error(2));
+    assert_eq!(failure(3).kind, FailureKind::Unstable);
+    let reason = &failure(3).reason;
+    assert!(reason.contains("beyond the stability limit"), "{reason}");
+    // refused: nothing finer of that family is tried
+    assert_eq!((failure(4).kind, points.len()), (FailureKind::Refused, 5));
+}
+
+#[test]
+fn marked_points_take_every_start_and_others_some() {
+    let set = [
+        "ring.nodes=12",
+        "transient.end=0.2e-3",
+        "accuracy.band_hz=[0,160000]",
+        "transient.ensemble.runs=9",
+    ];
+    let case = Case::example("scenes/smooth", &set);
+    let asked = case.transient.as_ref().unwrap();
+    let settings = Settings::of(&case, asked, Effort::Full).unwrap();
+    assert_eq!(settings.point_stride(), 2);
+    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
+    let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
+    let family = all_modes(Method::Exponential, &[2e-7]);
+    let some = evaluate(&scene, &family, &reference, &settings)[0].clone();
+    let all = over_all_starts(&scene, &some.model, &reference, &settings).unwrap();
+    // those of every second start, and the others
+    let some = some.error.unwrap();
+    assert!(all.largest >= some.largest && all.mean.to_bits() != some.mean.to_bits());
+    let halves = [0, 1].map(|first| {
+        let mut half = reference.clone();
+        half.starts = half.starts.into_iter().skip(first).step_by(2).collect();
+        over_all_starts(&scene, &family.models[0], &half, &settings)
+            .unwrap()
+            .mean
+    });
+    assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
+    let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;
+    assert!((all.mean / together - 1.0).abs() < 1e-12);
+}

@@ -1,0 +1,226 @@
+//! The map of a case.
+
+use super::super::compute::{Counter, automatic};
+use super::super::{ChartError, Effort};
+use super::cell::{MethodStability, by_tolerance, on_grid};
+use super::condition::{Condition, Variant};
+use super::measured::{Measurement, Reference};
+use crate::app::case::{self, Case};
+use crate::app::stages::{ModelChoice, RunModel, Scene, Watch};
+use crate::numerics::ode::{Linearised, Method, fastest};
+use crate::system::SystemError;
+use rayon::prelude::*;
+
+/// Shortest and longest step of the grid, s.
+const STEPS: [f64; 2] = [5e-8, 1e-5];
+
+/// Steps a decade, full and quick.
+const PER_DECADE: [f64; 2] = [10.0, 5.0];
+
+/// Steps of a run, full and quick; of an implicit method and in all modes, where a step takes ten times as long.
+const RUN: [u32; 2] = [2000, 600];
+const SLOW_RUN: [u32; 2] = [400, 200];
+
+/// Phases that are looked at for resonances, full and quick.
+const PHASES: [usize; 2] = [24, 8];
+
+/// Steps of the reference, in units of the least limit that is predicted, and the largest phase of a mode in them.
+const FINER: f64 = 0.125;
+const FINER_PHASE: f64 = 1.5;
+
+/// Spectral radius of generalized-alpha, as the program's own choice.
+const SPECTRAL_RADIUS: f64 = 0.8;
+
+/// Methods with equal steps; those that solve their equations last.
+const EQUAL: [Method; 6] = [
+    Method::Exponential,
+    Method::ExponentialAdams { tolerance: None },
+    Method::NewmarkExplicit,
+    Method::Splitting,
+    Method::Newmark,
+    Method::GeneralizedAlpha {
+        spectral_radius: SPECTRAL_RADIUS,
+    },
+];
+
+/// Methods that choose their steps, with the program's own tolerances for an error of a percent.
+const BY_TOLERANCE: [Method; 2] = [
+    Method::ExponentialAdams {
+        tolerance: Some(1e-2),
+    },
+    Method::Dop853 {
+        tolerance: 1e-6,
+        events: true,
+    },
+];
+
+/// Time between samples of these, s, and how many: 2 ms.
+const SAMPLES: [f64; 2] = [4e-7, 5000.0];
+
+/// The stability map of a scene.
+#[derive(Debug)]
+pub struct Stability {
+    /// How much was computed.
+    pub effort: Effort,
+    /// The model, whose method and step are varied.
+    pub model: RunModel,
+    /// How many modes it keeps of how many.
+    pub modes: [usize; 2],
+    /// The steps, s, ascending.
+    pub steps_s: Vec<f64>,
+    /// The conditions, the case itself first.
+    pub conditions: Vec<ConditionStability>,
+}
+
+/// All methods under a condition.
+#[derive(Debug)]
+pub struct ConditionStability {
+    /// The condition.
+    pub condition: Condition,
+    /// The methods, in the same order everywhere, or why there are none.
+    pub methods: Result<Vec<MethodStability>, String>,
+}
+
+/// A condition made ready.
+struct Prepared {
+    variant: Variant,
+    steps: u32,
+    slow_steps: u32,
+    all_modes: bool,
+    reference: Reference,
+}
+
+/// Computes the map of a case, whose scene is `scene`, over conditions, such as [all](Condition::all).
+///
+/// # Errors
+/// [`ChartError`]; a condition that the bearing cannot be in is no error.
+pub fn compute_stability(
+    case: &Case,
+    scene: &Scene,
+    conditions: Vec<Condition>,
+    effort: Effort,
+    watch: &(impl Watch + Sync),
+) -> Result<Stability, ChartError> {
+    // a chart without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let choice = ModelChoice::of_case(case, &automatic(asked, case::Method::Auto), scene)?;
+    let (model, grid) = (choice.model, grid(effort));
+    watch.stage("conditions");
+    let progress = Counter::new(watch, conditions.len());
+    let prepared: Vec<Result<Prepared, String>> = conditions
+        .par_iter()
+        .map(|condition| {
+            let prepared = prepare(*condition, case, scene, &model, effort);
+            progress.done();
+            prepared.map_err(|error| error.to_string())
+        })
+        .collect();
+    watch.stage("stability");
+    let methods = EQUAL.len() + BY_TOLERANCE.len();
+    let progress = Counter::new(watch, conditions.len() * methods);
+    let cells: Vec<Option<MethodStability>> = (0..conditions.len() * methods)
+        .into_par_iter()
+        .map(|place| {
+            let of = prepared[place / methods].as_ref().ok();
+            let cell = of.and_then(|of| cell(of, place % methods, &grid, effort));
+            progress.done();
+            cell
+        })
+        .collect();
+    let modes = prepared.first().and_then(|first| first.as_ref().ok());
+    let kept = modes.map_or(0, |first| first.variant.system.modes());
+    let conditions = conditions
+        .into_iter()
+        .zip(prepared)
+        .zip(cells.chunks(methods));
+    let conditions = conditions.map(|((condition, prepared), cells)| ConditionStability {
+        condition,
+        methods: prepared.map(|_| cells.iter().flatten().cloned().collect()),
+    });
+    Ok(Stability {
+        effort,
+        model,
+        modes: [kept, scene.stage.modes.count()],
+        conditions: conditions.collect(),
+        steps_s: grid,
+    })
+}
+
+fn prepare(
+    condition: Condition,
+    case: &Case,
+    scene: &Scene,
+    model: &RunModel,
+    effort: Effort,
+) -> Result<Prepared, ChartError> {
+    let variant = condition.variant(case, scene, model)?;
+    let all_modes = matches!(condition, Condition::AllModes | Condition::AllModesUndamped);
+    let slow_steps = of_effort(SLOW_RUN, effort);
+    let steps = if all_modes {
+        slow_steps
+    } else {
+        of_effort(RUN, effort)
+    };
+    let mut linearised = Linearised::new(&mut variant.system.clone(), &variant.state);
+    let limit = Method::Exponential.limit_of(&mut linearised);
+    let limit = limit.map_or(1e-6, |limit| limit.step_s);
+    let highest = variant.system.highest_squared_frequency().sqrt();
+    let finer = (FINER * limit).min(FINER_PHASE / highest.max(f64::MIN_POSITIVE));
+    let finer_steps = (f64::from(steps) * limit / finer).ceil() as u32;
+    let rate = fastest(&linearised).unwrap_or(0.0);
+    let reference = Reference::of(&variant, Method::Exponential, finer, finer_steps, rate);
+    Ok(Prepared {
+        variant,
+        steps,
+        slow_steps,
+        all_modes,
+        reference,
+    })
+}
+
+/// A method under a condition; none of an implicit one in all modes, where a step solves for all of them, and of one that chooses
+/// steps by the highest.
+fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<MethodStability> {
+    let measurement = |steps| Measurement {
+        variant: &of.variant,
+        steps,
+        reference: &of.reference,
+    };
+    let mut linearised = Linearised::new(&mut of.variant.system.clone(), &of.variant.state);
+    let Some(&equal) = EQUAL.get(method) else {
+        let chosen = BY_TOLERANCE.get(method - EQUAL.len())?;
+        let cell = || by_tolerance(&measurement(0), &mut linearised, *chosen, SAMPLES);
+        return (!of.all_modes).then(cell);
+    };
+    if equal.is_implicit() && of.all_modes {
+        return None;
+    }
+    let steps = if equal.is_implicit() {
+        of.slow_steps
+    } else {
+        of.steps
+    };
+    let phases = of_effort(PHASES, effort);
+    Some(on_grid(
+        &measurement(steps),
+        &mut linearised,
+        equal,
+        grid,
+        phases,
+    ))
+}
+
+fn of_effort<T>([full, quick]: [T; 2], effort: Effort) -> T {
+    match effort {
+        Effort::Full => full,
+        Effort::Quick => quick,
+    }
+}
+
+fn grid(effort: Effort) -> Vec<f64> {
+    let [first, last] = STEPS;
+    let per_decade = of_effort(PER_DECADE, effort);
+    let count = ((last / first).log10() * per_decade).floor() as i32;
+    let step = |k: i32| first * 10_f64.powf(f64::from(k) / per_decade);
+    (0..=count).map(step).collect()
+}

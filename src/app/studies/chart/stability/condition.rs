@@ -1,0 +1,256 @@
+//! What is varied, one at a time, and the scene that it gives.
+
+use super::super::{ChartError, Effort};
+use crate::app::case::{self, Case, Defect, Load, SpeedPoint};
+use crate::app::stages::{RunModel, Scene, bearing_setup};
+use crate::bearing::ContactStiffness;
+use crate::report::significant;
+use crate::system::{
+    BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
+    SystemError,
+};
+
+/// Forces on the shaft, in units of those given.
+const LOADS: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
+/// Radial play in ball radii, from preload to loose.
+const PLAYS: [f64; 5] = [-3e-3, -1e-3, 0.0, 2.5e-3, 1e-2];
+/// Shaft speeds, Hz.
+const SPEEDS: [f64; 5] = [0.0, 10.0, 21.0, 45.0, 60.0];
+/// Depths of all dents and flats, in units of those given.
+const DEPTHS: [f64; 3] = [0.25, 0.5, 2.0];
+/// Stiffness of both contacts, in units of those given.
+const STIFFNESSES: [f64; 3] = [0.1, 10.0, 100.0];
+/// Damping ratios, of the stiffest ball between its contacts and of all modes.
+const RATIOS: [f64; 4] = [0.0, 0.01, 0.02, 0.05];
+
+/// What is different from the case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition {
+    /// Nothing.
+    AsGiven,
+    /// All forces on the shaft, its weight among them, times this.
+    Load(f64),
+    /// Radial play, m.
+    RadialPlay(f64),
+    /// Constant shaft speed, Hz.
+    Speed(f64),
+    /// Depths of dents and flats times this.
+    DefectDepth(f64),
+    /// Stiffness of both contacts times this.
+    ContactStiffness(f64),
+    /// Contact damping that gives the stiffest ball between its contacts this ratio.
+    ContactDamping(f64),
+    /// Ratio of all modes.
+    ModalDamping(f64),
+    /// All modes are kept.
+    AllModes,
+    /// All modes are kept, and nothing damps them.
+    AllModesUndamped,
+}
+
+/// A scene under a condition, in a model's coordinates and at rest.
+#[derive(Debug)]
+pub(super) struct Variant {
+    pub(super) system: CoupledSystem,
+    pub(super) state: crate::numerics::ode::State,
+}
+
+impl Condition {
+    /// All that fit a case; a quick map has the ends of each range.
+    pub fn all(case: &Case, effort: Effort) -> Vec<Self> {
+        let defects = case.bearing.as_ref().map_or(0, |of| of.defects.len());
+        let radius = case.bearing.as_ref().map_or(0.0, |of| of.ball_radius);
+        let ends = |values: &[f64]| -> Vec<f64> {
+            match (effort, values) {
+                (Effort::Quick, [first, .., last]) => vec![*first, *last],
+                _ => values.to_vec(),
+            }
+        };
+        let mut all = vec![Self::AsGiven];
+        all.extend(ends(&LOADS).into_iter().map(Self::Load));
+        all.extend(
+            ends(&PLAYS)
+                .into_iter()
+                .map(|x| Self::RadialPlay(x * radius)),
+        );
+        all.extend(ends(&SPEEDS).into_iter().map(Self::Speed));
+        if defects > 0 {
+            all.extend(ends(&DEPTHS).into_iter().map(Self::DefectDepth));
+        }
+        all.extend(ends(&STIFFNESSES).into_iter().map(Self::ContactStiffness));
+        all.extend(ends(&RATIOS).into_iter().map(Self::ContactDamping));
+        all.extend(ends(&RATIOS).into_iter().map(Self::ModalDamping));
+        if effort == Effort::Full {
+            all.push(Self::AllModes);
+        }
+        all.push(Self::AllModesUndamped);
+        all
+    }
+
+    /// What is varied.
+    pub fn axis(self) -> &'static str {
+        match self {
+            Self::AsGiven => "as given",
+            Self::Load(_) => "load",
+            Self::RadialPlay(_) => "radial play",
+            Self::Speed(_) => "speed",
+            Self::DefectDepth(_) => "defect depth",
+            Self::ContactStiffness(_) => "contact stiffness",
+            Self::ContactDamping(_) => "contact damping ratio",
+            Self::ModalDamping(_) => "modal damping ratio",
+            Self::AllModes => "all modes",
+            Self::AllModesUndamped => "all modes, undamped",
+        }
+    }
+
+    /// Its value, and the unit: "" for a ratio, "x" for a multiple of what is given.
+    pub fn value(self) -> Option<(f64, &'static str)> {
+        match self {
+            Self::AsGiven | Self::AllModes | Self::AllModesUndamped => None,
+            Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => Some((x, "x")),
+            Self::RadialPlay(play) => Some((play, "m")),
+            Self::Speed(hz) => Some((hz, "Hz")),
+            Self::ContactDamping(ratio) | Self::ModalDamping(ratio) => Some((ratio, "")),
+        }
+    }
+
+    /// In a few words.
+    pub fn label(self) -> String {
+        match self {
+            Self::AsGiven | Self::AllModes | Self::AllModesUndamped => self.axis().to_owned(),
+            Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => {
+                format!("{} × {x}", self.axis())
+            }
+            Self::RadialPlay(play) => format!("radial play {} µm", round(1e6 * play)),
+            Self::Speed(hz) => format!("speed {hz} Hz"),
+            Self::ContactDamping(ratio) => format!("contact damping {} %", round(100.0 * ratio)),
+            Self::ModalDamping(ratio) => format!("modal damping {} %", round(100.0 * ratio)),
+        }
+    }
+
+    /// The scene of a case under it, with the model's coordinates.
+    ///
+    /// # Errors
+    /// [`ChartError`] for a condition that the bearing cannot be in.
+    pub(super) fn variant(
+        self,
+        case: &Case,
+        scene: &Scene,
+        model: &RunModel,
+    ) -> Result<Variant, ChartError> {
+        let mut case = case.clone();
+        self.apply(&mut case, scene);
+        let setup = bearing_setup(&case)?.ok_or(SystemError::NotSupported)?;
+        let setup = BearingSetup {
+            balls_inertia: model.balls_inertia,
+            ..setup
+        };
+        let damping = match self {
+            Self::ModalDamping(ratio) => ModeDamping::Modal(ratio),
+            Self::AllModesUndamped => ModeDamping::Modal(0.0),
+            _ => scene.damping,
+        };
+        let (modes, residual) = match self {
+            Self::AllModes | Self::AllModesUndamped => (ModeSelection::All, false),
+            _ => (model.modes, model.residual),
+        };
+        let stage = &scene.stage;
+        let condition = StaticCondition::at(&setup, scene.start);
+        let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
+        let system = CoupledSystem::new(
+            &stage.structure,
+            &stage.modes,
+            setup,
+            modes,
+            damping,
+            residual,
+        )?;
+        let state = system.state_at(scene.start, &equilibrium, &stage.modes);
+        Ok(Variant { system, state })
+    }
+
+    /// Changes the case; what concerns modes is left to the model.
+    fn apply(self, case: &mut Case, scene: &Scene) {
+        match self {
+            Self::Load(factor) => {
+                if let Some(shaft) = &mut case.shaft {
+                    load_by(shaft, factor);
+                }
+            }
+            Self::Speed(hz) => {
+                let profile = vec![SpeedPoint { time: 0.0, hz }];
+                case.speed = Some(case::Speed { profile });
+            }
+            _ => {}
+        }
+        let Some(bearing) = &mut case.bearing else {
+            return;
+        };
+        match self {
+            Self::RadialPlay(play) => bearing.radial_play = Some(play),
+            Self::DefectDepth(factor) => {
+                for defect in &mut bearing.defects {
+                    match defect {
+                        Defect::Dent(dent) => dent.depth *= factor,
+                        Defect::Flat(flat) => flat.depth *= factor,
+                        // a measured depth is what it is
+                        Defect::Measured(_) => {}
+                    }
+                }
+            }
+            Self::ContactStiffness(factor) => {
+                let stiffness = &scene.setup.stiffness;
+                bearing.stiffness = case::ContactStiffness::Given {
+                    inner: factor * stiffness.inner(),
+                    outer: factor * stiffness.outer(),
+                };
+            }
+            Self::ContactDamping(ratio) => {
+                bearing.contact_damping = ratio * critical(&scene.setup.stiffness, scene);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The shaft with `factor` times the forces on it, its weight among them; the balls' weight stays.
+fn load_by(shaft: &mut case::Shaft, factor: f64) {
+    for load in &mut shaft.loads {
+        match load {
+            Load::Constant(force) => *force = force.map(|part| factor * part),
+            Load::Profile(points) => {
+                for point in points {
+                    point.force = point.force.map(|part| factor * part);
+                }
+            }
+        }
+    }
+    let weight = shaft.gravity.map(|g| (factor - 1.0) * shaft.mass * g);
+    shaft.loads.push(Load::Constant(weight));
+}
+
+/// Contact damping (s/m) by which the most loaded ball is critically damped between its contacts: with
+/// `F = k delta^(3/2) (1 + c delta')` the damper is `c F`, and `2 sqrt(k' m)` is critical with `k' = 3/2 k^(2/3) F^(1/3)`.
+fn critical(stiffness: &ContactStiffness, scene: &Scene) -> f64 {
+    let balls = scene.equilibrium.balls.iter();
+    let of_ball = |inner: f64, outer: f64| {
+        let tangent = |k: f64, force: f64| 1.5 * k.cbrt().powi(2) * force.cbrt();
+        let spring = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
+        2.0 * (spring * scene.setup.geometry.ball_mass()).sqrt() / (inner + outer)
+    };
+    balls
+        .map(|ball| (ball.inner, ball.outer))
+        .max_by(|a, b| (a.0 + a.1).total_cmp(&(b.0 + b.1)))
+        .filter(|(inner, outer)| inner + outer > 0.0)
+        .map_or(0.0, |(inner, outer)| of_ball(inner, outer))
+}
+
+/// Without digits that say nothing.
+fn round(value: f64) -> String {
+    let text = significant(value, 3);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

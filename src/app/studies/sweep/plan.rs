@@ -1,0 +1,321 @@
+//! What a sweep is to compute.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Axis, SweepError};
+use crate::app::case::{Case, Purpose, Source};
+use crate::app::stages::RunIdentity;
+use crate::files;
+
+/// Most points of a sweep: each has a folder.
+const MOST_POINTS: usize = 100_000;
+
+/// What is computed at each point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SweptCommand {
+    /// `plummer run`.
+    #[default]
+    Run,
+    /// `plummer modes`.
+    Modes,
+}
+
+impl SweptCommand {
+    /// The command's name on the command line; its result file is `NAME.json`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Modes => "modes",
+        }
+    }
+
+    /// What a case is to be used for at each point.
+    #[must_use]
+    pub fn purpose(self) -> Purpose {
+        match self {
+            Self::Run => Purpose::Run,
+            Self::Modes => Purpose::Modes,
+        }
+    }
+}
+
+/// What a sweep is to compute: a case, and the values that some of its keys take.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Plan {
+    /// What is computed at each point.
+    pub command: SweptCommand,
+    /// The case file, an absolute path.
+    pub case: PathBuf,
+    /// Its content, arguments and meshes, and the program's version.
+    pub identity: RunIdentity,
+    /// `KEY=VALUE` arguments of all points, in order.
+    pub set: Vec<String>,
+    /// What is varied; the last axis varies fastest.
+    pub axes: Vec<Axis>,
+}
+
+/// One point of a plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SweepPoint {
+    /// From 1.
+    pub number: usize,
+    /// The value of each axis.
+    pub values: Vec<String>,
+    /// `KEY=VALUE` arguments: those of all points, then the axes'.
+    pub set: Vec<String>,
+}
+
+impl Plan {
+    /// Plans a sweep of a case that has been read.
+    ///
+    /// # Errors
+    /// [`SweepError::NothingVaried`], [`SweepError::Twice`], [`SweepError::SetAndVaried`], [`SweepError::TooMany`]; [`SweepError::Stage`] for a mesh that
+    /// cannot be read, [`SweepError::Io`] if the working folder is unknown.
+    pub fn new(case: &Case, command: SweptCommand, axes: Vec<Axis>) -> Result<Self, SweepError> {
+        if axes.is_empty() {
+            return Err(SweepError::NothingVaried);
+        }
+        for (place, axis) in axes.iter().enumerate() {
+            let key = || axis.key.clone();
+            let both = |other: &Axis| other.sets(&axis.key) || axis.sets(&other.key);
+            if axes[..place].iter().any(both) {
+                return Err(SweepError::Twice { key: key() });
+            }
+            let mut set = case.source.set.iter();
+            let set = set.find(|set| set.split_once('=').is_some_and(|(key, _)| axis.sets(key)));
+            if let Some(set) = set {
+                return Err(SweepError::SetAndVaried {
+                    key: key(),
+                    set: set.clone(),
+                });
+            }
+        }
+        let count = axes
+            .iter()
+            .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
+        match count {
+            Some(count) if count <= MOST_POINTS => {}
+            _ => return Err(SweepError::TooMany { most: MOST_POINTS }),
+        }
+        let path = &case.source.path;
+        Ok(Self {
+            command,
+            case: std::path::absolute(path).map_err(|source| SweepError::Io {
+                path: path.clone(),
+                source,
+            })?,
+            identity: RunIdentity::of(case)?,
+            set: case.source.set.clone(),
+            axes,
+        })
+    }
+
+    /// Number of points: the product of the axes' lengths.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// A point by its number, 1 to [`Plan::count`].
+    #[must_use]
+    pub fn point(&self, number: usize) -> SweepPoint {
+        let mut rest = number.saturating_sub(1);
+        let mut places = vec![0; self.axes.len()];
+        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
+            *place = rest % axis.values.len();
+            rest /= axis.values.len();
+        }
+        let values: Vec<String> = (self.axes.iter().zip(places))
+            .map(|(axis, place)| axis.values[place].clone())
+            .collect();
+        let varied = self.axes.iter().zip(&values);
+        let varied = varied.map(|(axis, value)| format!("{}={value}", axis.key));
+        SweepPoint {
+            number,
+            set: self.set.iter().cloned().chain(varied).collect(),
+            values,
+        }
+    }
+
+    /// All points in the order of their numbers.
+    pub fn points(&self) -> impl Iterator<Item = SweepPoint> + '_ {
+        (1..=self.count()).map(|number| self.point(number))
+    }
+
+    /// The case of a point.
+    ///
+    /// # Errors
+    /// [`crate::app::case::CaseError`] when the point's values make no valid case, or none for the command.
+    pub fn case_at(
+        &self,
+        point: &SweepPoint,
+        text: &str,
+    ) -> Result<Case, crate::app::case::CaseError> {
+        let case = Case::from_source(crate::app::case::Source {
+            path: self.case.clone(),
+            text: text.to_owned(),
+            set: point.set.clone(),
+        })?;
+        case.ready_for(self.command.purpose())?;
+        Ok(case)
+    }
+
+    /// Whether a result is of a point's case: of its arguments and, while the case file is as it was planned, of its values.
+    ///
+    /// # Errors
+    /// [`SweepError::OtherPoint`].
+    pub(super) fn belongs(
+        &self,
+        point: &SweepPoint,
+        file: &Path,
+        result: &serde_json::Value,
+    ) -> Result<(), SweepError> {
+        let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
+        let text = files::read(&self.case)
+            .ok()
+            .and_then(|bytes| String::from_utf8(bytes).ok());
+        let text = text.filter(|text| self.identity.is_of_text(text));
+        let source = text.map(|text| Source {
+            path: self.case.clone(),
+            text,
+            set: point.set.clone(),
+        });
+        let expected = source.and_then(|source| source.digest().ok());
+        let same_values = match (expected, result["case_digest"].as_str()) {
+            (Some(expected), Some(found)) => expected == found,
+            _ => true,
+        };
+        let other = set.as_ref().is_some_and(|set| *set != point.set);
+        if same_values && !other {
+            return Ok(());
+        }
+        Err(SweepError::OtherPoint {
+            file: file.to_owned(),
+            number: point.number,
+            expected: point.set.clone(),
+            found: match other {
+                true => set.unwrap_or_default(),
+                false => vec!["the same keys of another case".to_owned()],
+            },
+        })
+    }
+
+    /// The folder of a point in that of the sweep.
+    #[must_use]
+    pub fn folder(&self, sweep: &Path, number: usize) -> PathBuf {
+        // as many digits as the last one has, so that lists of files are in order
+        let digits = self.count().to_string().len();
+        sweep.join(format!("{number:0digits$}"))
+    }
+
+    /// What is not the same in another plan, in words.
+    #[must_use]
+    pub fn changes(&self, now: &Self) -> Vec<String> {
+        let mut changes = self.identity.changes(&now.identity);
+        if self.command != now.command {
+            let (then, now) = (self.command.name(), now.command.name());
+            changes.push(format!("--command {then}, now --command {now}"));
+        }
+        let text = |axes: &[Axis]| -> Vec<String> {
+            let one = |axis: &Axis| format!("--vary {}={}", axis.key, axis.values.join(","));
+            axes.iter().map(one).collect()
+        };
+        let (then, now) = (text(&self.axes), text(&now.axes));
+        if then != now {
+            changes.push(format!("{}, now {}", then.join(" "), now.join(" ")));
+        }
+        changes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Axis, Case, Plan, SweepError, SweptCommand};
+    use std::path::Path;
+
+    fn axes(arguments: &[&str]) -> Vec<Axis> {
+        let parse = |argument: &&str| Axis::parse(argument).unwrap();
+        arguments.iter().map(parse).collect()
+    }
+
+    fn plan(arguments: &[&str]) -> Result<Plan, SweepError> {
+        let case = Case::example("tadina2011/beam", &["modes.count=3"]);
+        Plan::new(&case, SweptCommand::Modes, axes(arguments))
+    }
+
+    #[test]
+    fn points_are_the_product_and_the_last_axis_is_fastest() {
+        let plan = plan(&[
+            "ring.nodes=36,72",
+            "ring.shear=true,false",
+            "bearing.balls=7",
+        ])
+        .unwrap();
+        assert_eq!(plan.count(), 4);
+        let points: Vec<_> = plan.points().collect();
+        let values: Vec<String> = points.iter().map(|point| point.values.join(" ")).collect();
+        assert_eq!(
+            values,
+            ["36 true 7", "36 false 7", "72 true 7", "72 false 7"]
+        );
+        assert_eq!(points[2].number, 3);
+        assert_eq!(
+            points[2].set,
+            [
+                "modes.count=3",
+                "ring.nodes=72",
+                "ring.shear=true",
+                "bearing.balls=7"
+            ]
+        );
+        assert!(plan.case.is_absolute());
+        assert_eq!(plan.folder(Path::new("s"), 3), Path::new("s/3"));
+    }
+
+    #[test]
+    fn folders_are_in_order() {
+        let plan = plan(&["ring.nodes=10:109:100"]).unwrap();
+        assert_eq!(plan.folder(Path::new("s"), 7), Path::new("s/007"));
+        assert_eq!(plan.folder(Path::new("s"), 100), Path::new("s/100"));
+    }
+
+    #[test]
+    fn what_is_no_plan_is_refused() {
+        assert!(matches!(plan(&[]), Err(SweepError::NothingVaried)));
+        let twice = plan(&["bearing.defects[0].depth=1", "bearing.defects.0.depth=2"]);
+        assert!(matches!(twice, Err(SweepError::Twice { .. })));
+        // the case is set to three modes
+        for axis in ["modes.count=3,4", "modes=1,2"] {
+            let set = plan(&[axis]);
+            assert!(
+                matches!(set, Err(SweepError::SetAndVaried { .. })),
+                "{axis}"
+            );
+        }
+        let within = plan(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
+        assert!(matches!(within, Err(SweepError::Twice { .. })));
+        let many = plan(&["ring.nodes=1:1000:1000", "bearing.balls=1:101:101"]);
+        assert!(matches!(many, Err(SweepError::TooMany { .. })));
+    }
+
+    #[test]
+    fn a_plan_is_a_file_and_changes_are_named() {
+        let first = plan(&["ring.nodes=36,72"]).unwrap();
+        let text = serde_json::to_string(&first).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), first);
+        assert!(first.changes(&first).is_empty());
+        let mut other = plan(&["ring.nodes=36"]).unwrap();
+        other.command = SweptCommand::Run;
+        assert_eq!(
+            first.changes(&other),
+            [
+                "--command modes, now --command run",
+                "--vary ring.nodes=36,72, now --vary ring.nodes=36"
+            ]
+        );
+    }
+}

@@ -1,0 +1,341 @@
+//! The points of a sweep with what became of them.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::{
+    Output, OutputValue, Plan, PointRecord, PointState, SweepError, SweepPoint, outputs_of,
+};
+use crate::report::{Cell, Column, Table};
+
+/// One point with what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointResult {
+    /// The point.
+    pub point: SweepPoint,
+    /// What is there of it.
+    pub state: PointState,
+    /// Its record; `None` while it is not computed.
+    pub record: Option<PointRecord>,
+    /// Its figures; none without a result.
+    pub outputs: Vec<Output>,
+    /// The warnings of its result.
+    pub warnings: Vec<String>,
+}
+
+/// A warning of some points of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PointWarning {
+    /// What is said.
+    pub text: String,
+    /// Numbers of the points whose results say it.
+    pub points: Vec<usize>,
+}
+
+/// A sweep with what became of its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepResult {
+    /// What was to be computed.
+    pub plan: Plan,
+    /// All points, in the order of their numbers.
+    pub points: Vec<PointResult>,
+}
+
+/// A column of the table beside the points' numbers: numbers or texts, one a point.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Values {
+    /// NaN where a point has none.
+    Numbers(Vec<f64>),
+    /// Empty where a point has none.
+    Texts(Vec<String>),
+}
+
+/// A named column.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedColumn {
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+    pub(super) group: Option<&'static str>,
+    pub(super) values: Values,
+}
+
+impl PointWarning {
+    /// In words, of a sweep with so many points.
+    #[must_use]
+    pub fn sentence(&self, of: usize) -> String {
+        /// Numbers that are listed.
+        const LISTED: usize = 8;
+        let numbers = self.points.iter().take(LISTED);
+        let numbers: Vec<String> = numbers.map(usize::to_string).collect();
+        match self.points.len() {
+            1 => format!("point {}: {}", numbers.join(", "), self.text),
+            all if all == of => format!("all points: {}", self.text),
+            all if all > LISTED => format!(
+                "{all} of {of} points, the first {}: {}",
+                numbers[0], self.text
+            ),
+            _ => format!("points {}: {}", numbers.join(", "), self.text),
+        }
+    }
+}
+
+impl SweepResult {
+    /// Reads what the points of a plan left below the folder of the sweep.
+    ///
+    /// # Errors
+    /// [`SweepError::OtherPoint`] for a result of other values than its point has.
+    pub fn collect(plan: Plan, sweep: &Path) -> Result<Self, SweepError> {
+        let points = plan.points().map(|point| {
+            let folder = plan.folder(sweep, point.number);
+            let file = folder.join(format!("{}.json", plan.command.name()));
+            let result = fs::read(&file).ok();
+            let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());
+            if let Some(result) = &result {
+                plan.belongs(&point, &file, result)?;
+            }
+            let record = PointRecord::read(&folder);
+            let state = PointRecord::state(record.as_ref(), result.is_some());
+            let outputs = match &result {
+                Some(result) if state.has_result() => outputs_of(plan.command, result),
+                _ => Vec::new(),
+            };
+            let told = result
+                .as_ref()
+                .and_then(|result| result["warnings"].as_array());
+            let told = told.into_iter().flatten().filter_map(Value::as_str);
+            Ok(PointResult {
+                warnings: told.map(str::to_owned).collect(),
+                point,
+                state,
+                record,
+                outputs,
+            })
+        });
+        let points = points.collect::<Result<_, SweepError>>()?;
+        Ok(Self { plan, points })
+    }
+
+    /// Number of points in a state.
+    #[must_use]
+    pub fn count(&self, state: PointState) -> usize {
+        let points = self.points.iter();
+        points.filter(|point| point.state == state).count()
+    }
+
+    /// Points whose answer is bad, that failed or are not there.
+    pub fn not_done(&self) -> impl Iterator<Item = &PointResult> {
+        let points = self.points.iter();
+        points.filter(|point| point.state != PointState::Done)
+    }
+
+    /// What the points' results warn of, in the order in which it first occurs.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<PointWarning> {
+        let mut all: Vec<PointWarning> = Vec::new();
+        for point in &self.points {
+            for text in &point.warnings {
+                let number = point.point.number;
+                match all.iter_mut().find(|warning| warning.text == *text) {
+                    Some(warning) => warning.points.push(number),
+                    None => all.push(PointWarning {
+                        text: text.clone(),
+                        points: vec![number],
+                    }),
+                }
+            }
+        }
+        all
+    }
+
+    /// All columns but the points' numbers: axes, state, wall time, the points' figures in the order in which they first occur.
+    pub(super) fn columns(&self) -> Vec<NamedColumn> {
+        let column = |name: &str, unit, values| NamedColumn {
+            name: name.to_owned(),
+            unit,
+            group: None,
+            values,
+        };
+        let mut columns = Vec::new();
+        for (place, axis) in self.plan.axes.iter().enumerate() {
+            let texts = self
+                .points
+                .iter()
+                .map(|point| point.point.values[place].clone());
+            let values = if axis.numbers().is_some() {
+                Values::Numbers(texts.map(|text| text.parse().unwrap_or(f64::NAN)).collect())
+            } else {
+                Values::Texts(texts.collect())
+            };
+            columns.push(column(&axis.name(), "", values));
+        }
+        let states = self
+            .points
+            .iter()
+            .map(|point| point.state.name().to_owned());
+        columns.push(column("state", "", Values::Texts(states.collect())));
+        let wall = |point: &PointResult| point.record.as_ref().map_or(f64::NAN, |r| r.wall_s);
+        let walls = self.points.iter().map(wall).collect();
+        columns.push(column("wall_s", "s", Values::Numbers(walls)));
+        let mut kinds: Vec<&Output> = Vec::new();
+        for output in self.points.iter().flat_map(|point| &point.outputs) {
+            if !kinds.iter().any(|kind| kind.name == output.name) {
+                kinds.push(output);
+            }
+        }
+        columns.extend(kinds.into_iter().map(|kind| NamedColumn {
+            name: kind.name.clone(),
+            unit: kind.unit,
+            group: kind.group,
+            values: self.values_of(kind),
+        }));
+        columns
+    }
+
+    fn values_of(&self, kind: &Output) -> Values {
+        let value = |point: &PointResult| {
+            let mut outputs = point.outputs.iter();
+            let found = outputs.find(|output| output.name == kind.name);
+            found.map(|output| output.value.clone())
+        };
+        let values = self.points.iter().map(value);
+        match kind.value {
+            OutputValue::Number(_) => Values::Numbers(
+                values
+                    .map(|value| match value {
+                        Some(OutputValue::Number(number)) => number,
+                        _ => f64::NAN,
+                    })
+                    .collect(),
+            ),
+            OutputValue::Text(_) => Values::Texts(
+                values
+                    .map(|value| match value {
+                        Some(OutputValue::Text(text)) => text,
+                        _ => String::new(),
+                    })
+                    .collect(),
+            ),
+        }
+    }
+
+    /// The table: a row a point.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let columns = self.columns();
+        let mut heads = vec![Column::number("point", "")];
+        heads.extend(columns.iter().map(|column| match column.values {
+            Values::Numbers(_) => Column::number(column.name.clone(), column.unit),
+            Values::Texts(_) => Column::text(column.name.clone()),
+        }));
+        let mut table = Table::new("Points", heads);
+        for (row, point) in self.points.iter().enumerate() {
+            let number = point.point.number;
+            let mut cells = vec![Cell::text(number.to_string()).value(number as f64)];
+            cells.extend(columns.iter().map(|column| match &column.values {
+                Values::Numbers(numbers) if numbers[row].is_finite() => {
+                    Cell::number(numbers[row], 5)
+                }
+                Values::Numbers(_) => Cell::text("–"),
+                Values::Texts(texts) => Cell::text(texts[row].clone()),
+            }));
+            table = table.row(cells);
+        }
+        table
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::app::case::Case;
+    use crate::app::studies::sweep::{Axis, SweptCommand};
+
+    /// Four points of modes: done, done with a bad answer, failed, not computed.
+    pub(in crate::app::studies::sweep) fn four() -> SweepResult {
+        let case = Case::example("tadina2011/beam", &[]);
+        let axes = ["ring.nodes=36,72", "ring.element=exact-arc,raveendranath"];
+        let axes = axes.map(|axis| Axis::parse(axis).unwrap()).to_vec();
+        let plan = Plan::new(&case, SweptCommand::Modes, axes).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let write = |number: usize, exit_code: i32, result: Option<&str>, message: &str| {
+            let point = plan.folder(folder.path(), number);
+            fs::create_dir_all(&point).unwrap();
+            if let Some(result) = result {
+                fs::write(point.join("modes.json"), result).unwrap();
+            }
+            let record = PointRecord {
+                exit_code: Some(exit_code),
+                message: message.to_owned(),
+                wall_s: 0.25,
+            };
+            let text = serde_json::to_vec(&record).unwrap();
+            fs::write(PointRecord::file(&point), text).unwrap();
+        };
+        write(
+            1,
+            0,
+            Some(
+                r#"{"mass_kg": 0.1, "frequencies_hz": [8200.5, 36000], "warnings": ["flat", "seat"]}"#,
+            ),
+            "",
+        );
+        write(
+            2,
+            1,
+            Some(
+                r#"{"mass_kg": null, "frequencies_hz": [8100, 35000, 41000], "warnings": ["flat"]}"#,
+            ),
+            "missed",
+        );
+        write(3, 2, None, "<script>alert(1)</script>");
+        SweepResult::collect(plan, folder.path()).unwrap()
+    }
+
+    #[test]
+    fn the_result_of_another_point_is_refused() {
+        let case = Case::example("tadina2011/beam", &[]);
+        let axes = vec![Axis::parse("ring.nodes=36,72").unwrap()];
+        let plan = Plan::new(&case, SweptCommand::Modes, axes).unwrap();
+        let point = plan.point(1);
+        let source = crate::app::case::Source {
+            set: point.set.clone(),
+            ..case.source.clone()
+        };
+        let belongs = |set: &[String], digest: &str| {
+            let result = serde_json::json!({ "set": set, "case_digest": digest });
+            plan.belongs(&point, Path::new("1/modes.json"), &result)
+                .map_err(|error| error.to_string())
+        };
+        let digest = source.digest().unwrap();
+        belongs(&point.set, &digest).unwrap();
+        // of a point with other values, and of another case with the same arguments
+        let other = belongs(&plan.point(2).set, &digest).unwrap_err();
+        assert!(other.contains("expected --set ring.nodes=36"), "{other}");
+        assert!(other.contains("found --set ring.nodes=72"), "{other}");
+        belongs(&point.set, &case.source.digest().unwrap()).unwrap_err();
+    }
+
+    #[test]
+    fn states_and_figures_are_collected() {
+        let result = four();
+        let states: Vec<_> = result.points.iter().map(|point| point.state).collect();
+        use PointState::{Bad, Done, Failed, Missing};
+        assert_eq!(states, [Done, Bad, Failed, Missing]);
+        assert_eq!(result.count(Bad), 1);
+        assert_eq!(result.not_done().count(), 3);
+        let warnings = result.warnings();
+        let told: Vec<String> = warnings.iter().map(|one| one.sentence(4)).collect();
+        assert_eq!(told, ["points 1, 2: flat", "point 1: seat"]);
+        assert_eq!(
+            result.table().to_csv(),
+            "point,ring.nodes,ring.element,state,wall_s [s],mass [kg],frequency.1 [Hz],frequency.2 [Hz],frequency.3 [Hz]\r\n\
+             1,36,exact-arc,done,0.25,0.1,8200.5,36000,\r\n\
+             2,36,raveendranath,bad answer,0.25,,8100,35000,41000\r\n\
+             3,72,exact-arc,failed,0.25,,,,\r\n\
+             4,72,raveendranath,not computed,,,,,\r\n"
+        );
+    }
+}

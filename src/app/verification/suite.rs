@@ -1,0 +1,84 @@
+//! The whole suite in its order: from the beam to the signal, then the source's own numbers.
+
+use super::beams::beams;
+use super::condensation::condensation;
+use super::housings::housings;
+use super::orders::orders;
+use super::readings::Grid;
+use super::signals::signals;
+use super::simulation::simulation;
+use super::{SectionResult, VerificationError, paper_numbers, reading_study};
+use crate::app::stages::Watch;
+
+/// Carries out every section that takes seconds; with `full` also orders of convergence, and the study of
+/// readings of the source, which takes minutes.
+///
+/// # Errors
+/// [`VerificationError`] if something built in cannot be computed; a number that is wrong is no error.
+pub fn suite(
+    full: bool,
+    watch: &(impl Watch + Sync),
+) -> Result<Vec<SectionResult>, VerificationError> {
+    watch.stage("beams");
+    let mut sections = vec![beams()?];
+    watch.stage("housings");
+    sections.push(housings()?);
+    watch.stage("condensation");
+    sections.push(condensation()?);
+    watch.stage("simulation");
+    sections.push(simulation()?);
+    watch.stage("signals");
+    sections.push(signals()?);
+    sections.push(paper_numbers(watch)?);
+    if full {
+        watch.stage("orders");
+        sections.push(orders()?);
+        sections.push(reading_study(Grid::full(), watch)?);
+    }
+    Ok(sections)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Check;
+    use super::*;
+
+    /// The sections without the source's numbers, which have tests of their own.
+    fn checks() -> Vec<Check> {
+        let sections = [
+            beams().unwrap(),
+            housings().unwrap(),
+            condensation().unwrap(),
+            simulation().unwrap(),
+            signals().unwrap(),
+        ];
+        sections
+            .into_iter()
+            .flat_map(|section| section.checks)
+            .collect()
+    }
+
+    #[test]
+    fn every_check_passes_and_says_what_it_rests_on() {
+        let checks = checks();
+        for check in &checks {
+            println!("{}", check.line());
+            assert!(check.ok(), "{}", check.line());
+            // a limit that nothing could exceed says nothing
+            assert!(check.limit < 0.05, "{}", check.line());
+            for text in [
+                &check.name,
+                &check.section,
+                &check.source,
+                &check.assumptions,
+                &check.reason,
+            ] {
+                assert!(!text.is_empty(), "{check:?}");
+            }
+        }
+        assert!(checks.len() >= 40, "{}", checks.len());
+        let mut names: Vec<&str> = checks.iter().map(|check| check.name.as_str()).collect();
+        names.sort_unstable();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{names:?}");
+    }
+}

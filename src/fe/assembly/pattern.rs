@@ -1,0 +1,230 @@
+//! The sparsity pattern of a model from its node graph, and how to add blocks into it.
+
+use crate::numerics::linalg::SparseMatrix;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Which nodes are coupled: for every node its sorted neighbours, itself included.
+pub(super) struct NodeGraph {
+    starts: Vec<usize>,
+    neighbours: Vec<u32>,
+}
+
+impl NodeGraph {
+    /// Couples all nodes of each group of `groups`. Nodes in no group keep themselves, so that a matrix has
+    /// every degree of freedom on its diagonal.
+    pub fn new(nodes: usize, groups: &[&[usize]]) -> Self {
+        let mut starts = vec![0_usize; nodes + 1];
+        for group in groups {
+            for &node in *group {
+                starts[node + 1] += 1;
+            }
+        }
+        for node in 0..nodes {
+            starts[node + 1] += starts[node];
+        }
+        // the groups that each node belongs to, one node after the other
+        let mut fill = starts.clone();
+        let mut belongs = vec![0_u32; starts[nodes]];
+        for (number, group) in groups.iter().enumerate() {
+            for &node in *group {
+                belongs[fill[node]] = number as u32;
+                fill[node] += 1;
+            }
+        }
+        let lists: Vec<(Vec<u32>, Vec<u32>)> = chunks(nodes)
+            .into_par_iter()
+            .map(|chunk| {
+                let (mut lengths, mut found) = (Vec::with_capacity(chunk.len()), Vec::new());
+                let mut list: Vec<u32> = Vec::new();
+                for node in chunk {
+                    list.clear();
+                    list.push(node as u32);
+                    for &group in &belongs[starts[node]..starts[node + 1]] {
+                        list.extend(groups[group as usize].iter().map(|&other| other as u32));
+                    }
+                    list.sort_unstable();
+                    list.dedup();
+                    lengths.push(list.len() as u32);
+                    found.extend_from_slice(&list);
+                }
+                (lengths, found)
+            })
+            .collect();
+        let mut ends = Vec::with_capacity(nodes + 1);
+        ends.push(0);
+        let mut total = 0;
+        for length in lists.iter().flat_map(|(lengths, _)| lengths) {
+            total += *length as usize;
+            ends.push(total);
+        }
+        let mut neighbours = Vec::with_capacity(total);
+        lists
+            .iter()
+            .for_each(|(_, found)| neighbours.extend_from_slice(found));
+        Self {
+            starts: ends,
+            neighbours,
+        }
+    }
+
+    fn nodes(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    fn neighbours(&self, node: usize) -> &[u32] {
+        &self.neighbours[self.starts[node]..self.starts[node + 1]]
+    }
+}
+
+/// How a matrix couples the displacement components of two nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Coupling {
+    /// Every component with every other: stiffness.
+    Full,
+    /// Each component with itself, all alike: mass.
+    Same,
+}
+
+/// Values of a matrix over a node graph, in compressed columns, `d` degrees of freedom a node.
+pub(super) struct BlockMatrix<'g> {
+    graph: &'g NodeGraph,
+    dimension: usize,
+    coupling: Coupling,
+    values: Vec<f64>,
+}
+
+/// A dense matrix on some nodes, column-major: `d` rows a node where the coupling is full, one where it is the
+/// same for all components.
+#[derive(Clone, Copy)]
+pub(super) struct Local<'a> {
+    pub nodes: &'a [usize],
+    pub matrix: &'a [f64],
+}
+
+impl<'g> BlockMatrix<'g> {
+    pub fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
+        let entries = dimension * rows_a_neighbour(dimension, coupling) * graph.neighbours.len();
+        Self {
+            graph,
+            dimension,
+            coupling,
+            values: vec![0.0; entries],
+        }
+    }
+
+    /// Adds matrices in their order. The columns are shared out among threads, every entry is summed by one of
+    /// them in the order of `locals`: the result does not depend on how many there are.
+    pub fn add(&mut self, locals: &[Local<'_>]) {
+        let per_node = self.dimension * rows_a_neighbour(self.dimension, self.coupling);
+        let (graph, dimension, coupling) = (self.graph, self.dimension, self.coupling);
+        let mut rest = self.values.as_mut_slice();
+        let mut shares = Vec::new();
+        for columns in balanced(graph, rayon::current_num_threads()) {
+            let length = per_node * (graph.starts[columns.end] - graph.starts[columns.start]);
+            let (own, others) = rest.split_at_mut(length);
+            shares.push((columns, own));
+            rest = others;
+        }
+        shares.into_par_iter().for_each(|(columns, values)| {
+            let origin = per_node * graph.starts[columns.start];
+            for local in locals {
+                for (b, &node) in local.nodes.iter().enumerate() {
+                    if columns.contains(&node) {
+                        let first = per_node * graph.starts[node] - origin;
+                        let list = graph.neighbours(node);
+                        let values = &mut values[first..first + per_node * list.len()];
+                        match (coupling, dimension) {
+                            (Coupling::Same, d) => add_same(list, values, *local, b, d),
+                            (Coupling::Full, 3) => add_full::<3>(list, values, *local, b),
+                            (Coupling::Full, _) => add_full::<2>(list, values, *local, b),
+                        }
+                    }
+                }
+            }
+        });
+    }
+
+    /// The matrix in compressed columns.
+    pub fn into_matrix(self) -> SparseMatrix {
+        let (d, graph) = (self.dimension, self.graph);
+        let order = d * graph.nodes();
+        let mut offsets = Vec::with_capacity(order + 1);
+        let mut rows = Vec::with_capacity(self.values.len());
+        offsets.push(0);
+        for node in 0..graph.nodes() {
+            for component in 0..d {
+                let list = graph
+                    .neighbours(node)
+                    .iter()
+                    .map(|&other| d * other as usize);
+                match self.coupling {
+                    Coupling::Full => rows.extend(list.flat_map(|first| first..first + d)),
+                    Coupling::Same => rows.extend(list.map(|first| first + component)),
+                }
+                offsets.push(rows.len());
+            }
+        }
+        sprs::CsMat::new_csc((order, order), offsets, rows, self.values)
+    }
+}
+
+fn rows_a_neighbour(dimension: usize, coupling: Coupling) -> usize {
+    match coupling {
+        Coupling::Full => dimension,
+        Coupling::Same => 1,
+    }
+}
+
+/// Adds the columns of the local node `b`; `values` are those of its D columns.
+fn add_full<const D: usize>(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize) {
+    let (rows, height) = (D * local.nodes.len(), D * list.len());
+    for (a, &other) in local.nodes.iter().enumerate() {
+        // every pair of nodes is in the graph by construction
+        let Ok(place) = list.binary_search(&(other as u32)) else {
+            continue;
+        };
+        for j in 0..D {
+            let from = &local.matrix[(D * b + j) * rows + D * a..][..D];
+            let to = &mut values[j * height + D * place..][..D];
+            for i in 0..D {
+                to[i] += from[i];
+            }
+        }
+    }
+}
+
+fn add_same(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize, dimension: usize) {
+    for (a, &other) in local.nodes.iter().enumerate() {
+        let Ok(place) = list.binary_search(&(other as u32)) else {
+            continue;
+        };
+        let value = local.matrix[b * local.nodes.len() + a];
+        for component in 0..dimension {
+            values[component * list.len() + place] += value;
+        }
+    }
+}
+
+/// Ranges of a few thousand nodes.
+fn chunks(nodes: usize) -> Vec<Range<usize>> {
+    const LENGTH: usize = 4096;
+    (0..nodes.div_ceil(LENGTH))
+        .map(|chunk| chunk * LENGTH..((chunk + 1) * LENGTH).min(nodes))
+        .collect()
+}
+
+/// Ranges of nodes with about as many neighbours each.
+fn balanced(graph: &NodeGraph, count: usize) -> Vec<Range<usize>> {
+    let count = count.max(1);
+    let cut = |part: usize| {
+        let target = part * graph.neighbours.len() / count;
+        graph
+            .starts
+            .partition_point(|&start| start < target)
+            .min(graph.nodes())
+    };
+    let mut cuts: Vec<usize> = (0..count).map(cut).collect();
+    cuts.push(graph.nodes());
+    cuts.windows(2).map(|pair| pair[0]..pair[1]).collect()
+}

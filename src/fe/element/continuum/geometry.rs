@@ -1,0 +1,241 @@
+//! From natural to real coordinates, and the check that an element is one.
+
+use super::table::{Table, tables};
+use super::{ContinuumKind, shape_values};
+use crate::fe::element::ElementError;
+
+/// Smallest Jacobian determinant accepted, as a part of the size of the element to the power of its dimension:
+/// far below any useful shape (a strip or plate 1e4 times as long as thick has 1e-4, such a needle 1e-8) and
+/// above the rounding of nodes on a line or plane (1e-16).
+const SMALLEST_DETERMINANT: f64 = 1e-12;
+
+/// Largest size accepted, m: its cube and all that is made from it are far from overflow.
+const LARGEST_SIZE: f64 = 1e60;
+
+/// How far a middle node may lie from the middle of its edge on a straight element, as a part of the size: the
+/// matrices of the straight rule are then right to a few times this number.
+const STRAIGHT: f64 = 1e-13;
+
+/// An element whose coordinates are finite and as many as its kind has.
+#[derive(Debug)]
+pub(super) struct Placed<const N: usize> {
+    /// Coordinates from the first node on, m: far from the origin nothing is lost that the input still had.
+    pub(super) coords: [[f64; 3]; N],
+    /// Largest distance from the first node along an axis, m.
+    pub(super) size: f64,
+    /// Every middle node, if there are any, lies in the middle of its straight edge.
+    pub(super) straight: bool,
+}
+
+impl<const N: usize> Placed<N> {
+    /// Checks the number of coordinates, that they are finite, and the size. Plane elements do not read z.
+    pub(super) fn new(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<Self, ElementError> {
+        let given: &[[f64; 3]; N] = coords.try_into().map_err(|_| ElementError::NodeCount {
+            kind: kind.name(),
+            expected: N,
+            found: coords.len(),
+        })?;
+        let mut finite = true;
+        let (mut size, mut distance) = (0.0_f64, 0.0_f64);
+        let mut relative = [[0.0; 3]; N];
+        for (to, from) in relative.iter_mut().zip(given) {
+            for i in 0..kind.dimension() {
+                to[i] = from[i] - given[0][i];
+                finite &= from[i].is_finite();
+                size = size.max(to[i].abs());
+                distance = distance.max(from[i].abs());
+            }
+        }
+        if !finite {
+            return Err(not_finite(kind.name(), coords));
+        }
+        if size > LARGEST_SIZE {
+            return Err(ElementError::TooLarge {
+                kind: kind.name(),
+                size,
+                largest: LARGEST_SIZE,
+            });
+        }
+        // coordinates are rounded where they are, not where the element is
+        let allowed = STRAIGHT * size + 2.0 * f64::EPSILON * distance;
+        let corners = kind.corners();
+        let mut straight = true;
+        for (&[a, b], middle) in kind.edges().iter().zip(&relative[corners..]) {
+            for i in 0..3 {
+                let expected = 0.5 * (relative[a][i] + relative[b][i]);
+                straight &= (middle[i] - expected).abs() <= allowed;
+            }
+        }
+        Ok(Self {
+            coords: relative,
+            size,
+            straight,
+        })
+    }
+
+    /// The determinants found are all well above zero.
+    pub(super) fn accepts(&self, kind: ContinuumKind, smallest: f64) -> bool {
+        smallest > SMALLEST_DETERMINANT * power(self.size, kind.dimension())
+    }
+
+    /// The smallest determinant at the nodes, m^2 or m^3. At the corners that is sufficient for straight plane
+    /// elements; a strongly curved or warped one could still fold between nodes and points.
+    pub(super) fn smallest_at_nodes<const D: usize>(&self, kind: ContinuumKind) -> f64 {
+        let table = &tables(kind).nodes;
+        let rows = table.derivatives::<N>().chunks_exact(D);
+        rows.map(|rows| Jacobian::new::<N, D>(&self.coords, rows).determinant())
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The first coordinate that is not finite.
+pub(super) fn not_finite(kind: &'static str, coords: &[[f64; 3]]) -> ElementError {
+    let bad = |node: &[f64; 3]| !node.iter().all(|value| value.is_finite());
+    let node = coords.iter().position(bad).unwrap_or_default();
+    ElementError::NotFinite {
+        kind,
+        node,
+        position: coords.get(node).copied().unwrap_or_default(),
+    }
+}
+
+/// `x^dimension` for 2 and 3.
+pub(super) fn power(x: f64, dimension: usize) -> f64 {
+    if dimension == 2 { x * x } else { x * x * x }
+}
+
+/// `J[d][i] = dx_i / dxi_d`, m; a plane element has a unit third direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jacobian([[f64; 3]; 3]);
+
+impl Jacobian {
+    /// From the shape derivatives at a point, a row for each of the D natural directions.
+    #[inline(always)]
+    pub(super) fn new<const N: usize, const D: usize>(
+        coords: &[[f64; 3]; N],
+        rows: &[[f64; N]],
+    ) -> Self {
+        let mut j = [[0.0; 3], [0.0; 3], [0.0, 0.0, 1.0]];
+        for (row, j) in rows[..D].iter().zip(&mut j) {
+            let mut sum = [0.0; 3];
+            for (derivative, node) in row.iter().zip(coords) {
+                for i in 0..D {
+                    sum[i] += derivative * node[i];
+                }
+            }
+            *j = sum;
+        }
+        if D == 2 {
+            j[2] = [0.0, 0.0, 1.0];
+        }
+        Self(j)
+    }
+
+    /// `det J`, m^2 or m^3.
+    #[inline(always)]
+    pub(super) fn determinant(&self) -> f64 {
+        let [a, b, c] = self.0;
+        let n = cross(b, c);
+        a[0] * n[0] + a[1] * n[1] + a[2] * n[2]
+    }
+
+    /// `det J` and the inverse as `[d][i] = dxi_d / dx_i`, 1/m.
+    #[inline(always)]
+    pub(super) fn inverse(&self) -> (f64, [[f64; 3]; 3]) {
+        let [a, b, c] = self.0;
+        let rows = [cross(b, c), cross(c, a), cross(a, b)];
+        let determinant = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
+        let factor = 1.0 / determinant;
+        (determinant, rows.map(|row| row.map(|value| value * factor)))
+    }
+}
+
+#[inline(always)]
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// `x = sum N_a x_a`, m.
+fn position(kind: ContinuumKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
+    let mut position = [0.0; 3];
+    for (node, value) in coords.iter().zip(shape_values(kind, natural)) {
+        for i in 0..kind.dimension() {
+            position[i] += value * node[i];
+        }
+    }
+    position
+}
+
+/// The smallest and the largest determinant at the nodes and the points of a rule, and where they are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extremes {
+    pub(super) low: f64,
+    pub(super) low_at: [f64; 3],
+    pub(super) high: f64,
+    pub(super) high_at: [f64; 3],
+}
+
+pub(super) fn extremes<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]; N],
+    table: &Table,
+) -> Extremes {
+    let mut found = Extremes {
+        low: f64::INFINITY,
+        low_at: [0.0; 3],
+        high: f64::NEG_INFINITY,
+        high_at: [0.0; 3],
+    };
+    for table in [&tables(kind).nodes, table] {
+        let rows = table.derivatives::<N>().chunks_exact(D);
+        for (rows, point) in rows.zip(&table.points) {
+            let determinant = Jacobian::new::<N, D>(coords, rows).determinant();
+            if determinant < found.low {
+                (found.low, found.low_at) = (determinant, point.natural);
+            }
+            if determinant > found.high {
+                (found.high, found.high_at) = (determinant, point.natural);
+            }
+        }
+    }
+    found
+}
+
+impl Extremes {
+    /// Where the smallest determinant is, m.
+    pub(super) fn low_position(&self, kind: ContinuumKind, coords: &[[f64; 3]]) -> [f64; 3] {
+        position(kind, coords, self.low_at)
+    }
+}
+
+/// What is wrong with an element that was not accepted.
+#[cold]
+pub(super) fn diagnose<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    placed: &Placed<N>,
+    table: &Table,
+) -> ElementError {
+    let found = extremes::<N, D>(kind, &placed.coords, table);
+    let limit = SMALLEST_DETERMINANT * power(placed.size, D);
+    if found.high < -limit {
+        ElementError::Inverted {
+            kind: kind.name(),
+            dimension: D,
+            determinant: found.high,
+            position: position(kind, coords, found.high_at),
+        }
+    } else {
+        ElementError::Degenerate {
+            kind: kind.name(),
+            dimension: D,
+            determinant: found.low,
+            natural: found.low_at,
+            position: position(kind, coords, found.low_at),
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Consistent mass matrices and the measure.
+
+use nalgebra::DMatrix;
+
+use super::dispatch::for_kind;
+use super::geometry::{Jacobian, Placed, diagnose};
+use super::kernel::mirror;
+use super::stiffness::{check_length, check_properties};
+use super::table::{Table, tables};
+use super::{ContinuumKind, ContinuumProperties};
+use crate::fe::element::ElementError;
+
+/// Points whose shape functions are summed together; as in the stiffness.
+const BLOCK: usize = 8;
+
+/// Consistent mass between the nodes `m_ab = rho int N_a N_b dV` (solid) or `rho t int N_a N_b dA` (plane), kg,
+/// into `out` (nodes x nodes, symmetric, column by column, both triangles; whatever it held is replaced).
+///
+/// The mass matrix of the degrees of freedom is this number times the identity over the displacements of nodes
+/// a and b. Integrated exactly for any geometry ([`ContinuumKind::mass_rule`]); the sum of all entries is rho t
+/// A or rho V, and with it frequencies converge from above. `coords` as for
+/// [`stiffness_into`](super::stiffness_into). Source: Bathe, Finite Element Procedures (1996), equation 4.20.
+///
+/// # Errors
+/// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
+/// coordinates that are not finite, or an element that is inverted, degenerate or folded.
+pub fn nodal_mass_into(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    properties: &ContinuumProperties,
+    out: &mut [f64],
+) -> Result<(), ElementError> {
+    check_properties(kind, properties)?;
+    check_length(kind, kind.nodes(), out)?;
+    let density = properties.density() * properties.thickness();
+    for_kind!(kind, mass(kind, coords, density, out))
+}
+
+/// [`nodal_mass_into`] a new matrix.
+///
+/// # Errors
+/// As [`nodal_mass_into`].
+pub fn nodal_mass(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    properties: &ContinuumProperties,
+) -> Result<DMatrix<f64>, ElementError> {
+    let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
+    nodal_mass_into(kind, coords, properties, out.as_mut_slice())?;
+    Ok(out)
+}
+
+/// `int N_a N_b dA` (m^2) or `int N_a N_b dV` (m^3) [nodes x nodes]: the consistent mass of unit density and thickness.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_matrix(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+) -> Result<DMatrix<f64>, ElementError> {
+    let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
+    for_kind!(kind, mass(kind, coords, 1.0, out.as_mut_slice()))?;
+    Ok(out)
+}
+
+/// Area (m^2) of a plane element or volume (m^3) of a solid one, exact for straight and curved edges.
+///
+/// `coords` as for [`stiffness_into`](super::stiffness_into).
+///
+/// # Errors
+/// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an element that is
+/// inverted, degenerate or folded.
+pub fn measure(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
+    for_kind!(kind, size(kind, coords))
+}
+
+fn mass<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    density: f64,
+    out: &mut [f64],
+) -> Result<(), ElementError> {
+    let placed = Placed::<N>::new(kind, coords)?;
+    let tables = tables(kind);
+    if placed.straight && kind.is_simplex() {
+        let determinant = constant_determinant::<N, D>(kind, coords, &placed)?;
+        for (entry, natural) in out.iter_mut().zip(&tables.natural_mass) {
+            *entry = density * determinant * natural;
+        }
+        return Ok(());
+    }
+    let table = if placed.straight {
+        &tables.straight_mass
+    } else {
+        &tables.mass
+    };
+    integrate::<N, D>(kind, coords, &placed, density, table, out)
+}
+
+/// `density int N_a N_b` by the points of a table, and the check of the element.
+pub(super) fn integrate<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    placed: &Placed<N>,
+    density: f64,
+    table: &Table,
+    out: &mut [f64],
+) -> Result<(), ElementError> {
+    let mut sums = [[0.0; N]; N];
+    let mut smallest = placed.smallest_at_nodes::<D>(kind);
+    let rows = table.derivatives::<N>().chunks(BLOCK * D);
+    let values = table.values::<N>().chunks(BLOCK);
+    for ((points, rows), values) in table.points.chunks(BLOCK).zip(rows).zip(values) {
+        let mut weighted = [[0.0; N]; BLOCK];
+        let given = points.iter().zip(rows.chunks_exact(D)).zip(values);
+        for (((point, rows), values), weighted) in given.zip(&mut weighted) {
+            let determinant = Jacobian::new::<N, D>(&placed.coords, rows).determinant();
+            smallest = smallest.min(determinant);
+            let factor = density * point.weight * determinant;
+            *weighted = values.map(|value| value * factor);
+        }
+        for b in 0..N {
+            let mut row = sums[b];
+            for (left, right) in values.iter().zip(&weighted) {
+                for a in 0..N {
+                    row[a] += left[a] * right[b];
+                }
+            }
+            sums[b] = row;
+        }
+    }
+    if !placed.accepts(kind, smallest) {
+        return Err(diagnose::<N, D>(kind, coords, placed, table));
+    }
+    out.copy_from_slice(sums.as_flattened());
+    mirror(out, N);
+    Ok(())
+}
+
+fn size<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+) -> Result<f64, ElementError> {
+    let placed = Placed::<N>::new(kind, coords)?;
+    let table = &tables(kind).mass;
+    let natural: f64 = table.points.iter().map(|point| point.weight).sum();
+    if placed.straight && kind.is_simplex() {
+        return Ok(natural * constant_determinant::<N, D>(kind, coords, &placed)?);
+    }
+    let mut smallest = placed.smallest_at_nodes::<D>(kind);
+    let mut sum = 0.0;
+    let rows = table.derivatives::<N>().chunks_exact(D);
+    for (point, rows) in table.points.iter().zip(rows) {
+        let determinant = Jacobian::new::<N, D>(&placed.coords, rows).determinant();
+        smallest = smallest.min(determinant);
+        sum += point.weight * determinant;
+    }
+    if placed.accepts(kind, smallest) {
+        Ok(sum)
+    } else {
+        Err(diagnose::<N, D>(kind, coords, &placed, table))
+    }
+}
+
+/// The determinant of a straight triangle or tetrahedron, the same everywhere.
+fn constant_determinant<const N: usize, const D: usize>(
+    kind: ContinuumKind,
+    coords: &[[f64; 3]],
+    placed: &Placed<N>,
+) -> Result<f64, ElementError> {
+    let nodes = &tables(kind).nodes;
+    let first = &nodes.derivatives::<N>()[..D];
+    let determinant = Jacobian::new::<N, D>(&placed.coords, first).determinant();
+    if placed.accepts(kind, determinant) {
+        Ok(determinant)
+    } else {
+        Err(diagnose::<N, D>(kind, coords, placed, nodes))
+    }
+}

@@ -1,0 +1,171 @@
+//! Material, thickness and plane assumption of a part, reduced to what an element integrates with.
+
+use crate::fe::element::ElementError;
+use crate::fe::material::{ElasticMaterial, Material};
+
+/// What the plane model assumes across its thickness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlaneAssumption {
+    /// No stress through the thickness: thin parts, free faces.
+    Stress,
+    /// No strain through the thickness: long parts, or a slice held between its neighbours.
+    Strain,
+}
+
+/// What a continuum element needs beside its coordinates; built by [`ContinuumProperties::solid`] or
+/// [`ContinuumProperties::plane`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContinuumProperties {
+    dimension: usize,
+    density: f64,
+    thickness: f64,
+    elasticity: Elasticity,
+}
+
+/// The elasticity as the stiffness loop wants it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one a part, read by every element: a box would only add a jump"
+)]
+pub(super) enum Elasticity {
+    /// `sigma_ij = lambda eps_kk delta_ij + 2 mu eps_ij`, Pa; in plane stress with the lambda of plane stress.
+    Isotropic { lambda: f64, mu: f64 },
+    /// `C_ijkl` as `[i][j][k][l]`, Pa; of a plane element the first two indices each.
+    General(Tensor),
+}
+
+/// `C_ijkl`, Pa.
+pub(super) type Tensor = [[[[f64; 3]; 3]; 3]; 3];
+
+/// The Voigt index of the component (i, j), in the order xx, yy, zz, xy, yz, xz.
+const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// How far the material's z may lean from the normal of the plane: the rounding of its orthonormalisation, and
+/// directions typed with nine digits.
+const LEAN: f64 = 1e-9;
+
+impl ContinuumProperties {
+    /// Properties of a solid part.
+    pub fn solid(material: &ElasticMaterial) -> Self {
+        let elasticity = match material {
+            ElasticMaterial::Isotropic(material) => Elasticity::Isotropic {
+                lambda: material.lame_lambda(),
+                mu: material.shear_modulus(),
+            },
+            ElasticMaterial::Orthotropic(_) => general(&material.stiffness_matrix()),
+        };
+        Self {
+            dimension: 3,
+            density: material.density(),
+            thickness: 1.0,
+            elasticity,
+        }
+    }
+
+    /// Properties of a plane part in the xy plane with a thickness in metres, > 0.
+    ///
+    /// Plane strain takes the rows xx, yy, xy of the material's 6 x 6 stiffness C; plane stress condenses the
+    /// strain zz from them: `C_pq - C_pz C_zq / C_zz`. For an isotropic material that is lambda itself, and
+    /// `lambda' = E nu / (1 - nu^2)`; mu is the same. Source: Bathe, table 4.3.
+    ///
+    /// # Errors
+    /// [`ElementError::Thickness`] if it is not positive and finite; [`ElementError::MaterialAxis`] if the
+    /// z axis of an orthotropic material is not the normal of the plane.
+    pub fn plane(
+        material: &ElasticMaterial,
+        assumption: PlaneAssumption,
+        thickness: f64,
+    ) -> Result<Self, ElementError> {
+        if !(thickness > 0.0 && thickness.is_finite()) {
+            return Err(ElementError::Thickness { value: thickness });
+        }
+        let elasticity = match material {
+            ElasticMaterial::Isotropic(material) => isotropic_plane(material, assumption),
+            ElasticMaterial::Orthotropic(orthotropic) => {
+                let axis = orthotropic.axes[2];
+                if axis[0].abs() > LEAN || axis[1].abs() > LEAN {
+                    return Err(ElementError::MaterialAxis { axis });
+                }
+                general(&in_the_plane(material.stiffness_matrix(), assumption))
+            }
+        };
+        Ok(Self {
+            dimension: 2,
+            density: material.density(),
+            thickness,
+            elasticity,
+        })
+    }
+
+    /// Density rho, kg/m^3.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Thickness t of a plane part, m; 1 (no unit) for a solid one, so that `t` may stand before any integral.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// 2 for a plane part, 3 for a solid one.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Shear modulus, Pa: of an orthotropic material the mean of its planes (plane parts have one).
+    pub(crate) fn shear_modulus(&self) -> f64 {
+        match &self.elasticity {
+            Elasticity::Isotropic { mu, .. } => *mu,
+            Elasticity::General(c) if self.dimension == 2 => c[0][1][0][1],
+            Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
+        }
+    }
+
+    pub(super) fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+}
+
+fn isotropic_plane(material: &Material, assumption: PlaneAssumption) -> Elasticity {
+    let nu = material.poisson;
+    let lambda = match assumption {
+        PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
+        PlaneAssumption::Strain => material.lame_lambda(),
+    };
+    Elasticity::Isotropic {
+        lambda,
+        mu: material.shear_modulus(),
+    }
+}
+
+/// The 6 x 6 stiffness with the strain zz condensed (stress) or as it is (strain); only the rows xx, yy, xy
+/// count.
+fn in_the_plane(c: [[f64; 6]; 6], assumption: PlaneAssumption) -> [[f64; 6]; 6] {
+    match assumption {
+        PlaneAssumption::Strain => c,
+        PlaneAssumption::Stress => {
+            let mut condensed = c;
+            for (p, row) in condensed.iter_mut().enumerate() {
+                for (q, entry) in row.iter_mut().enumerate() {
+                    *entry -= c[p][2] * c[2][q] / c[2][2];
+                }
+            }
+            condensed
+        }
+    }
+}
+
+fn general(c: &[[f64; 6]; 6]) -> Elasticity {
+    let mut tensor: Tensor = Default::default();
+    for (i, row) in tensor.iter_mut().enumerate() {
+        for (j, block) in row.iter_mut().enumerate() {
+            for (k, line) in block.iter_mut().enumerate() {
+                for (l, entry) in line.iter_mut().enumerate() {
+                    *entry = c[VOIGT[i][j]][VOIGT[k][l]];
+                }
+            }
+        }
+    }
+    Elasticity::General(tensor)
+}

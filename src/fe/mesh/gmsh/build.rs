@@ -1,0 +1,244 @@
+//! From what has been read to a [`Mesh`]: the physical groups.
+
+use std::path::Path;
+
+use super::MshError;
+use super::entities::Physical;
+use super::names::Name;
+use super::sections::Content;
+use crate::fe::mesh::{ElementBlock, ElementId, Mesh, PhysicalGroup};
+
+/// Elements of a block that belong to a physical group of its dimension.
+pub(super) struct Membership {
+    pub(super) dimension: usize,
+    pub(super) physical: i32,
+    pub(super) block: usize,
+    pub(super) members: Members,
+}
+
+/// Which elements of a block.
+pub(super) enum Members {
+    All,
+    /// These, sorted.
+    Some(Vec<u32>),
+}
+
+impl Membership {
+    fn key(&self) -> (usize, i32) {
+        (self.dimension, self.physical)
+    }
+
+    fn len(&self, blocks: &[ElementBlock]) -> usize {
+        match &self.members {
+            Members::All => blocks[self.block].len(),
+            Members::Some(list) => list.len(),
+        }
+    }
+
+    fn elements<'a>(&'a self, blocks: &'a [ElementBlock]) -> impl Iterator<Item = ElementId> + 'a {
+        let (all, some): (_, &[u32]) = match &self.members {
+            Members::All => (0..blocks[self.block].len(), &[]),
+            Members::Some(list) => (0..0, list),
+        };
+        let indices = all.chain(some.iter().map(|&index| index as usize));
+        indices.map(|index| ElementId {
+            block: self.block,
+            index,
+        })
+    }
+}
+
+/// The memory that groups may take: entities in many groups multiply what a file holds, without limit.
+pub(super) struct Allowance {
+    file_bytes: usize,
+    listed: u64,
+}
+
+impl Allowance {
+    /// Bytes for every byte of the file. An element in a group takes 16 bytes and a volume element of a
+    /// file about 100: twenty groups that all hold the whole mesh are within it.
+    const FACTOR: u64 = 4;
+    /// Bytes that any file may have.
+    const FIXED: u64 = 1 << 15;
+    /// What a group takes besides its list, with its name, in items of a list.
+    const GROUP: usize = 10;
+    /// What a membership takes, in items of a list.
+    const MEMBERSHIP: usize = 8;
+
+    pub(super) fn new(file_bytes: usize) -> Self {
+        Self {
+            file_bytes,
+            listed: 0,
+        }
+    }
+
+    /// Asks for room for so many more memberships.
+    pub(super) fn take_memberships(&mut self, count: usize) -> Result<(), MshError> {
+        self.take(Self::MEMBERSHIP.saturating_mul(count))
+    }
+
+    /// Asks for room to list so many more items.
+    fn take(&mut self, items: usize) -> Result<(), MshError> {
+        self.listed += items as u64;
+        let bytes = self.listed.saturating_mul(size_of::<ElementId>() as u64);
+        if bytes > Self::FIXED + Self::FACTOR * self.file_bytes as u64 {
+            return Err(MshError::TooManyMembers {
+                needed: bytes,
+                file_bytes: self.file_bytes,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Memberships by entity, as MSH 4.1 has them.
+pub(super) fn by_entity(
+    blocks: &[ElementBlock],
+    physical: &Physical,
+    allowance: &mut Allowance,
+) -> Result<Vec<Membership>, MshError> {
+    let own = |block: &ElementBlock| physical.of(block.entity);
+    let mut count = 0;
+    for block in blocks {
+        let of_block = own(block).count();
+        allowance.take_memberships(of_block)?;
+        count += of_block;
+    }
+    let mut found = Vec::with_capacity(count);
+    for (number, block) in blocks.iter().enumerate() {
+        found.extend(own(block).map(|physical| Membership {
+            dimension: block.entity.dimension,
+            physical,
+            block: number,
+            members: Members::All,
+        }));
+    }
+    // a group that an entity names twice
+    found.sort_unstable_by_key(|own| (own.key(), own.block));
+    found.dedup_by_key(|own| (own.key(), own.block));
+    Ok(found)
+}
+
+/// The mesh with its groups by dimension and tag: those that elements belong to and those that only
+/// have a name.
+pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
+    let Content {
+        format,
+        nodes,
+        blocks,
+        mut memberships,
+        mut names,
+        mut allowance,
+    } = content;
+    drop(nodes.index);
+    memberships.sort_unstable_by_key(|own| (own.key(), own.block));
+    names.sort_unstable_by_key(|name| (name.dimension, name.tag));
+    let mut marks = Marks::new(nodes.tags.len());
+    let together = |a: &Membership, b: &Membership| a.key() == b.key();
+    // those with and without elements, counted twice where they have a name too
+    let count = names.len() + memberships.chunk_by(together).count();
+    allowance.take(Allowance::GROUP.saturating_mul(count))?;
+    let mut groups = Vec::with_capacity(count);
+    let mut names = names.into_iter().peekable();
+    let mut unnamed = memberships.chunk_by(together).peekable();
+    loop {
+        let name_key = names.peek().map(Name::key);
+        let own_key = unnamed.peek().map(|own| own[0].key());
+        let Some((dimension, tag)) = name_key.into_iter().chain(own_key).min() else {
+            break;
+        };
+        let name = names.next_if(|name| name.key() == (dimension, tag));
+        let own = unnamed.next_if(|own| own[0].key() == (dimension, tag));
+        let own = own.unwrap_or_default();
+        let elements = elements(own, &blocks, &mut allowance)?;
+        groups.push(PhysicalGroup {
+            name: name.map_or_else(|| tag.to_string(), |name| name.name),
+            dimension,
+            tag,
+            nodes: marks.nodes(&elements, &blocks, &mut allowance)?,
+            elements,
+        });
+    }
+    groups.shrink_to_fit();
+    Ok(Mesh {
+        nodes: nodes.coordinates,
+        node_tags: nodes.tags,
+        blocks,
+        groups,
+        format,
+        source: path.to_path_buf(),
+    })
+}
+
+fn elements(
+    own: &[Membership],
+    blocks: &[ElementBlock],
+    allowance: &mut Allowance,
+) -> Result<Vec<ElementId>, MshError> {
+    let count = own.iter().map(|own| own.len(blocks)).sum();
+    allowance.take(count)?;
+    let mut elements = Vec::with_capacity(count);
+    for own in own {
+        elements.extend(own.elements(blocks));
+    }
+    Ok(elements)
+}
+
+/// Which node was seen last in which round.
+struct Marks {
+    round: Vec<u32>,
+    now: u32,
+}
+
+impl Marks {
+    fn new(nodes: usize) -> Self {
+        Self {
+            round: vec![0; nodes],
+            now: 0,
+        }
+    }
+
+    /// The nodes of these elements, sorted, each once.
+    fn nodes(
+        &mut self,
+        elements: &[ElementId],
+        blocks: &[ElementBlock],
+        allowance: &mut Allowance,
+    ) -> Result<Vec<usize>, MshError> {
+        self.now += 2;
+        let mut count = 0;
+        visit(elements, blocks, |node| {
+            count += usize::from(self.round[node] != self.now);
+            self.round[node] = self.now;
+        });
+        // a node takes half of what an element takes
+        allowance.take(count / 2)?;
+        let mut found = Vec::with_capacity(count);
+        if count > self.round.len() / 16 {
+            let marked = self.round.iter().enumerate();
+            found.extend(
+                marked
+                    .filter(|(_, round)| **round == self.now)
+                    .map(|(node, _)| node),
+            );
+        } else {
+            visit(elements, blocks, |node| {
+                if self.round[node] == self.now {
+                    self.round[node] -= 1;
+                    found.push(node);
+                }
+            });
+            found.sort_unstable();
+        }
+        Ok(found)
+    }
+}
+
+fn visit(elements: &[ElementId], blocks: &[ElementBlock], mut each: impl FnMut(usize)) {
+    for of_block in elements.chunk_by(|a, b| a.block == b.block) {
+        let block = &blocks[of_block[0].block];
+        for id in of_block {
+            block.nodes_of(id.index).iter().for_each(|&node| each(node));
+        }
+    }
+}

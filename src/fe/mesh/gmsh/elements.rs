@@ -1,0 +1,144 @@
+//! `$Elements`: known kinds, tags unique, nodes that exist and differ.
+//!
+//! Format: gmsh reference manual, section "MSH file format".
+
+use super::MshError;
+use super::cursor::Cursor;
+use super::nodes::{dimension, not_as_announced, not_too_large, tag_range};
+use super::numbers::Item;
+use super::tags::{NodeIndex, TagSet};
+use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
+
+/// Elements of MSH 4.1.
+pub(super) fn read_v41(
+    cursor: &mut Cursor<'_>,
+    nodes: &NodeIndex,
+) -> Result<Vec<ElementBlock>, MshError> {
+    let block_count = cursor.count("the number of blocks", Item::new(3, 3, 0))?;
+    let announced = cursor.count("the number of elements", Item::new(2, 0, 0))?;
+    tag_range(
+        cursor,
+        ["the smallest element tag", "the largest element tag"],
+        "the largest element tag, not below the smallest",
+    )?;
+    let mut tags = TagSet::for_count(announced);
+    let mut blocks = Vec::with_capacity(block_count);
+    let mut listed = 0;
+    for _ in 0..block_count {
+        let dimension = dimension(cursor)?;
+        let entity = Entity {
+            dimension,
+            tag: cursor.int("the tag of an entity")?,
+        };
+        let kind = kind(cursor, entity)?;
+        if kind.dimension() != dimension {
+            let expected = format!("elements of dimension {dimension} like their entity");
+            return Err(cursor.malformed(expected, kind.name().as_bytes()));
+        }
+        let item = Item::new(1 + kind.nodes(), 0, 0);
+        let count = cursor.count("the number of elements of a block", item)?;
+        let mut block = ElementBlock {
+            kind,
+            tags: Vec::with_capacity(count),
+            connectivity: Vec::with_capacity(count * kind.nodes()),
+            entity,
+        };
+        for _ in 0..count {
+            let tag = cursor.size("an element tag")?;
+            check_tag(cursor, &mut tags, tag)?;
+            block.tags.push(tag);
+            for read in 0..kind.nodes() {
+                let node = cursor.size("the tag of a node of an element")?;
+                let index = node_index(cursor, nodes, tag, node)?;
+                let end = block.connectivity.len();
+                check_not_repeated(
+                    cursor,
+                    &block.connectivity[end - read..],
+                    index,
+                    [tag, node],
+                )?;
+                block.connectivity.push(index);
+            }
+        }
+        listed += count;
+        blocks.push(block);
+    }
+    if listed != announced {
+        return Err(not_as_announced(cursor, "elements", announced, listed));
+    }
+    match listed {
+        0 => Err(MshError::NoElements),
+        _ => Ok(blocks),
+    }
+}
+
+/// A tag greater than 0 that has not occurred.
+#[inline]
+pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Result<(), MshError> {
+    if tag == 0 {
+        return Err(cursor.malformed("an element tag, greater than 0", b"0"));
+    }
+    not_too_large(cursor, "an element tag", tag)?;
+    if !seen.insert(tag) {
+        let place = cursor.place();
+        return Err(MshError::DuplicateElement { place, tag });
+    }
+    Ok(())
+}
+
+/// Index of a node of an element.
+#[inline]
+pub(super) fn node_index(
+    cursor: &Cursor<'_>,
+    nodes: &NodeIndex,
+    element: u64,
+    node: u64,
+) -> Result<usize, MshError> {
+    match nodes.get(node) {
+        Some(index) => Ok(index),
+        None => Err(MshError::DanglingNode {
+            place: cursor.place(),
+            element,
+            node,
+        }),
+    }
+}
+
+/// The node is not among those that the element has already.
+#[inline]
+pub(super) fn check_not_repeated<T: PartialEq>(
+    cursor: &Cursor<'_>,
+    earlier: &[T],
+    index: T,
+    [element, node]: [u64; 2],
+) -> Result<(), MshError> {
+    if earlier.contains(&index) {
+        let place = cursor.place();
+        return Err(MshError::RepeatedNode {
+            place,
+            element,
+            node,
+        });
+    }
+    Ok(())
+}
+
+/// The element type at the cursor.
+fn kind(cursor: &mut Cursor<'_>, entity: Entity) -> Result<ElementKind, MshError> {
+    let gmsh_type = cursor.int("an element type")?;
+    ElementKind::from_gmsh_type(gmsh_type)
+        .ok_or_else(|| unknown_kind(cursor, gmsh_type, Some(entity)))
+}
+
+/// An element type that the program has no element for; MSH 2.2 gives the type before the entity.
+pub(super) fn unknown_kind(
+    cursor: &Cursor<'_>,
+    gmsh_type: i32,
+    entity: Option<Entity>,
+) -> MshError {
+    MshError::UnsupportedElement {
+        place: cursor.place(),
+        gmsh_type,
+        entity,
+    }
+}

@@ -1,0 +1,180 @@
+//! `$Elements` of MSH 2.2: a list of single elements, each with its kind, its group and its entity.
+//!
+//! Format: gmsh reference manual, section "MSH file format version 2".
+
+use super::MshError;
+use super::cursor::Cursor;
+use super::elements::{check_not_repeated, check_tag, node_index, unknown_kind};
+use super::numbers::Item;
+use super::tags::{NodeIndex, TagSet};
+use crate::fe::mesh::ElementKind;
+
+/// Elements in the order of the file.
+#[derive(Default)]
+pub(super) struct Listed {
+    pub(super) tags: Vec<u64>,
+    /// Node indices of one element after the other.
+    pub(super) connectivity: Vec<u32>,
+    /// What they are, in the same order.
+    pub(super) runs: Vec<Run>,
+}
+
+/// Elements that follow one another and agree in kind, entity and group.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    pub(super) label: Label,
+    pub(super) count: u32,
+}
+
+/// Where an element belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Label {
+    pub(super) kind: ElementKind,
+    /// Tag of the entity, 0 if there is none.
+    pub(super) entity: i32,
+    /// Tag of the physical group, 0 for none.
+    pub(super) physical: i32,
+}
+
+impl Listed {
+    fn add_label(&mut self, label: Label) {
+        match self.runs.last_mut() {
+            Some(run) if run.label == label => run.count += 1,
+            _ => self.runs.push(Run { label, count: 1 }),
+        }
+    }
+}
+
+struct Reader<'a, 'b> {
+    cursor: &'a mut Cursor<'b>,
+    nodes: &'a NodeIndex,
+    seen: TagSet,
+    listed: Listed,
+}
+
+pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed, MshError> {
+    // number, type, number of tags and a node in ASCII, number and a node in binary: 8 bytes
+    let smallest = if cursor.is_binary() { 2 } else { 4 };
+    let count = cursor.text_count("the number of elements", Item::new(0, smallest, 0))?;
+    if u32::try_from(count).is_err() {
+        return Err(cursor.feature(
+            "a mesh of more than 4294967295 elements",
+            "mesh more coarsely",
+        ));
+    }
+    let mut reader = Reader {
+        seen: TagSet::for_count(count),
+        listed: Listed {
+            tags: Vec::with_capacity(count),
+            ..Listed::default()
+        },
+        cursor,
+        nodes,
+    };
+    match reader.cursor.is_binary() {
+        true => reader.binary(count)?,
+        false => reader.ascii(count)?,
+    }
+    match count {
+        0 => Err(MshError::NoElements),
+        _ => Ok(reader.listed),
+    }
+}
+
+impl Reader<'_, '_> {
+    fn ascii(&mut self, count: usize) -> Result<(), MshError> {
+        for _ in 0..count {
+            let tag = self.tag()?;
+            let kind = self.kind()?;
+            let tag_count = self.tag_count()?;
+            self.rest_of_element(tag, kind, tag_count)?;
+        }
+        Ok(())
+    }
+
+    /// Blocks of elements of one kind; gmsh itself writes a header for every element.
+    fn binary(&mut self, count: usize) -> Result<(), MshError> {
+        while self.listed.tags.len() < count {
+            let kind = self.kind()?;
+            let what = "the number of elements that follow";
+            let found = self.cursor.int(what)?;
+            let left = count - self.listed.tags.len();
+            let following = usize::try_from(found).ok();
+            let following = following
+                .filter(|&following| (1..=left).contains(&following))
+                .ok_or_else(|| {
+                    let expected = format!("{what}, 1 to {left}");
+                    self.cursor
+                        .malformed(expected, found.to_string().as_bytes())
+                })?;
+            let tag_count = self.tag_count()?;
+            for _ in 0..following {
+                let tag = self.tag()?;
+                self.rest_of_element(tag, kind, tag_count)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn tag(&mut self) -> Result<u64, MshError> {
+        let found = self.cursor.int("an element tag")?;
+        let tag = u64::try_from(found).map_err(|_| {
+            let expected = "an element tag, greater than 0";
+            self.cursor
+                .malformed(expected, found.to_string().as_bytes())
+        })?;
+        check_tag(self.cursor, &mut self.seen, tag)?;
+        Ok(tag)
+    }
+
+    fn kind(&mut self) -> Result<ElementKind, MshError> {
+        let gmsh_type = self.cursor.int("an element type")?;
+        ElementKind::from_gmsh_type(gmsh_type)
+            .ok_or_else(|| unknown_kind(self.cursor, gmsh_type, None))
+    }
+
+    fn tag_count(&mut self) -> Result<usize, MshError> {
+        let what = "the number of tags of an element";
+        let found = self.cursor.int(what)?;
+        let count = u64::try_from(found)
+            .map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+        let number_bytes = if self.cursor.is_binary() { 4 } else { 2 };
+        self.cursor.check_count(what, count, number_bytes)
+    }
+
+    /// Tags (group, entity, then partitions, which are of no use here) and nodes.
+    fn rest_of_element(
+        &mut self,
+        tag: u64,
+        kind: ElementKind,
+        tag_count: usize,
+    ) -> Result<(), MshError> {
+        let mut tags = [0; 2];
+        for position in 0..tag_count {
+            let found = self.cursor.int("a tag of an element")?;
+            if let Some(slot) = tags.get_mut(position) {
+                *slot = found;
+            }
+        }
+        let [physical, entity] = tags;
+        self.listed.add_label(Label {
+            kind,
+            entity,
+            physical: physical.saturating_abs(),
+        });
+        self.listed.tags.push(tag);
+        let connectivity = &mut self.listed.connectivity;
+        for read in 0..kind.nodes() {
+            let what = "the tag of a node of an element";
+            let found = self.cursor.int(what)?;
+            let node = u64::try_from(found)
+                .map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+            // a node has an index below u32::MAX
+            let index = node_index(self.cursor, self.nodes, tag, node)? as u32;
+            let earlier = &connectivity[connectivity.len() - read..];
+            check_not_repeated(self.cursor, earlier, index, [tag, node])?;
+            connectivity.push(index);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,222 @@
+//! Mass, centroid and moments of inertia of a model, from its mass matrix.
+
+use super::error::check_count;
+use super::{ModalError, rigid_motions};
+use crate::fe::assembly::SystemMatrices;
+use crate::fe::model::HousingModel;
+use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
+use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
+
+/// What a model weighs and how that is spread, in the axes of its coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MassProperties {
+    /// Mass with point masses, kg, > 0.
+    pub mass: f64,
+    /// Where it is.
+    pub distribution: MassDistribution,
+}
+
+/// Centroid and inertia, as far as the model knows them: a plane one knows neither its place along z nor its moments
+/// about x and y.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MassDistribution {
+    /// Of a plane model.
+    Plane {
+        /// x and y, m.
+        centroid: [f64; 2],
+        /// Moment of inertia about the axis along z through the centroid, kg m^2.
+        polar: f64,
+    },
+    /// Of a model in space.
+    Space {
+        /// x, y, z, m.
+        centroid: [f64; 3],
+        /// Inertia `int rho (|r|^2 1 - r r^T) dV` about the centroid [3 x 3], kg m^2: products of inertia
+        /// with a minus sign.
+        inertia: [[f64; 3]; 3],
+    },
+}
+
+/// Principal moments of inertia about the centroid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PrincipalInertia {
+    /// Moments, kg m^2, ascending.
+    pub moments: [f64; 3],
+    /// Unit vectors of their axes, one a row, right-handed. Of equal moments any axes in their plane.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl MassProperties {
+    /// From the rigid-body inertia `R^T M R` [3 x 3 or 6 x 6] of the motions about the point `about` (m), in the
+    /// order of [`rigid_motions`].
+    ///
+    /// With s from `about` to the centroid: `m` on the diagonal, `m e_k x s` beside it, and
+    /// `I_c = I_about - m (|s|^2 1 - s s^T)`. Take `about` near the centroid: the difference loses digits
+    /// otherwise. Source: Craig and Kurdila (2006).
+    ///
+    /// # Errors
+    /// [`ModalError::Shape`] for another order, [`ModalError::NoMass`].
+    pub fn from_rigid_inertia(rigid: &DenseMatrix, about: [f64; 3]) -> Result<Self, ModalError> {
+        let plane = rigid.nrows() == 3;
+        let order = if plane { 3 } else { 6 };
+        check_count("rows of the rigid-body inertia", order, rigid.nrows())?;
+        check_count("columns of the rigid-body inertia", order, rigid.ncols())?;
+        let d = if plane { 2 } else { 3 };
+        let mass = (0..d).map(|i| rigid[(i, i)]).sum::<f64>() / d as f64;
+        if mass.is_nan() || mass <= 0.0 || mass.is_infinite() {
+            return Err(ModalError::NoMass { mass });
+        }
+        let distribution = if plane {
+            let s = [rigid[(1, 2)] / mass, -rigid[(0, 2)] / mass];
+            MassDistribution::Plane {
+                centroid: [about[0] + s[0], about[1] + s[1]],
+                polar: rigid[(2, 2)] - mass * (s[0] * s[0] + s[1] * s[1]),
+            }
+        } else {
+            let couples = |i: usize, axis: usize| rigid[(i, 3 + axis)] / mass;
+            let s = Vector3::new(
+                0.5 * (couples(1, 2) - couples(2, 1)),
+                0.5 * (couples(2, 0) - couples(0, 2)),
+                0.5 * (couples(0, 1) - couples(1, 0)),
+            );
+            let about_point =
+                Matrix3::from_fn(|i, j| 0.5 * (rigid[(3 + i, 3 + j)] + rigid[(3 + j, 3 + i)]));
+            MassDistribution::Space {
+                centroid: (Vector3::from(about) + s).into(),
+                inertia: rows(&(about_point - shift(mass, s))),
+            }
+        };
+        Ok(Self { mass, distribution })
+    }
+
+    /// Of a housing with its point masses, fixed nodes included, in the mesh's axes.
+    ///
+    /// # Errors
+    /// As [`Self::from_rigid_inertia`].
+    pub fn of_housing(matrices: &SystemMatrices, model: &HousingModel) -> Result<Self, ModalError> {
+        let mut about = middle(model);
+        let inertia = |about| {
+            let r = rigid_motions(&model.coordinates, model.dimension, about);
+            r.transpose() * sparse_times_dense(&matrices.mass, &r)
+        };
+        let first = Self::from_rigid_inertia(&inertia(about), about)?;
+        // a second time about the centroid itself, where nothing is left to subtract
+        let centroid = first.centroid();
+        for (to, from) in about.iter_mut().zip(centroid) {
+            *to = from.unwrap_or(*to);
+        }
+        Self::from_rigid_inertia(&inertia(about), about)
+    }
+
+    /// Both together (a ring and its housing), in the same axes.
+    ///
+    /// # Errors
+    /// [`ModalError::PlaneAndSpace`].
+    pub fn combined(&self, other: &Self) -> Result<Self, ModalError> {
+        use MassDistribution::{Plane, Space};
+        let mass = self.mass + other.mass;
+        let share = other.mass / mass;
+        let reduced = self.mass * share;
+        let distribution = match (self.distribution, other.distribution) {
+            (
+                Plane { centroid, polar },
+                Plane {
+                    centroid: further,
+                    polar: more,
+                },
+            ) => {
+                let [x, y] = [further[0] - centroid[0], further[1] - centroid[1]];
+                Plane {
+                    centroid: [centroid[0] + share * x, centroid[1] + share * y],
+                    polar: polar + more + reduced * (x * x + y * y),
+                }
+            }
+            (
+                Space { centroid, inertia },
+                Space {
+                    centroid: further,
+                    inertia: more,
+                },
+            ) => {
+                let between = Vector3::from(further) - Vector3::from(centroid);
+                let sum = matrix(&inertia) + matrix(&more) + shift(reduced, between);
+                Space {
+                    centroid: (Vector3::from(centroid) + between * share).into(),
+                    inertia: rows(&sum),
+                }
+            }
+            _ => return Err(ModalError::PlaneAndSpace),
+        };
+        Ok(Self { mass, distribution })
+    }
+
+    /// Coordinates of the centroid, m; z is `None` for a plane model.
+    pub fn centroid(&self) -> [Option<f64>; 3] {
+        match self.distribution {
+            MassDistribution::Plane { centroid, .. } => {
+                [Some(centroid[0]), Some(centroid[1]), None]
+            }
+            MassDistribution::Space { centroid, .. } => centroid.map(Some),
+        }
+    }
+
+    /// Principal moments and axes; `None` for a plane model and for values that are not finite.
+    pub fn principal(&self) -> Option<PrincipalInertia> {
+        let MassDistribution::Space { inertia, .. } = self.distribution else {
+            return None;
+        };
+        let inertia = matrix(&inertia);
+        if inertia.iter().any(|value| !value.is_finite()) {
+            return None;
+        }
+        let eigen = inertia.symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+        let axis = |k: usize| -> Vector3<f64> {
+            let axis = eigen.eigenvectors.column(order[k]).into_owned();
+            // the largest component positive, so that a run repeats and reads well
+            axis * axis[axis.iamax()].signum()
+        };
+        let (first, second) = (axis(0), axis(1));
+        Some(PrincipalInertia {
+            moments: order.map(|k| eigen.eigenvalues[k]),
+            axes: [first, second, first.cross(&second)].map(Into::into),
+        })
+    }
+}
+
+/// `m (|s|^2 1 - s s^T)`.
+fn shift(mass: f64, s: Vector3<f64>) -> Matrix3<f64> {
+    (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * mass
+}
+
+fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))
+}
+
+fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| rows[i][j])
+}
+
+/// Mean of the coordinates of the nodes that an element uses, m.
+fn middle(model: &HousingModel) -> [f64; 3] {
+    let (mut sum, mut count) = ([0.0; 3], 0);
+    for (point, _) in model
+        .coordinates
+        .iter()
+        .zip(&model.used)
+        .filter(|node| *node.1)
+    {
+        count += 1;
+        for (sum, x) in sum.iter_mut().zip(point) {
+            *sum += x;
+        }
+    }
+    sum.map(|sum| sum / f64::from(count.max(1)))
+}
+
+#[cfg(test)]
+#[path = "mass_properties_tests.rs"]
+mod tests;

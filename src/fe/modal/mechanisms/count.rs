@@ -1,0 +1,396 @@
+//! Bodies, the pieces that they are joined to, and the motions of these.
+
+use super::super::ModalError;
+use super::super::membership::Membership;
+use super::super::motions::{rigid_component, rigid_count};
+use super::bodies::BodyMap;
+use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
+use crate::fe::mesh::{Mesh, Sets};
+use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::numerics::linalg::SparseMatrix;
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// Most bodies that are looked at: the dense problem has 6 unknowns each.
+const MOST_BODIES: usize = 200;
+
+/// What is in the bore, or at another interface.
+enum Bore<'m> {
+    Empty,
+    Ring(&'m RingTie, &'m Ring),
+    /// Displacements are held there, in the axes that the matrix turns to the mesh's.
+    Held(&'m [usize], Option<&'m SparseMatrix>),
+}
+
+/// Elements that hang together through whole faces (edges in the plane).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Body {
+    /// Whether it is the ring, which has neither parts nor groups.
+    pub is_ring: bool,
+    /// Parts that it has elements of.
+    pub parts: Vec<String>,
+    /// Physical groups of volumes (plane: surfaces) that it has elements of.
+    pub groups: Vec<String>,
+    /// Number of elements.
+    pub elements: usize,
+    /// Mean of the middles of its elements, m.
+    pub centroid: [f64; 3],
+    /// Which piece it belongs to.
+    pub piece: usize,
+}
+
+/// Bodies that are joined somehow, directly or through others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Piece {
+    /// Its bodies, largest first, the ring last.
+    pub bodies: Vec<usize>,
+    /// Number of elements.
+    pub elements: usize,
+    /// Motions without energy as one rigid body: 6 (plane: 3) if nothing holds it, 0 if it is held.
+    pub rigid: usize,
+    /// Further motions without energy, of its bodies against each other.
+    pub internal: usize,
+}
+
+/// What joins some bodies directly, and lets them move against each other.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Joint {
+    /// The bodies; two, unless a tied node or a spring acts on more at once.
+    pub bodies: Vec<usize>,
+    /// Mesh tags of the nodes that they share.
+    pub nodes: Vec<u64>,
+    /// Links by springs between them, `first - second`.
+    pub links: Vec<String>,
+    /// Whether a tie joins them.
+    pub tied: bool,
+    /// Motions that this joint alone leaves them against each other, > 0. Other joints may prevent them.
+    pub motions: usize,
+}
+
+/// Motions without energy of a housing, by their reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mechanisms {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The bodies, in the order of the mesh.
+    pub bodies: Vec<Body>,
+    /// The pieces; first the ring's, then the largest.
+    pub pieces: Vec<Piece>,
+    /// Joints that let bodies of a piece with internal motions move.
+    pub joints: Vec<Joint>,
+    /// Rigid motions of the whole: 6 (plane: 3) if nothing holds any piece, otherwise 0.
+    pub of_whole: usize,
+    /// Rigid motions of pieces that are connected neither to the ground nor to the rest.
+    pub of_loose_pieces: usize,
+    /// Motions of bodies against each other, and of pieces that are held and can still move.
+    pub mechanisms: usize,
+}
+
+impl Mechanisms {
+    /// Finds them in O(elements log elements), and a dense problem on the bodies.
+    ///
+    /// # Errors
+    /// [`ModalError::TooManyBodies`] for more than 200 bodies, [`ModalError::Shape`] for another mesh than the model's.
+    pub fn find(mesh: &Mesh, model: &HousingModel) -> Result<Self, ModalError> {
+        Self::of_bodies(mesh, model, &Bore::Empty)
+    }
+
+    /// The same of a housing with the ring in its bore: the ring is one more body, joined by the tie.
+    ///
+    /// # Errors
+    /// As [`Mechanisms::find`].
+    pub fn find_with_ring(
+        mesh: &Mesh,
+        model: &HousingModel,
+        tie: &RingTie,
+        ring: &Ring,
+    ) -> Result<Self, ModalError> {
+        Self::of_bodies(mesh, model, &Bore::Ring(tie, ring))
+    }
+
+    /// The same of a housing of which some displacements are held besides its supports: what can still move makes the
+    /// stiffness of the others singular. `rotation` turns the displacements to the mesh's axes if they are not along
+    /// them.
+    ///
+    /// # Errors
+    /// As [`Mechanisms::find`].
+    pub fn find_with_held(
+        mesh: &Mesh,
+        model: &HousingModel,
+        dofs: &[usize],
+        rotation: Option<&SparseMatrix>,
+    ) -> Result<Self, ModalError> {
+        Self::of_bodies(mesh, model, &Bore::Held(dofs, rotation))
+    }
+
+    /// The motions of a ring alone that its springs leave, in its own axes.
+    pub fn of_ring(ring: &Ring) -> Self {
+        let dimension = if ring.is_in_space() { 3 } else { 2 };
+        let full = rigid_count(dimension);
+        let rows = ring_spring_rows(ring, &RingFrame::default());
+        let rows: Vec<Vec<f64>> = rows.into_iter().map(|row| row[..full].to_vec()).collect();
+        let rigid = full - rank(&rows);
+        let of_whole = if rigid == full { full } else { 0 };
+        Self {
+            dimension,
+            bodies: vec![Body {
+                is_ring: true,
+                parts: Vec::new(),
+                groups: Vec::new(),
+                elements: ring.nodes(),
+                centroid: [0.0; 3],
+                piece: 0,
+            }],
+            pieces: vec![Piece {
+                bodies: vec![0],
+                elements: ring.nodes(),
+                rigid,
+                internal: 0,
+            }],
+            joints: Vec::new(),
+            of_whole,
+            of_loose_pieces: 0,
+            mechanisms: rigid - of_whole,
+        }
+    }
+
+    fn of_bodies(mesh: &Mesh, model: &HousingModel, bore: &Bore<'_>) -> Result<Self, ModalError> {
+        let mut map = BodyMap::new(model);
+        if let Bore::Ring(_, ring) = bore {
+            map.add_ring(model, ring);
+        }
+        if map.extents.len() > MOST_BODIES {
+            return Err(ModalError::TooManyBodies {
+                found: map.extents.len(),
+                limit: MOST_BODIES,
+            });
+        }
+        let mut constraints = AllConstraints::new(model, &map);
+        match *bore {
+            Bore::Empty => {}
+            Bore::Ring(tie, ring) => constraints.add_ring(tie, ring),
+            Bore::Held(dofs, rotation) => constraints.hold(dofs, rotation),
+        }
+        let mut bodies = described(mesh, model, &map)?;
+        let full = rigid_count(model.dimension);
+        let mut pieces = Vec::new();
+        for members in pieces_of(&map, &constraints) {
+            let rows = Assembled::new(&members, &constraints, full);
+            let all = full * members.len() - rank(&rows.rows);
+            let rigid = full - rank(&rows.moved_as_one(&map, model.dimension));
+            pieces.push(Piece {
+                elements: members.iter().map(|&body| map.extents[body].elements).sum(),
+                bodies: members,
+                rigid,
+                internal: all.saturating_sub(rigid),
+            });
+        }
+        let has_ring = |piece: &Piece| map.ring.is_some_and(|ring| piece.bodies.contains(&ring));
+        pieces.sort_by_key(|piece| std::cmp::Reverse((has_ring(piece), piece.elements)));
+        for (number, piece) in pieces.iter().enumerate() {
+            piece
+                .bodies
+                .iter()
+                .for_each(|&body| bodies[body].piece = number);
+        }
+        let internal = |body: usize| pieces[bodies[body].piece].internal > 0;
+        let joints = constraints
+            .between
+            .iter()
+            .filter(|(between, _)| !between.ground && between.bodies.iter().any(|&b| internal(b)))
+            .filter_map(|(between, own)| joint(between, own, model, full))
+            .collect();
+        let nothing_held = pieces.iter().all(|piece| piece.rigid == full);
+        let of_whole = if nothing_held && !pieces.is_empty() {
+            full
+        } else {
+            0
+        };
+        let free: usize = pieces
+            .iter()
+            .map(|p| p.rigid)
+            .filter(|&rigid| rigid == full)
+            .sum();
+        let total: usize = pieces
+            .iter()
+            .map(|piece| piece.rigid + piece.internal)
+            .sum();
+        Ok(Self {
+            dimension: model.dimension,
+            bodies,
+            joints,
+            of_whole,
+            of_loose_pieces: free - of_whole,
+            mechanisms: total - free,
+            pieces,
+        })
+    }
+
+    /// Number of modes that must have no energy.
+    pub fn total(&self) -> usize {
+        self.of_whole + self.of_loose_pieces + self.mechanisms
+    }
+}
+
+/// The pieces of a housing that have some of these nodes: the parts of each.
+///
+/// # Errors
+/// As [`Mechanisms::find`].
+pub fn pieces_at(
+    mesh: &Mesh,
+    model: &HousingModel,
+    nodes: &[usize],
+) -> Result<Vec<Vec<String>>, ModalError> {
+    let found = Mechanisms::find(mesh, model)?;
+    let map = BodyMap::new(model);
+    let at_nodes: BTreeSet<usize> = nodes.iter().filter_map(|&node| map.of_node(node)).collect();
+    let pieces: BTreeSet<usize> = at_nodes
+        .iter()
+        .map(|&body| found.bodies[body].piece)
+        .collect();
+    let parts_of = |piece: &usize| {
+        let members = found.pieces[*piece].bodies.iter();
+        let parts: BTreeSet<&String> = members
+            .flat_map(|&body| &found.bodies[body].parts)
+            .collect();
+        parts.into_iter().cloned().collect()
+    };
+    Ok(pieces.iter().map(parts_of).collect())
+}
+
+fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Body>, ModalError> {
+    let membership = Membership::new(mesh, model)?;
+    let mut parts = vec![BTreeSet::new(); map.extents.len()];
+    let mut groups = vec![BTreeSet::new(); map.extents.len()];
+    for (number, (element, &body)) in model.elements.iter().zip(&map.of_element).enumerate() {
+        parts[body as usize].insert(element.part);
+        groups[body as usize].extend(membership.of(number).iter().copied());
+    }
+    let names = |list: &[String], chosen: &BTreeSet<usize>| -> Vec<String> {
+        chosen
+            .iter()
+            .filter_map(|&place| list.get(place).cloned())
+            .collect()
+    };
+    let bodies = map.extents.iter().zip(parts.iter().zip(&groups));
+    Ok(bodies
+        .enumerate()
+        .map(|(number, (extent, (parts, groups)))| Body {
+            is_ring: map.ring == Some(number),
+            parts: names(&model.part_groups, parts),
+            groups: names(&membership.names, groups),
+            elements: extent.elements,
+            centroid: extent.centre,
+            piece: 0,
+        })
+        .collect())
+}
+
+/// Sets of joined bodies; the largest body of each first, the ring last.
+fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
+    let count = map.extents.len();
+    let mut sets = Sets::new(count);
+    for between in constraints.between.keys() {
+        for pair in between.bodies.windows(2) {
+            sets.join(pair[0], pair[1]);
+        }
+    }
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); count];
+    (0..count).for_each(|body| members[sets.root(body)].push(body));
+    members.retain(|members| !members.is_empty());
+    for members in &mut members {
+        // the ring last: a piece is named by its first
+        let key = |&body: &usize| (map.ring != Some(body), map.extents[body].elements);
+        members.sort_by_key(|body| std::cmp::Reverse(key(body)));
+    }
+    members
+}
+
+/// The constraints of one piece over the motions of its bodies.
+struct Assembled<'p> {
+    members: &'p [usize],
+    full: usize,
+    rows: Vec<Vec<f64>>,
+}
+
+impl<'p> Assembled<'p> {
+    fn new(members: &'p [usize], constraints: &AllConstraints, full: usize) -> Self {
+        let mut rows = Vec::new();
+        for (between, own) in &constraints.between {
+            let place = |body: &usize| members.iter().position(|member| member == body);
+            let places: Vec<usize> = between.bodies.iter().filter_map(place).collect();
+            if places.len() < between.bodies.len() {
+                continue; // another piece
+            }
+            for row in own.scaled_rows() {
+                let mut wide = vec![0.0; full * members.len()];
+                for (part, place) in row.chunks_exact(full).zip(&places) {
+                    wide[full * place..][..full].copy_from_slice(part);
+                }
+                rows.push(wide);
+            }
+        }
+        Self {
+            members,
+            full,
+            rows,
+        }
+    }
+
+    /// The constraints on the motions of all bodies as one.
+    fn moved_as_one(&self, map: &BodyMap, d: usize) -> Vec<Vec<f64>> {
+        let extent = |&body: &usize| map.extents[body];
+        let Some(first) = self.members.first().map(extent) else {
+            return Vec::new();
+        };
+        let reach = |body: &usize| {
+            super::bodies::apart(first.centre, extent(body).centre) + extent(body).radius
+        };
+        let size = self
+            .members
+            .iter()
+            .map(reach)
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let as_one = |row: &Vec<f64>, motion: usize| -> f64 {
+            let parts = row.chunks_exact(self.full).zip(self.members);
+            let moved = parts.map(|(part, body)| {
+                let own = extent(body);
+                let arm = [0, 1, 2].map(|axis| (own.centre[axis] - first.centre[axis]) / size);
+                let along: f64 = (0..d)
+                    .map(|i| part[i] * rigid_component(d, arm, i, motion))
+                    .sum();
+                let turn = if motion < d {
+                    0.0
+                } else {
+                    part[motion] * own.radius / size
+                };
+                along + turn
+            });
+            moved.sum()
+        };
+        let one = |row| (0..self.full).map(|motion| as_one(row, motion)).collect();
+        self.rows.iter().map(one).collect()
+    }
+}
+
+/// A joint that lets its bodies move.
+fn joint(between: &Between, own: &Constraints, model: &HousingModel, full: usize) -> Option<Joint> {
+    let rows: Vec<Vec<f64>> = own.scaled_rows().collect();
+    let free = full * between.bodies.len() - rank(&rows);
+    let motions = free.saturating_sub(full);
+    let link = |&link: &usize| {
+        let link = model.links.get(link)?;
+        Some(format!("{} - {}", link.between[0], link.between[1]))
+    };
+    let tags = own
+        .shared_nodes
+        .iter()
+        .filter_map(|&node| model.node_tags.get(node).copied());
+    (motions > 0).then(|| Joint {
+        bodies: between.bodies.clone(),
+        nodes: tags.collect(),
+        links: own.links.iter().filter_map(link).collect(),
+        tied: own.tied,
+        motions,
+    })
+}

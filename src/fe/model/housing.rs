@@ -1,0 +1,400 @@
+//! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
+//! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
+
+use super::elements::{HousingElements, highest_dimension};
+use super::link::TiedNodes;
+use super::support::{HousingSupport, Link, PointMass};
+use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame, Touching};
+use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
+use crate::fe::material::ElasticMaterial;
+use crate::fe::mesh::{Mesh, PhysicalGroup};
+use nalgebra::DMatrix;
+
+/// A group of elements and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingPart {
+    /// The group.
+    pub group: String,
+    /// Its material.
+    pub material: ElasticMaterial,
+}
+
+/// How a plane mesh stands for a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneModel {
+    /// What vanishes across it.
+    pub assumption: PlaneAssumption,
+    /// Thickness, m, > 0.
+    pub thickness: f64,
+}
+
+/// Everything that a housing is beside its mesh.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HousingDescription {
+    /// What it is made of; every element of the highest dimension belongs to one part.
+    pub parts: Vec<HousingPart>,
+    /// `Some` for a plane mesh, `None` for a solid one.
+    pub plane: Option<PlaneModel>,
+    /// How element stiffness is formulated.
+    pub formulation: Formulation,
+    /// What holds it.
+    pub supports: Vec<HousingSupport>,
+    /// Masses without size.
+    pub masses: Vec<PointMass>,
+    /// Connections between its groups.
+    pub links: Vec<Link>,
+    /// Whether bodies may lie in one another.
+    pub overlap: OverlapRule,
+    /// Where the bearing sits.
+    pub frame: RingFrame,
+}
+
+/// A symmetric matrix on some nodes: springs, or the share of a point mass.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NodalMatrix {
+    pub nodes: Vec<usize>,
+    pub matrix: DMatrix<f64>,
+    /// What asked for it.
+    pub source: NodalSource,
+}
+
+/// What a nodal matrix belongs to; indices into the lists of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum NodalSource {
+    Support(usize),
+    Link(usize),
+    Mass(usize),
+}
+
+/// A housing with everything that its matrices need.
+#[derive(Debug, Clone)]
+pub struct HousingModel {
+    /// Displacement components a node, 2 or 3.
+    pub(crate) dimension: usize,
+    pub(crate) frame: RingFrame,
+    /// Coordinates of all mesh nodes in the mesh's axes, m.
+    pub(crate) coordinates: Vec<[f64; 3]>,
+    pub(crate) elements: HousingElements,
+    /// Properties of the parts, in the order asked for.
+    pub(crate) properties: Vec<ContinuumProperties>,
+    /// Structural loss factors of the parts, in the same order.
+    pub(crate) loss_factors: Vec<f64>,
+    /// Groups of the parts, in the same order.
+    pub(crate) part_groups: Vec<String>,
+    pub(crate) formulation: Formulation,
+    /// Springs: d rows a node.
+    pub(crate) springs: Vec<NodalMatrix>,
+    /// Point masses: one row a node.
+    pub(crate) masses: Vec<NodalMatrix>,
+    /// Fixed components, with the index of the support that fixes them.
+    pub(crate) fixed: Vec<[Option<usize>; 3]>,
+    /// Nodes that a link ties.
+    pub(crate) tied: TiedNodes,
+    /// Nodes that an element uses; the others have no degrees of freedom.
+    pub(crate) used: Vec<bool>,
+    pub(crate) supports: Vec<HousingSupport>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) point_masses: Vec<PointMass>,
+    overlaps: Vec<Overlap>,
+    touching: Vec<Touching>,
+    ties_apart: Vec<Apart>,
+    crossings: Vec<Crossing>,
+    /// Nodes that the groups of each link have in common.
+    pub(crate) common_nodes: Vec<usize>,
+    /// The mesh file, for messages.
+    pub(crate) path: String,
+    pub(crate) node_tags: Vec<u64>,
+}
+
+impl HousingModel {
+    /// Builds the model of a mesh.
+    ///
+    /// # Errors
+    /// [`ModelError`] for groups that are missing or of the wrong kind, elements in no part or in two, a
+    /// plane housing that is not plane, and supports, masses or links that would hang on nothing.
+    pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
+        let path = mesh.source.display().to_string();
+        let dimension = highest_dimension(mesh);
+        let HousingDescription {
+            parts,
+            plane,
+            formulation,
+            supports,
+            masses,
+            links,
+            overlap,
+            frame,
+        } = description;
+        check_plane(mesh, dimension, plane, &frame, &path)?;
+        let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
+        let elements = HousingElements::of_parts(mesh, &groups, &path)?;
+        let part_groups: Vec<String> = parts.iter().map(|part| part.group.clone()).collect();
+        let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
+        let properties = parts
+            .iter()
+            .map(|part| properties(part, plane, &path))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut used = vec![false; mesh.nodes.len()];
+        for element in elements.iter() {
+            for &node in elements.nodes(element) {
+                used[node] = true;
+            }
+        }
+        let mut model = Self {
+            dimension,
+            frame,
+            coordinates: mesh.nodes.clone(),
+            elements,
+            properties,
+            loss_factors: parts
+                .iter()
+                .map(|part| part.material.loss_factor())
+                .collect(),
+            part_groups,
+            formulation,
+            springs: Vec::new(),
+            masses: Vec::new(),
+            fixed: vec![[None; 3]; mesh.nodes.len()],
+            tied: TiedNodes::new(),
+            used,
+            supports,
+            links,
+            point_masses: masses,
+            overlaps,
+            touching: Vec::new(),
+            ties_apart: Vec::new(),
+            crossings: Vec::new(),
+            common_nodes: Vec::new(),
+            path,
+            node_tags: mesh.node_tags.clone(),
+        };
+        for index in 0..model.supports.len() {
+            model.attach_support(mesh, index)?;
+        }
+        for index in 0..model.point_masses.len() {
+            model.attach_mass(mesh, index)?;
+        }
+        for index in 0..model.links.len() {
+            model.attach_link(mesh, index)?;
+        }
+        model.ties_apart = model.ties_apart(overlap)?;
+        model.find_unconnected();
+        Ok(model)
+    }
+
+    /// Finds what lies on each other, or in one another, where no link connects it.
+    fn find_unconnected(&mut self) {
+        let mut linked = vec![false; self.coordinates.len()];
+        let tied = self.tied.iter();
+        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
+        let springs = self.springs.iter();
+        let springs = springs.filter(|spring| matches!(spring.source, NodalSource::Link(_)));
+        for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
+            linked[node] = true;
+        }
+        let (bodies, linked) = (self.bodies(), |node| linked[node]);
+        (self.touching, self.crossings) = bodies.unconnected(linked, &self.overlaps);
+    }
+
+    pub(super) fn bodies(&self) -> Bodies<'_> {
+        Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
+    }
+
+    /// Parts that lie in one another; none unless the description allows it.
+    pub fn overlaps(&self) -> &[Overlap] {
+        &self.overlaps
+    }
+
+    /// Parts whose faces lie on each other without common nodes and without a link.
+    pub fn touching(&self) -> &[Touching] {
+        &self.touching
+    }
+
+    /// Parts that reach into one another, of which the others say nothing.
+    pub fn crossings(&self) -> &[Crossing] {
+        &self.crossings
+    }
+
+    /// Ties whose sides do not lie on each other.
+    pub fn apart(&self) -> &[Apart] {
+        &self.ties_apart
+    }
+
+    /// Displacement components a node: 2 in the plane, 3 in space.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Number of degrees of freedom, those of unused nodes included (they stay out of every
+    /// partition).
+    pub fn dof(&self) -> usize {
+        self.dimension * self.coordinates.len()
+    }
+
+    /// Where the bearing sits.
+    pub fn frame(&self) -> &RingFrame {
+        &self.frame
+    }
+
+    /// Coordinates of the nodes in the mesh's axes, m.
+    pub fn coordinates(&self) -> &[[f64; 3]] {
+        &self.coordinates
+    }
+
+    /// Coordinates of a node in the bearing's frame, m.
+    pub fn ring_coordinates(&self, node: usize) -> [f64; 3] {
+        self.frame.point(self.coordinates[node])
+    }
+
+    /// The elements.
+    pub fn elements(&self) -> &HousingElements {
+        &self.elements
+    }
+
+    /// Groups of the parts, in the order asked for: an element's part is an index into them.
+    pub fn part_names(&self) -> &[String] {
+        &self.part_groups
+    }
+
+    /// Whether an element uses a node.
+    pub fn is_used(&self, node: usize) -> bool {
+        self.used[node]
+    }
+
+    /// Nodes with a spring, each once.
+    pub fn spring_nodes(&self) -> Vec<usize> {
+        let mut nodes: Vec<usize> = self.springs.iter().flat_map(|s| s.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Degrees of freedom that are neither fixed nor tied nor without an element.
+    pub fn free_dofs(&self) -> Vec<usize> {
+        let d = self.dimension;
+        let moves = |node: &usize| self.used[*node] && !self.tied.contains_key(node);
+        (0..self.coordinates.len())
+            .filter(moves)
+            .flat_map(|node| (0..d).map(move |component| (node, component)))
+            .filter(|&(node, component)| self.fixed[node][component].is_none())
+            .map(|(node, component)| d * node + component)
+            .collect()
+    }
+
+    /// A group of which at least one node is on the housing, with the middle nodes that the housing has there.
+    ///
+    /// # Errors
+    /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`], [`ModelError::GroupOrder`].
+    pub fn group_on_housing<'m>(
+        &self,
+        mesh: &'m Mesh,
+        name: &str,
+        purpose: &'static str,
+    ) -> Result<&'m PhysicalGroup, ModelError> {
+        let group = mesh.group(name)?;
+        let (path, name) = (self.path.clone(), name.to_owned());
+        if !group.nodes.iter().any(|&node| self.used[node]) {
+            return Err(ModelError::NotOnHousing {
+                path,
+                group: name,
+                purpose,
+            });
+        }
+        match self.bodies().without_middle_nodes(mesh, group) {
+            None => Ok(group),
+            Some(mixed) => Err(ModelError::GroupOrder {
+                path,
+                group: name,
+                purpose,
+                mixed: Box::new(mixed),
+            }),
+        }
+    }
+}
+
+/// Parts that lie in one another as far as the rule allows it.
+///
+/// # Errors
+/// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::MixedOrders`] for elements of two orders on one
+/// edge, [`ModelError::Overlap`] for the first overlap that is not allowed.
+fn accepted_overlaps(
+    mesh: &Mesh,
+    elements: &HousingElements,
+    parts: &[String],
+    rule: OverlapRule,
+    path: &str,
+) -> Result<Vec<Overlap>, ModelError> {
+    let path = || path.to_owned();
+    let bodies = Bodies::of_housing(&mesh.nodes, elements, parts);
+    if let Some(doubled) = bodies.doubled().map(Box::new) {
+        return Err(ModelError::Doubled {
+            path: path(),
+            doubled,
+        });
+    }
+    if let Some(mixed) = bodies.mixed_orders().map(Box::new) {
+        return Err(ModelError::MixedOrders {
+            path: path(),
+            mixed,
+        });
+    }
+    let overlaps = bodies.overlaps();
+    match (rule, overlaps.first()) {
+        (OverlapRule::Refuse, Some(first)) => Err(ModelError::Overlap {
+            path: path(),
+            overlap: Box::new(first.clone()),
+        }),
+        _ => Ok(overlaps),
+    }
+}
+
+fn properties(
+    part: &HousingPart,
+    plane: Option<PlaneModel>,
+    path: &str,
+) -> Result<ContinuumProperties, ModelError> {
+    let found = match plane {
+        None => Ok(ContinuumProperties::solid(&part.material)),
+        Some(plane) => {
+            ContinuumProperties::plane(&part.material, plane.assumption, plane.thickness)
+        }
+    };
+    found.map_err(|source| ModelError::Part {
+        path: path.to_owned(),
+        group: part.group.clone(),
+        source: Box::new(source),
+    })
+}
+
+/// A plane mesh has a plane model and lies in a plane z = const, a solid one has none.
+fn check_plane(
+    mesh: &Mesh,
+    dimension: usize,
+    plane: Option<PlaneModel>,
+    frame: &RingFrame,
+    path: &str,
+) -> Result<(), ModelError> {
+    let path = || path.to_owned();
+    match (dimension, plane) {
+        (3, None) => return Ok(()),
+        (3, Some(_)) => return Err(ModelError::PlaneForSolids { path: path() }),
+        (_, None) => return Err(ModelError::PlaneMissing { path: path() }),
+        _ => {}
+    }
+    let [x, y, z] = frame.axis();
+    if x.hypot(y) > 1e-9 * z.abs() {
+        return Err(ModelError::AxisInPlane {
+            path: path(),
+            axis: [x, y, z],
+        });
+    }
+    match mesh.node_off_plane() {
+        Some(index) => Err(ModelError::NotPlane {
+            path: path(),
+            tag: mesh.node_tags[index],
+            z: mesh.nodes[index][2],
+            first: mesh.nodes[0][2],
+        }),
+        None => Ok(()),
+    }
+}

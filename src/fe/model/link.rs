@@ -1,0 +1,342 @@
+//! Connections between two groups of a housing: springs, and ties of surfaces that do not match.
+
+use super::housing::{HousingModel, NodalMatrix, NodalSource};
+use super::joint::Side;
+use super::overlap::Tied;
+use super::spread::{Share, spread};
+use super::support::{Connection, SpringStiffness, SupportShare};
+use super::surface::Foot;
+use super::{Apart, ModelError, OverlapRule, elements::dimension_name};
+use crate::fe::mesh::Mesh;
+use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
+use nalgebra::{DMatrix, Matrix3};
+use std::collections::BTreeMap;
+
+/// Largest gap of a tie, in sizes of the face that the node is tied to: the sagitta of two coarse arcs is an eighth
+/// of it, a part that was drawn elsewhere is many.
+const LARGEST_GAP: f64 = 0.5;
+
+/// A node that moves with a face: `u = sum_i follow_i u_i`.
+#[derive(Debug, Clone)]
+pub(crate) struct TiedNode {
+    pub nodes: Vec<usize>,
+    pub follow: Vec<Matrix3<f64>>,
+    /// The nearest point of the face, m, and the face's size, m.
+    pub foot: [f64; 3],
+    pub size: f64,
+    /// Index of the link.
+    pub link: usize,
+}
+
+impl HousingModel {
+    /// Adds what a link asks for.
+    pub(super) fn attach_link(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
+        let link = self.links[index].clone();
+        let [first, second] = &link.between;
+        let first = self.group_on_housing(mesh, first, "the link")?;
+        let second = self.group_on_housing(mesh, second, "the link")?;
+        let sides = Side::both(mesh, [first, second], &self.used, &self.path)?;
+        self.common_nodes.push(self.common(&sides)?);
+        match link.connection {
+            Connection::Spring(stiffness, share) => {
+                let source = NodalSource::Link(index);
+                self.attach_link_springs(mesh, &sides, stiffness, share, source)
+            }
+            Connection::Tie => {
+                for side in &sides {
+                    self.check_surface(side)?;
+                }
+                let [finer, coarser] = finer_first(mesh, &sides)?;
+                let tied = self.feet(mesh, index, finer, coarser).or_else(|gap| {
+                    // a coarse surface beyond whose edges the finer one reaches: the other way round
+                    self.feet(mesh, index, coarser, finer).map_err(|_| gap)
+                })?;
+                for (node, feet) in tied {
+                    if self.tied.insert(node, feet).is_some() {
+                        return Err(self.chain(node, &sides));
+                    }
+                }
+                self.check_chains(&sides)
+            }
+        }
+    }
+
+    /// Number of nodes that both sides have, which no link joins to themselves.
+    ///
+    /// # Errors
+    /// [`ModelError::LinkToItself`] if one side has no others.
+    fn common(&self, [first, second]: &[Side; 2]) -> Result<usize, ModelError> {
+        let (least, other) = match first.nodes.len() <= second.nodes.len() {
+            true => (first, second),
+            false => (second, first),
+        };
+        let in_other = |node: &&usize| other.nodes.binary_search(node).is_ok();
+        let common = least.nodes.iter().filter(in_other).count();
+        match common < least.nodes.len() {
+            true => Ok(common),
+            false => Err(ModelError::LinkToItself {
+                path: self.path.clone(),
+                groups: [least.name.clone(), other.name.clone()],
+                nodes: common,
+            }),
+        }
+    }
+
+    fn check_surface(&self, side: &Side) -> Result<(), ModelError> {
+        let expected = self.dimension - 1;
+        if side.dimension == expected {
+            return Ok(());
+        }
+        Err(ModelError::GroupDimension {
+            path: self.path.clone(),
+            group: side.name.clone(),
+            found: dimension_name(side.dimension),
+            expected: dimension_name(expected),
+            purpose: "a tie between parts",
+        })
+    }
+
+    fn attach_link_springs(
+        &mut self,
+        mesh: &Mesh,
+        [side, other]: &[Side; 2],
+        stiffness: SpringStiffness,
+        share: SupportShare,
+        source: NodalSource,
+    ) -> Result<(), ModelError> {
+        let shares = match share {
+            SupportShare::PerGroup => side.spread(mesh)?.0,
+            SupportShare::PerNode => side
+                .nodes
+                .iter()
+                .map(|&node| Share::of_node(node))
+                .collect(),
+        };
+        let nearest = other.search(mesh);
+        for share in shares {
+            let feet: Vec<Foot> = share
+                .nodes
+                .iter()
+                .filter_map(|&node| nearest(mesh.nodes[node]))
+                .collect();
+            self.springs
+                .push(self.relative_springs(&share, &feet, stiffness, source));
+        }
+        Ok(())
+    }
+
+    /// `1/2 sum_ab w_ab (u_a - v_a) . S (u_b - v_b)`, v the displacement of the other group at each foot.
+    fn relative_springs(
+        &self,
+        share: &Share,
+        feet: &[Foot],
+        stiffness: SpringStiffness,
+        source: NodalSource,
+    ) -> NodalMatrix {
+        let d = self.dimension;
+        let mut nodes = share.nodes.clone();
+        nodes.extend(feet.iter().flat_map(|foot| foot.nodes.iter().copied()));
+        nodes.sort_unstable();
+        nodes.dedup();
+        let place = |node: usize| nodes.binary_search(&node).unwrap_or_default();
+        let mut relative: DMatrix<f64> = DMatrix::zeros(d * share.nodes.len(), d * nodes.len());
+        for ((row, &node), foot) in share.nodes.iter().enumerate().zip(feet) {
+            for i in 0..d {
+                relative[(d * row + i, d * place(node) + i)] += 1.0;
+                for (&other, follow) in foot.nodes.iter().zip(&foot.follow) {
+                    for j in 0..d {
+                        relative[(d * row + i, d * place(other) + j)] -= follow[(i, j)];
+                    }
+                }
+            }
+        }
+        let spring = self.spring_matrix(share, stiffness);
+        let matrix = relative.transpose() * spring * &relative;
+        NodalMatrix {
+            nodes,
+            matrix,
+            source,
+        }
+    }
+
+    /// The nodes of a side with the faces of the other that they follow.
+    ///
+    /// # Errors
+    /// [`ModelError::TieGap`] if some of them are not near it.
+    fn feet(
+        &self,
+        mesh: &Mesh,
+        link: usize,
+        side: &Side,
+        to: &Side,
+    ) -> Result<TiedNodes, ModelError> {
+        let nearest = to.search(mesh);
+        let mut tied = TiedNodes::new();
+        let (mut far, mut worst) = (0, (0.0, 0));
+        for &node in &side.nodes {
+            if to.nodes.binary_search(&node).is_ok() {
+                continue; // shared by both: the meshes are one here
+            }
+            let foot = nearest(mesh.nodes[node]).filter(|foot| !foot.nodes.contains(&node));
+            let Some(foot) = foot else {
+                continue;
+            };
+            if foot.distance > LARGEST_GAP * foot.size {
+                far += 1;
+                if foot.distance > worst.0 {
+                    worst = (foot.distance, node);
+                }
+            }
+            let of_node = TiedNode {
+                nodes: foot.nodes,
+                follow: foot.follow,
+                foot: foot.place,
+                size: foot.size,
+                link,
+            };
+            tied.insert(node, of_node);
+        }
+        if far == 0 {
+            return Ok(tied);
+        }
+        Err(ModelError::TieGap {
+            path: self.path.clone(),
+            group: side.name.clone(),
+            to: to.name.clone(),
+            count: far,
+            total: side.nodes.len(),
+            tag: self.node_tags[worst.1],
+            distance: worst.0,
+        })
+    }
+
+    /// Ties whose sides do not lie on each other.
+    ///
+    /// # Errors
+    /// [`ModelError::TieInside`] for one that ends within the other body, unless bodies may lie in one another.
+    pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
+        let ties = self.links.iter().enumerate();
+        let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
+        let density: Vec<f64> = self
+            .properties
+            .iter()
+            .map(|part| part.density() * part.thickness())
+            .collect();
+        let found = ties.filter_map(|(index, link)| {
+            let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
+            let own = own.map(|(&node, tied)| Tied {
+                node,
+                face: &tied.nodes,
+                foot: tied.foot,
+                size: tied.size,
+            });
+            let own: Vec<Tied> = own.collect();
+            self.bodies()
+                .apart(&link.between, &own, &self.node_tags, &density)
+        });
+        let found: Vec<Apart> = found.collect();
+        match found.iter().find(|apart| apart.inside > 0) {
+            Some(apart) if rule == OverlapRule::Refuse => Err(ModelError::TieInside {
+                path: self.path.clone(),
+                apart: Box::new(apart.clone()),
+            }),
+            _ => Ok(found),
+        }
+    }
+
+    fn chain(&self, node: usize, sides: &[Side; 2]) -> ModelError {
+        ModelError::TieChain {
+            path: self.path.clone(),
+            tag: self.node_tags[node],
+            group: sides[0].name.clone(),
+            to: sides[1].name.clone(),
+        }
+    }
+
+    /// A node that is tied can neither carry another one nor be fixed.
+    fn check_chains(&self, sides: &[Side; 2]) -> Result<(), ModelError> {
+        for (&node, tied) in &self.tied {
+            if let Some(&carrier) = tied.nodes.iter().find(|node| self.tied.contains_key(node)) {
+                return Err(self.chain(carrier, sides));
+            }
+            if let Some(&support) = self.fixed[node].iter().flatten().next() {
+                return Err(ModelError::TiedAndFixed {
+                    path: self.path.clone(),
+                    tag: self.node_tags[node],
+                    tied: sides[0].name.clone(),
+                    fixed: self.supports[support].group.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// T with `u = T u'`: all displacements from those of the nodes that no link ties; `None` without ties.
+    /// Columns of tied nodes are empty.
+    pub(crate) fn tie_matrix(&self) -> Option<SparseMatrix> {
+        if self.tied.is_empty() {
+            return None;
+        }
+        let mut matrix = TripletBuilder::new(self.dof(), self.dof());
+        for node in 0..self.coordinates.len() {
+            for (row, column, factor) in self.tied_entries(node) {
+                matrix.add(row, column, factor);
+            }
+        }
+        Some(matrix.build())
+    }
+
+    /// The row of a displacement component at a node: pairs (degree of freedom, factor). `direction` is in the mesh's
+    /// axes; its z does not count in the plane. A tied node moves with those that it follows.
+    pub fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
+        let d = self.dimension;
+        let entries = self.tied_entries(node).into_iter();
+        entries
+            .map(|(component, dof, factor)| (dof, factor * direction[component % d]))
+            .collect()
+    }
+
+    /// The rows of T that belong to a node, as (row, column, factor).
+    pub(super) fn tied_entries(&self, node: usize) -> Vec<(usize, usize, f64)> {
+        let d = self.dimension;
+        let Some(tied) = self.tied.get(&node) else {
+            return (0..d).map(|i| (d * node + i, d * node + i, 1.0)).collect();
+        };
+        let mut entries = Vec::new();
+        for (&other, follow) in tied.nodes.iter().zip(&tied.follow) {
+            for i in 0..d {
+                for j in 0..d {
+                    entries.push((d * node + i, d * other + j, follow[(i, j)]));
+                }
+            }
+        }
+        entries
+    }
+}
+
+/// The side with more nodes an area (or length) first: its nodes are tied to the other, for a coarse surface tied at its
+/// few nodes to a fine one leaves that free between them. Two bodies have one joint, and the side with more nodes there is
+/// first: faces of a body that reach over the edge of the joint are no part of its side.
+fn finer_first<'s>(mesh: &Mesh, [a, b]: &'s [Side; 2]) -> Result<[&'s Side; 2], ModelError> {
+    let [of_a, of_b] = [a.spread(mesh)?.1, b.spread(mesh)?.1];
+    let [nodes_a, nodes_b] = [a.nodes.len() as f64, b.nodes.len() as f64];
+    let bodies = !a.boundary.is_empty() && !b.boundary.is_empty();
+    let b_first = match bodies {
+        true => (nodes_b, of_b) > (nodes_a, of_a),
+        false => nodes_b / of_b > nodes_a / of_a,
+    };
+    Ok(if b_first { [b, a] } else { [a, b] })
+}
+
+impl Side {
+    fn spread(&self, mesh: &Mesh) -> Result<(Vec<Share>, f64), ModelError> {
+        let faces = self.faces.iter();
+        spread(
+            mesh,
+            faces.map(|face| (face.kind, face.nodes.as_slice(), face.tag)),
+        )
+    }
+}
+
+/// Tied nodes by their index.
+pub(super) type TiedNodes = BTreeMap<usize, TiedNode>;

@@ -1,0 +1,165 @@
+//! Tied nodes that do not lie on the face that they follow.
+
+use super::facets::Facet;
+use super::{Bodies, at};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// A node that a link ties to a face.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::fe::model) struct Tied<'t> {
+    /// Its index.
+    pub node: usize,
+    /// Nodes of the face.
+    pub face: &'t [usize],
+    /// The nearest point of the face, m.
+    pub foot: [f64; 3],
+    /// Size of the face, m.
+    pub size: f64,
+}
+
+/// Nodes of a tie that are farther from the face that they follow than flat faces miss a curved surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// Names of the groups that are tied.
+    pub between: [String; 2],
+    /// How many nodes, > 0.
+    pub nodes: usize,
+    /// Nodes that the link ties.
+    pub tied: usize,
+    /// Largest distance, m.
+    pub distance: f64,
+    /// The same over the size of the face.
+    pub share: f64,
+    /// gmsh's tag of that node.
+    pub tag: u64,
+    /// Its place, m.
+    pub place: [f64; 3],
+    /// Nodes within the body that they are tied to.
+    pub inside: usize,
+    /// Mass that would fill the space between the sides, and mass that counts twice where they lie in one another, kg;
+    /// of the material of the tied nodes, where whole faces are apart.
+    pub masses: [f64; 2],
+}
+
+impl Apart {
+    /// What is apart where, in words.
+    pub fn sentence(&self) -> String {
+        let [a, b] = &self.between;
+        let inside = match self.inside {
+            0 => String::new(),
+            count => format!(", {count} of them into the other body"),
+        };
+        let [gap, twice] = self.masses.map(|mass| format!("{mass:.3e} kg"));
+        let masses = match self.masses {
+            [0.0, 0.0] => String::new(),
+            [_, 0.0] => format!("; about {gap} of material would fill the gap"),
+            [0.0, _] => format!("; about {twice} count twice"),
+            _ => format!("; about {gap} of material would fill the gap, about {twice} count twice"),
+        };
+        format!(
+            "the tie of \"{a}\" and \"{b}\" bridges up to {:.2e} m, {:.2} of the size of a face: {} of {} tied nodes are not on the other side{inside}, the farthest is node {} at {}{masses}",
+            self.distance,
+            self.share,
+            self.nodes,
+            self.tied,
+            self.tag,
+            at(self.place)
+        )
+    }
+}
+
+impl Bodies<'_> {
+    /// The nodes of one link that are not on the face that they follow; `None` if all are. `density` is that of each
+    /// part, kg/m^3, in the plane times the thickness.
+    pub(in crate::fe::model) fn apart(
+        &self,
+        between: &[String; 2],
+        tied: &[Tied],
+        tags: &[u64],
+        density: &[f64],
+    ) -> Option<Apart> {
+        let facets = self.facets();
+        let mut reach = vec![0.0_f64; self.points.len()];
+        let mut at_corners: BTreeMap<Vec<usize>, &Facet> = BTreeMap::new();
+        for facet in &facets {
+            for &node in &facet.corners {
+                reach[node] = reach[node].max(facet.reach);
+            }
+            at_corners.insert(sorted(&facet.corners), facet);
+        }
+        let is_plane = self.solids.first()?.kind.dimension() == 2;
+        let mut found: Option<Apart> = None;
+        let mut heights: BTreeMap<usize, f64> = BTreeMap::new();
+        for &Tied {
+            node,
+            face,
+            foot,
+            size,
+        } in tied
+        {
+            let corners = match face.len() {
+                3 if is_plane => 2,
+                6 => 3,
+                8 => 4,
+                count => count,
+            };
+            let corners = &face[..corners];
+            let facet = at_corners.get(&sorted(corners));
+            let gap = Vector3::from(self.points[node]) - Vector3::from(foot);
+            let distance = gap.norm();
+            let of_face = corners
+                .iter()
+                .map(|&corner| reach[corner])
+                .fold(0.0, f64::max);
+            let limit = self.tolerance + reach[node] + of_face;
+            let height = facet.map_or(distance, |facet| facet.normal.dot(&gap));
+            heights.insert(node, height);
+            if distance <= limit {
+                continue;
+            }
+            let apart = found.get_or_insert_with(|| Apart {
+                between: between.clone(),
+                nodes: 0,
+                tied: tied.len(),
+                distance: 0.0,
+                share: 0.0,
+                tag: 0,
+                place: [0.0; 3],
+                inside: 0,
+                masses: [0.0; 2],
+            });
+            apart.nodes += 1;
+            apart.inside += usize::from(height < -limit);
+            if distance > apart.distance {
+                apart.distance = distance;
+                apart.share = distance / size;
+                apart.tag = tags[node];
+                apart.place = self.points[node];
+            }
+        }
+        let mut apart = found?;
+        for facet in &facets {
+            let own: Option<Vec<f64>> = facet
+                .corners
+                .iter()
+                .map(|node| heights.get(node).copied())
+                .collect();
+            let Some(own) = own else { continue };
+            let weight = density[self.solids[facet.solid].part] * facet.size / own.len() as f64;
+            for height in own
+                .into_iter()
+                .filter(|height| height.abs() > self.tolerance)
+            {
+                apart.masses[usize::from(height < 0.0)] += weight * height.abs();
+            }
+        }
+        Some(apart)
+    }
+}
+
+fn sorted(corners: &[usize]) -> Vec<usize> {
+    let mut corners = corners.to_vec();
+    corners.sort_unstable();
+    corners
+}

@@ -1,0 +1,139 @@
+//! Stiffness and mass that a group shares, spread over its elements.
+//!
+//! What is spread evenly over a surface S acts through `int N_a N_b dS / S`: symmetric, positive, the same for
+//! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
+
+use super::ModelError;
+use super::elements::continuum_kind;
+use crate::fe::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
+use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
+use nalgebra::DMatrix;
+use std::collections::BTreeSet;
+
+/// Nodes with the symmetric matrix of shares between them [nodes x nodes]; the entries of all blocks of a
+/// group add up to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Share {
+    pub nodes: Vec<usize>,
+    pub matrix: DMatrix<f64>,
+}
+
+/// Shares of the nodes and elements of a group that the housing uses.
+///
+/// # Errors
+/// [`ModelError::Element`] for an element without length, area or volume, [`ModelError::NotOnHousing`] if no whole
+/// element lies on the housing.
+pub(super) fn shares(
+    mesh: &Mesh,
+    group: &PhysicalGroup,
+    used: &[bool],
+    purpose: &'static str,
+) -> Result<Vec<Share>, ModelError> {
+    let elements = group.elements.iter().filter_map(|id| {
+        let block = mesh.blocks.get(id.block)?;
+        let nodes = block.element(id.index)?;
+        let on_housing = nodes.iter().all(|&node| used[node]);
+        on_housing.then_some((block.kind, nodes, block.tags[id.index]))
+    });
+    let (shares, _) = spread(mesh, elements)?;
+    match shares.is_empty() {
+        false => Ok(shares),
+        true => Err(ModelError::NotOnHousing {
+            path: mesh.source.display().to_string(),
+            group: group.name.clone(),
+            purpose,
+        }),
+    }
+}
+
+/// Shares of elements given by kind, nodes and tag, and their length, area or volume together; points share equally
+/// and have none. What is listed twice counts once, a triangle in a quadrilateral not at all.
+///
+/// # Errors
+/// [`ModelError::Element`] for an element without length, area or volume.
+pub(super) fn spread<'a>(
+    mesh: &Mesh,
+    elements: impl Iterator<Item = (ElementKind, &'a [usize], u64)>,
+) -> Result<(Vec<Share>, f64), ModelError> {
+    let mut found = Vec::new();
+    let mut total = 0.0;
+    let elements: Vec<_> = elements.collect();
+    // a triangle on three corners of a quadrilateral of the group lies in it
+    let quads = elements
+        .iter()
+        .filter(|(kind, ..)| kind.dimension() == 2 && kind.corners() == 4);
+    let mut seen: BTreeSet<Vec<usize>> = quads
+        .flat_map(|(_, nodes, _)| {
+            (0..4).map(|left_out| {
+                let mut three: Vec<usize> = (0..4)
+                    .filter(|&local| local != left_out)
+                    .map(|local| nodes[local])
+                    .collect();
+                three.sort_unstable();
+                three
+            })
+        })
+        .collect();
+    for (kind, nodes, tag) in elements {
+        let mut corners = nodes[..kind.corners()].to_vec();
+        corners.sort_unstable();
+        if !seen.insert(corners) {
+            continue; // a group is a set
+        }
+        let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
+        let matrix = match Spread::of(kind) {
+            Some(Spread::Surface(kind)) => surface_matrix(kind, &coordinates),
+            Some(Spread::Volume(kind)) => measure_matrix(kind, &coordinates),
+            None => Ok(DMatrix::from_element(1, 1, 1.0)),
+        };
+        let matrix = matrix.map_err(|source| ModelError::Element {
+            path: mesh.source.display().to_string(),
+            tag,
+            source: Box::new(source),
+        })?;
+        total += matrix.sum();
+        let nodes = nodes.to_vec();
+        found.push(Share { nodes, matrix });
+    }
+    for share in &mut found {
+        share.matrix /= total;
+    }
+    Ok((found, total))
+}
+
+enum Spread {
+    Surface(SurfaceKind),
+    Volume(ContinuumKind),
+}
+
+impl Spread {
+    fn of(kind: ElementKind) -> Option<Self> {
+        match surface_kind(kind) {
+            Some(kind) => Some(Self::Surface(kind)),
+            None => continuum_kind(kind).map(Self::Volume),
+        }
+    }
+}
+
+/// The curve or surface element of a mesh element; `None` for points and volumes.
+pub(crate) fn surface_kind(kind: ElementKind) -> Option<SurfaceKind> {
+    match kind {
+        ElementKind::Line2 => Some(SurfaceKind::Line2),
+        ElementKind::Line3 => Some(SurfaceKind::Line3),
+        ElementKind::Tri3 => Some(SurfaceKind::Tri3),
+        ElementKind::Tri6 => Some(SurfaceKind::Tri6),
+        ElementKind::Quad4 => Some(SurfaceKind::Quad4),
+        ElementKind::Quad8 => Some(SurfaceKind::Quad8),
+        _ => None,
+    }
+}
+
+impl Share {
+    /// A node that carries everything by itself.
+    pub fn of_node(node: usize) -> Self {
+        Self {
+            nodes: vec![node],
+            matrix: DMatrix::from_element(1, 1, 1.0),
+        }
+    }
+}

@@ -1,0 +1,385 @@
+//! The surface of one side of a link, and the point of it that is nearest to a given one.
+
+use super::domain::Domain;
+use super::joint::SideFace;
+use super::spread::surface_kind;
+use crate::fe::element::continuum::{SurfaceKind, surface_shape};
+use crate::fe::mesh::Mesh;
+use nalgebra::{Matrix3, Vector3};
+
+/// Steps of the search for a foot; on a plane face one is enough, on a curved one each gains a factor of
+/// distance over radius of curvature.
+const STEPS: usize = 40;
+
+/// How far a curved face may bulge beyond the box of its nodes, relative to the box.
+const BULGE: f64 = 0.25;
+
+/// Curves (plane housings) or faces (solid ones), or as many single points.
+#[derive(Debug)]
+pub(super) struct Surface<'m> {
+    mesh: &'m Mesh,
+    faces: Vec<Face>,
+}
+
+#[derive(Debug)]
+struct Face {
+    kind: Option<SurfaceKind>,
+    nodes: Vec<usize>,
+    low: Vector3<f64>,
+    high: Vector3<f64>,
+}
+
+/// The nearest point of a surface, and how a point fixed to the surface there moves.
+#[derive(Debug, Clone)]
+pub(super) struct Foot {
+    /// Nodes of the face.
+    pub nodes: Vec<usize>,
+    /// The point's displacement is `sum_i follow_i u_i`: the face's at the foot and its rotation times the
+    /// gap, exact for every rigid motion.
+    pub follow: Vec<Matrix3<f64>>,
+    /// The nearest point, m.
+    pub place: [f64; 3],
+    /// Distance from the point to the foot, m.
+    pub distance: f64,
+    /// Size of the face: longest side of its box, m.
+    pub size: f64,
+}
+
+impl<'m> Surface<'m> {
+    /// The surface that these faces make.
+    pub fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
+        let face = |face: &SideFace| Face::new(mesh, surface_kind(face.kind), &face.nodes);
+        Self {
+            mesh,
+            faces: faces.iter().map(face).collect(),
+        }
+    }
+
+    /// The point nearest to `point` (m); `None` if the surface is empty.
+    pub fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
+        let point = Vector3::from(point);
+        let mut best: Option<(f64, &Face, [f64; 2])> = None;
+        for face in &self.faces {
+            let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
+            if face.box_distance(&point) >= limit {
+                continue;
+            }
+            let (natural, distance) = face.project(self.mesh, &point);
+            if distance < limit {
+                best = Some((distance, face, natural));
+            }
+        }
+        best.map(|(distance, face, natural)| face.foot(self.mesh, &point, natural, distance))
+    }
+}
+
+/// Place and tangents of a face at natural coordinates.
+struct Local {
+    place: Vector3<f64>,
+    tangents: [Vector3<f64>; 2],
+}
+
+impl Face {
+    fn new(mesh: &Mesh, kind: Option<SurfaceKind>, nodes: &[usize]) -> Self {
+        let (mut low, mut high) = (
+            Vector3::repeat(f64::INFINITY),
+            Vector3::repeat(-f64::INFINITY),
+        );
+        for &node in nodes {
+            let at = Vector3::from(mesh.nodes[node]);
+            (low, high) = (low.inf(&at), high.sup(&at));
+        }
+        let bulge = Vector3::repeat(BULGE * (high - low).max());
+        Self {
+            kind,
+            nodes: nodes.to_vec(),
+            low: low - bulge,
+            high: high + bulge,
+        }
+    }
+
+    fn box_distance(&self, point: &Vector3<f64>) -> f64 {
+        let outside = (self.low - point)
+            .sup(&(point - self.high))
+            .sup(&Vector3::zeros());
+        outside.norm()
+    }
+
+    fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
+        let mut local = Local {
+            place: Vector3::zeros(),
+            tangents: [Vector3::zeros(); 2],
+        };
+        let Some(kind) = self.kind else {
+            local.place = Vector3::from(mesh.nodes[self.nodes[0]]);
+            return local;
+        };
+        let (values, derivatives) = surface_shape(kind, natural);
+        for ((&node, value), derivative) in self.nodes.iter().zip(values).zip(derivatives) {
+            let at = Vector3::from(mesh.nodes[node]);
+            local.place += at * value;
+            for (tangent, factor) in local.tangents.iter_mut().zip(derivative) {
+                *tangent += at * factor;
+            }
+        }
+        local
+    }
+
+    /// Natural coordinates and distance of the nearest point: inside, or else on a side.
+    fn project(&self, mesh: &Mesh, point: &Vector3<f64>) -> ([f64; 2], f64) {
+        let distance = |natural| (self.at(mesh, natural).place - point).norm();
+        let Some(kind) = self.kind else {
+            return ([0.0; 2], distance([0.0; 2]));
+        };
+        let domain = Domain::of(kind);
+        if let Some(inside) = self.descend(mesh, point, domain.centre, &domain) {
+            return (inside, distance(inside));
+        }
+        let on_sides = domain
+            .sides
+            .iter()
+            .map(|side| self.descend_side(mesh, point, *side));
+        let nearest = on_sides.map(|natural| (natural, distance(natural)));
+        nearest
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or((domain.centre, f64::INFINITY))
+    }
+
+    /// Gauss-Newton on the squared distance; `None` if it leads out of the face.
+    fn descend(
+        &self,
+        mesh: &Mesh,
+        point: &Vector3<f64>,
+        from: [f64; 2],
+        domain: &Domain,
+    ) -> Option<[f64; 2]> {
+        let mut natural = from;
+        for _ in 0..STEPS {
+            let Local {
+                place,
+                tangents: [s, t],
+            } = self.at(mesh, natural);
+            let gap = point - place;
+            let step = match domain.dimension {
+                1 => [s.dot(&gap) / s.norm_squared(), 0.0],
+                _ => {
+                    let (ss, st, tt) = (s.norm_squared(), s.dot(&t), t.norm_squared());
+                    let determinant = ss * tt - st * st;
+                    let (a, b) = (s.dot(&gap), t.dot(&gap));
+                    [
+                        (tt * a - st * b) / determinant,
+                        (ss * b - st * a) / determinant,
+                    ]
+                }
+            };
+            natural = [natural[0] + step[0], natural[1] + step[1]];
+            if !domain.near(natural) {
+                return None;
+            }
+            if step[0].abs().max(step[1].abs()) < 1e-14 {
+                break;
+            }
+        }
+        domain.contains(natural).then_some(natural)
+    }
+
+    /// The same along a side between two corners, kept between them.
+    fn descend_side(&self, mesh: &Mesh, point: &Vector3<f64>, [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let natural = |s: f64| [a[0] + s * along[0], a[1] + s * along[1]];
+        let mut s: f64 = 0.5;
+        for _ in 0..STEPS {
+            let Local { place, tangents } = self.at(mesh, natural(s));
+            let tangent = tangents[0] * along[0] + tangents[1] * along[1];
+            let squared = tangent.norm_squared();
+            if squared <= 0.0 {
+                break;
+            }
+            let next = (s + tangent.dot(&(point - place)) / squared).clamp(0.0, 1.0);
+            let step = (next - s).abs();
+            s = next;
+            if step < 1e-14 {
+                break;
+            }
+        }
+        natural(s)
+    }
+
+    /// How a point at a gap from the face follows it: `u + omega x gap`, the rotation `omega` from the
+    /// derivatives of the face's displacements along it.
+    fn foot(&self, mesh: &Mesh, point: &Vector3<f64>, natural: [f64; 2], distance: f64) -> Foot {
+        let local = self.at(mesh, natural);
+        let gap = (point - local.place).cross_matrix();
+        let turns =
+            |derivative: [f64; 2]| -> Matrix3<f64> { rotation_rows(&local.tangents, derivative) };
+        let follow = match self.kind {
+            None => vec![Matrix3::identity()],
+            Some(kind) => {
+                let (values, derivatives) = surface_shape(kind, natural);
+                let nodes = self.nodes.len();
+                let pairs = values.into_iter().zip(derivatives).take(nodes);
+                pairs
+                    .map(|(value, derivative)| {
+                        Matrix3::from_diagonal_element(value) - gap * turns(derivative)
+                    })
+                    .collect()
+            }
+        };
+        Foot {
+            nodes: self.nodes.clone(),
+            follow,
+            place: local.place.into(),
+            distance,
+            size: (self.high - self.low).max() / (1.0 + 2.0 * BULGE),
+        }
+    }
+}
+
+/// Rotation of a face for a unit displacement of a node with these shape derivatives: with the tangents
+/// `t_a`, their reciprocals `t^a` and the normal n,
+/// `omega = -n x sum_a t^a (n . u_,a) + n/2 sum_a n . (t^a x u_,a)`; on a curve about the directions across it.
+fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f64> {
+    let normal = s.cross(t);
+    let area = normal.norm();
+    if area <= f64::MIN_POSITIVE {
+        let squared = s.norm_squared().max(f64::MIN_POSITIVE);
+        return (s / squared).cross_matrix() * derivative[0];
+    }
+    let normal = normal / area;
+    let reciprocal = [t.cross(&normal) / area, normal.cross(s) / area];
+    let mut rows = Matrix3::zeros();
+    for (direction, factor) in reciprocal.iter().zip(derivative) {
+        let across = normal.cross(direction);
+        rows += (normal * across.transpose() * 0.5 - across * normal.transpose()) * factor;
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fe::mesh::{ElementKind, MshFormat, MshVersion};
+    use std::path::PathBuf;
+
+    fn mesh(nodes: &[[f64; 3]]) -> Mesh {
+        Mesh {
+            nodes: nodes.to_vec(),
+            node_tags: (1..=nodes.len() as u64).collect(),
+            blocks: Vec::new(),
+            groups: Vec::new(),
+            format: MshFormat {
+                version: MshVersion::V41,
+                binary: false,
+            },
+            source: PathBuf::from("face"),
+        }
+    }
+
+    fn face(kind: ElementKind) -> SideFace {
+        SideFace {
+            kind,
+            nodes: (0..kind.nodes()).collect(),
+            tag: 1,
+        }
+    }
+
+    /// A warped quadrilateral, a curved triangle, an edge in the plane.
+    const FACES: [(ElementKind, &[[f64; 3]]); 3] = [
+        (
+            ElementKind::Quad4,
+            &[
+                [0.0, 0.0, 0.0],
+                [2.0, 0.1, 0.2],
+                [2.2, 1.9, 0.0],
+                [-0.1, 2.0, 0.3],
+            ],
+        ),
+        (
+            ElementKind::Tri6,
+            &[
+                [0.0, 0.0, 0.0],
+                [2.0, 0.0, 0.0],
+                [0.0, 2.0, 0.0],
+                [1.0, 0.0, 0.2],
+                [1.0, 1.0, 0.25],
+                [0.0, 1.0, 0.15],
+            ],
+        ),
+        (
+            ElementKind::Line3,
+            &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.3, 0.0]],
+        ),
+    ];
+
+    #[test]
+    fn a_point_beside_a_face_follows_every_rigid_motion() {
+        for (kind, nodes) in FACES {
+            let mesh = mesh(nodes);
+            let surface = Surface::new(&mesh, &[face(kind)]);
+            let plane = kind.dimension() == 1;
+            for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4]] {
+                let point = if plane {
+                    [point[0], point[1], 0.0]
+                } else {
+                    point
+                };
+                let foot = surface.nearest(point).expect("one face");
+                for motion in 0..6 {
+                    let unit = |k: usize| f64::from(u8::from(motion == k));
+                    let along = Vector3::new(unit(0), unit(1), unit(2));
+                    let about = Vector3::new(unit(3), unit(4), unit(5));
+                    if plane && (motion == 2 || motion == 3 || motion == 4) {
+                        continue; // out of the plane
+                    }
+                    let moves = |x: [f64; 3]| along + about.cross(&Vector3::from(x));
+                    let found: Vector3<f64> = foot
+                        .nodes
+                        .iter()
+                        .zip(&foot.follow)
+                        .map(|(&node, follow)| follow * moves(mesh.nodes[node]))
+                        .sum();
+                    let error = (found - moves(point)).norm();
+                    assert!(error < 1e-12, "{kind:?} {point:?} {motion}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_foot_is_the_nearest_of_many_points() {
+        for (kind, nodes) in FACES {
+            let mesh = mesh(nodes);
+            let faces = [face(kind)];
+            let surface = Surface::new(&mesh, &faces);
+            for point in [
+                [0.7, 0.6, 0.5],
+                [0.4, 0.9, -0.3],
+                [3.0, -1.0, 0.4],
+                [-1.0, 0.5, 0.0],
+            ] {
+                let at = Vector3::from(point);
+                let found = surface.nearest(point).expect("one face").distance;
+                let mut sampled = f64::INFINITY;
+                for i in 0..=200 {
+                    for j in 0..=200 {
+                        let (a, b) = (f64::from(i) / 200.0, f64::from(j) / 200.0);
+                        let natural = match kind {
+                            ElementKind::Tri6 => [a, b * (1.0 - a)],
+                            _ => [2.0 * a - 1.0, 2.0 * b - 1.0],
+                        };
+                        let place = surface.faces[0].at(&mesh, natural).place;
+                        sampled = sampled.min((place - at).norm());
+                    }
+                }
+                assert!(
+                    found <= sampled + 1e-12,
+                    "{kind:?} {point:?}: {found} {sampled}"
+                );
+                assert!(
+                    found > sampled - 2e-2,
+                    "{kind:?} {point:?}: {found} {sampled}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! The tie of a housing's bore to the ring's own interpolation.
+//!
+//! A bore node at angle theta and radius r moves with the ring's section there. In the plane,
+//!
+//! ```text
+//! u_r = w(theta)      u_t = u(theta) + (r - R_C) theta_z(theta)      bonded
+//! u_r = w(theta)      u_t free                                       sliding
+//! ```
+//!
+//! in space with the section's displacement and rotation `omega` about its centroid x_C,
+//!
+//! ```text
+//! u = u_C(theta) + omega(theta) x (x - x_C)                          bonded
+//! u_r of it           u_t, u_z free                                  sliding
+//! ```
+//!
+//! Each node takes the ring's displacement at its own angle, radius and axial place, so that no mesh has
+//! to match and rigid motions of ring and housing are one and the same, three or six.
+
+use super::{HousingModel, HousingPartition, ModelError, Ring};
+use crate::fe::mesh::Mesh;
+use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
+
+/// Deviation of a bore node from the ring's outer radius, and of the ring's plane from the bore, that a tie accepts,
+/// relative to that radius. Chords of a
+/// coarse first-order mesh keep their nodes on the circle; a wrong unit or centre does not.
+const RADIUS_TOLERANCE: f64 = 0.01;
+
+/// Whether the bore sticks to the ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fit {
+    /// All displacement components follow the ring.
+    Bonded,
+    /// The radial one follows, the others are free.
+    Sliding,
+}
+
+/// A tie, ready to partition the housing's degrees of freedom.
+///
+/// With a sliding fit the bore nodes' displacements are (radial, tangential, axial) instead of (x, y, z).
+#[derive(Debug, Clone)]
+pub struct RingTie {
+    partition: HousingPartition,
+    /// Turns the partition's displacements to the mesh's axes: `u = rotation u'` [dof x dof].
+    rotation: Option<SparseMatrix>,
+}
+
+impl RingTie {
+    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m).
+    ///
+    /// # Errors
+    /// [`ModelError::TieRadius`] or [`ModelError::TieAxial`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
+    /// [`ModelError::TiedTwice`], [`ModelError::RingDimension`] for a plane ring in a solid housing or the
+    /// other way round, and what finding the group reports.
+    pub fn new(
+        mesh: &Mesh,
+        housing: &HousingModel,
+        group: &str,
+        ring: &Ring,
+        outer_radius: f64,
+        fit: Fit,
+    ) -> Result<Self, ModelError> {
+        if ring.is_in_space() != (housing.dimension == 3) {
+            return Err(ModelError::RingDimension {
+                path: housing.path.clone(),
+            });
+        }
+        let bore = housing.group_on_housing(mesh, group, "the tie")?;
+        let on_housing = |node: &usize| housing.used[*node];
+        let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
+        check_radius(housing, group, &nodes, outer_radius)?;
+        check_axial(housing, group, &nodes, outer_radius)?;
+        check_free(housing, group, &nodes)?;
+        let d = housing.dimension;
+        let components = match fit {
+            Fit::Bonded => d,
+            Fit::Sliding => 1,
+        };
+        let mut driven = Vec::with_capacity(components * nodes.len());
+        let mut tie = TripletBuilder::new(components * nodes.len(), ring.dof());
+        for &node in &nodes {
+            let polar = section_rows(housing, ring, node);
+            let axes = housing.frame.polar_axes(housing.coordinates[node]);
+            for component in 0..components {
+                let along = axes.map(|axis| axis[component]);
+                let row = driven.len();
+                driven.push(d * node + component);
+                for (dof, moves) in &polar {
+                    let factor = match fit {
+                        Fit::Bonded => (0..3).map(|k| moves[k] * along[k]).sum(),
+                        Fit::Sliding => moves[0],
+                    };
+                    tie.add(row, *dof, factor);
+                }
+            }
+        }
+        let mut is_driven = vec![false; housing.dof()];
+        for &dof in &driven {
+            is_driven[dof] = true;
+        }
+        let free = housing.free_dofs().into_iter();
+        let interior = free.filter(|&dof| !is_driven[dof]).collect();
+        Ok(Self {
+            partition: HousingPartition {
+                driven,
+                interior,
+                tie: tie.build(),
+            },
+            rotation: (fit == Fit::Sliding).then(|| polar_rotation(housing, &nodes)),
+        })
+    }
+
+    /// The split of the housing's degrees of freedom.
+    pub fn partition(&self) -> &HousingPartition {
+        &self.partition
+    }
+
+    /// Matrix that turns the partition's displacements to the mesh's axes, if they are not along them already.
+    pub fn rotation(&self) -> Option<&SparseMatrix> {
+        self.rotation.as_ref()
+    }
+
+    /// The row of a displacement component at a node, in the partition's displacements:
+    /// pairs (degree of freedom, factor). `direction` is in the mesh's axes; its z does not count in the plane.
+    pub fn displacement_row(
+        &self,
+        housing: &HousingModel,
+        node: usize,
+        direction: [f64; 3],
+    ) -> Vec<(usize, f64)> {
+        let row = housing.displacement_row(node, direction);
+        let Some(rotation) = &self.rotation else {
+            return row;
+        };
+        let d = housing.dimension;
+        let turned = row.into_iter().flat_map(|(dof, factor)| {
+            let first = dof - dof % d;
+            (first..first + d).map(move |column| {
+                let turned = rotation.get(dof, column).copied().unwrap_or(0.0);
+                (column, factor * turned)
+            })
+        });
+        turned.collect()
+    }
+}
+
+/// Displacement (radial, tangential, axial) of the ring's section at a bore node, for each of the ring's
+/// degrees of freedom that moves it.
+fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize, [f64; 3])> {
+    let [x, y, z] = housing.frame.point(housing.coordinates[node]);
+    let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
+    match ring.space_rows_at(angle) {
+        None => {
+            let rows = ring.rows_at(angle);
+            let tangential = rows.tangential_at(arm);
+            let pairs = rows.dofs.into_iter().zip(rows.radial).zip(tangential);
+            pairs.map(|((dof, w), u)| (dof, [w, u, 0.0])).collect()
+        }
+        Some(rows) => (0..rows.dofs.len())
+            .map(|k| {
+                // u_C + omega x (arm e_r + z e_z)
+                let moves = [
+                    rows.radial[k] + z * rows.about_tangential[k],
+                    rows.tangential[k] + arm * rows.about_axial[k] - z * rows.about_radial[k],
+                    rows.axial[k] - arm * rows.about_tangential[k],
+                ];
+                (rows.dofs[k], moves)
+            })
+            .collect(),
+    }
+}
+
+fn check_radius(
+    housing: &HousingModel,
+    group: &str,
+    nodes: &[usize],
+    outer_radius: f64,
+) -> Result<(), ModelError> {
+    let radius = |&node: &usize| {
+        let [x, y, _] = housing.frame.point(housing.coordinates[node]);
+        x.hypot(y)
+    };
+    let nearest = nodes.iter().map(radius).fold(f64::INFINITY, f64::min);
+    let farthest = nodes.iter().map(radius).fold(0.0, f64::max);
+    let tolerance = RADIUS_TOLERANCE * outer_radius;
+    if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
+        return Err(ModelError::TieRadius {
+            path: housing.path.clone(),
+            group: group.to_owned(),
+            expected: outer_radius,
+            nearest,
+            farthest,
+            frame: Box::new(housing.frame),
+        });
+    }
+    Ok(())
+}
+
+/// In space the ring's plane cuts the bore: a section that reached beyond it as a rigid arm would be stiffer than any bore.
+fn check_axial(
+    housing: &HousingModel,
+    group: &str,
+    nodes: &[usize],
+    outer_radius: f64,
+) -> Result<(), ModelError> {
+    let along = |&node: &usize| housing.frame.point(housing.coordinates[node])[2];
+    let lowest = nodes.iter().map(along).fold(f64::INFINITY, f64::min);
+    let highest = nodes.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+    let tolerance = RADIUS_TOLERANCE * outer_radius;
+    if housing.dimension == 3 && (lowest > tolerance || highest < -tolerance) {
+        return Err(ModelError::TieAxial {
+            path: housing.path.clone(),
+            group: group.to_owned(),
+            lowest,
+            highest,
+            frame: Box::new(housing.frame),
+        });
+    }
+    Ok(())
+}
+
+/// No node of the bore is fixed or tied by a link.
+fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<(), ModelError> {
+    for &node in nodes {
+        if let Some(&support) = housing.fixed[node].iter().flatten().next() {
+            return Err(ModelError::TiedAndFixed {
+                path: housing.path.clone(),
+                tag: housing.node_tags[node],
+                tied: group.to_owned(),
+                fixed: housing.supports[support].group.clone(),
+            });
+        }
+        if housing.tied.contains_key(&node) {
+            return Err(ModelError::TiedTwice {
+                path: housing.path.clone(),
+                tag: housing.node_tags[node],
+                bore: group.to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Identity but for the bore nodes, whose displacements become (radial, tangential, axial).
+fn polar_rotation(housing: &HousingModel, nodes: &[usize]) -> SparseMatrix {
+    let d = housing.dimension;
+    let mut polar = vec![false; housing.coordinates.len()];
+    for &node in nodes {
+        polar[node] = true;
+    }
+    let mut rotation = TripletBuilder::new(housing.dof(), housing.dof());
+    for (node, &point) in housing.coordinates.iter().enumerate() {
+        if !polar[node] {
+            (d * node..d * node + d).for_each(|dof| rotation.add(dof, dof, 1.0));
+            continue;
+        }
+        let axes = housing.frame.polar_axes(point);
+        for (k, axis) in axes.iter().enumerate().take(d) {
+            for (i, &component) in axis.iter().enumerate().take(d) {
+                rotation.add(d * node + i, d * node + k, component);
+            }
+        }
+    }
+    rotation.build()
+}

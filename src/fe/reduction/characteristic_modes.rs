@@ -1,0 +1,192 @@
+//! Characteristic constraint modes: the motions of an interface by what they cost, softest first.
+//!
+//! ```text
+//! (k_bb + k_a) r = lambda (m_bb + m_a) r          r^T (m_bb + m_a) r = 1
+//! ```
+//!
+//! k_a, m_a are of what is attached (a bearing's ring): an interface moves as the coupled structure lets it, not as the
+//! housing alone would. The interface condensed statically has these modes (Castanier, Tan and Pierre, AIAA Journal 39
+//! (2001) 1182-1187).
+//!
+//! Rigid motions that nothing holds come first, as they are, and the modes are those of the motions orthogonal to them. Where
+//! nothing holds what is attached either, these are the modes at zero themselves; where something does, the modes
+//! alone would hold no rigid motion, and the condensed housing would be tied to the ground.
+
+use super::coupled_modes::{Attached, interface_matrices};
+use super::{ReductionError, Substructure};
+use crate::numerics::linalg::{DenseMatrix, symmetric_eigen, symmetric_generalised_eigen};
+use std::f64::consts::TAU;
+
+/// Squared length of a combination of rigid motions beside the longest, below which it is dependent on the others.
+const DEPENDENT: f64 = 1e-12;
+
+/// How many modes of an interface are kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum InterfaceSize {
+    /// So many, rigid motions among them.
+    Count(usize),
+    /// Those up to a frequency, Hz.
+    UpTo(f64),
+}
+
+/// All characteristic constraint modes of an interface.
+#[derive(Debug, Clone)]
+pub struct CharacteristicModes {
+    /// Squared frequencies, 1/s^2, ascending; 0 of the rigid motions.
+    pub(super) values: Vec<f64>,
+    /// [interface x modes].
+    pub(super) vectors: DenseMatrix,
+    /// m_bb + m_a [interface x interface], kg.
+    pub(super) mass: DenseMatrix,
+    /// k_bb + k_a [interface x interface], N/m.
+    pub(super) stiffness: DenseMatrix,
+    rigid: usize,
+}
+
+/// Share of the interface's static flexibility that kept modes lack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LostFlexibility {
+    /// The largest of all coordinates, 0 to 1.
+    pub largest: f64,
+    /// Their mean.
+    pub mean: f64,
+}
+
+impl CharacteristicModes {
+    /// Modes of the interface of a housing with what is attached; `rigid` are the motions of the interface
+    /// [interface x r] with which the housing moves as a rigid body and that nothing holds: all of them.
+    ///
+    /// # Errors
+    /// What the dense eigenvalue solver reports.
+    pub fn of(
+        substructure: &Substructure,
+        attached: Option<Attached<'_>>,
+        rigid: &DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let [stiffness, mass] = interface_matrices(substructure, attached);
+        let rigid = orthonormal(rigid, &mass)?;
+        let spectrum = symmetric_generalised_eigen(&without(&stiffness, &mass, &rigid), &mass)?;
+        let count = rigid.ncols();
+        // a motion without mass has an infinite value; it moves nothing of the interior
+        let finite = spectrum.values.partition_point(|value| value.is_finite());
+        let vectors =
+            DenseMatrix::from_fn(rigid.nrows(), finite.max(count), |row, mode| match mode {
+                mode if mode < count => rigid[(row, mode)],
+                mode => spectrum.vectors[(row, mode)],
+            });
+        let values = (0..vectors.ncols())
+            .map(|mode| match mode {
+                mode if mode < count => 0.0,
+                mode => spectrum.values[mode],
+            })
+            .collect();
+        Ok(Self {
+            values,
+            vectors,
+            mass,
+            stiffness,
+            rigid: count,
+        })
+    }
+
+    /// Number of modes.
+    pub fn count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// How many of the first ones are rigid motions.
+    pub fn rigid(&self) -> usize {
+        self.rigid
+    }
+
+    /// Frequency of a mode, Hz; `None` beyond the last.
+    pub fn frequency_hz(&self, mode: usize) -> Option<f64> {
+        let value = self.values.get(mode)?;
+        Some(value.max(0.0).sqrt() / TAU)
+    }
+
+    /// How many modes a size keeps; all if it asks for more than there are.
+    ///
+    /// # Errors
+    /// [`ReductionError::FewInterfaceModes`] for fewer than the rigid motions, or none.
+    pub fn kept(&self, size: InterfaceSize) -> Result<usize, ReductionError> {
+        let asked = match size {
+            InterfaceSize::Count(count) => count.min(self.count()),
+            InterfaceSize::UpTo(hz) => {
+                let value = (TAU * hz).powi(2);
+                self.values.partition_point(|&found| found <= value)
+            }
+        };
+        let least = self.rigid.max(1);
+        if asked < least {
+            return Err(ReductionError::FewInterfaceModes {
+                found: asked,
+                least,
+                first_hz: self.frequency_hz(0).unwrap_or(f64::INFINITY),
+            });
+        }
+        Ok(asked)
+    }
+
+    /// What the first `kept` modes lack of the interface's flexibility under a unit load on each coordinate, rigid motions
+    /// taken out of all: `1 - sum_kept (r_j^2 / lambda) / sum_all (r_j^2 / lambda)`.
+    pub fn lost_flexibility(&self, kept: usize) -> LostFlexibility {
+        let interface = self.vectors.nrows();
+        let (mut of_kept, mut of_all) = (vec![0.0; interface], vec![0.0; interface]);
+        for mode in self.rigid..self.count() {
+            let value = self.values[mode];
+            if value <= 0.0 {
+                continue;
+            }
+            for (row, entry) in self.vectors.col_as_slice(mode).iter().enumerate() {
+                let flexibility = entry * entry / value;
+                of_all[row] += flexibility;
+                if mode < kept {
+                    of_kept[row] += flexibility;
+                }
+            }
+        }
+        let both = of_kept.iter().zip(&of_all);
+        let lost: Vec<f64> = both
+            .map(|(kept, all)| {
+                if *all > 0.0 {
+                    (1.0 - kept / all).max(0.0)
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        LostFlexibility {
+            largest: lost.iter().copied().fold(0.0, f64::max),
+            mean: lost.iter().sum::<f64>() / interface.max(1) as f64,
+        }
+    }
+}
+
+/// A basis of the columns of `motions` [n x r] with `V^T M V = 1`.
+fn orthonormal(motions: &DenseMatrix, mass: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+    let gram = symmetric_eigen(&(motions.transpose() * (mass * motions)))?;
+    let longest = gram.values.last().copied().unwrap_or(0.0);
+    let kept: Vec<usize> = (0..gram.values.len())
+        .filter(|&place| gram.values[place] > DEPENDENT * longest)
+        .collect();
+    let normal = DenseMatrix::from_fn(motions.ncols(), kept.len(), |row, column| {
+        gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
+    });
+    Ok(motions * normal)
+}
+
+/// `P^T K P` with `P = 1 - V V^T M`: the stiffness of motions that are orthogonal to V, none of V.
+fn without(stiffness: &DenseMatrix, mass: &DenseMatrix, v: &DenseMatrix) -> DenseMatrix {
+    if v.ncols() == 0 {
+        return stiffness.clone();
+    }
+    let (moved, stiff) = (mass * v, stiffness * v);
+    let own = v.transpose() * &stiff;
+    // K - (K V) (M V)^T - (M V) (K V)^T + (M V) (V^T K V) (M V)^T
+    let one_side = &stiff - &moved * (own * faer::Scale(0.5));
+    let product = &one_side * moved.transpose();
+    DenseMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |row, column| {
+        stiffness[(row, column)] - (product[(row, column)] + product[(column, row)])
+    })
+}

@@ -1,0 +1,144 @@
+//! Constraint modes and interior vectors against the matrices that they were computed from.
+
+use super::matrices::largest;
+use super::{Check, CraigBampton};
+use crate::fe::assembly::SystemMatrices;
+use crate::numerics::linalg::{
+    DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense,
+};
+use std::f64::consts::TAU;
+
+/// Equations solved through a factor in double precision: its contraction is below 1e-8 for a matrix worth solving
+/// with.
+const STATIC: f64 = 1e-8;
+
+/// Products of vectors against what the superelement holds: orthogonality of computed modes.
+const PRODUCTS: f64 = 1e-8;
+
+/// Name of the check that modes of the interface do not keep.
+pub(super) const STATIC_INTERFACE: &str = "static interface";
+
+/// Interface motions with which static response is tried.
+const TRIALS: usize = 3;
+
+pub(super) fn checks(
+    condensed: &CraigBampton,
+    matrices: &SystemMatrices,
+    band_hz: f64,
+) -> Vec<Check> {
+    let substructure = &condensed.substructure;
+    let q = condensed.basis.vectors();
+    let values = condensed.basis.values();
+    let (moved, stiff) = (substructure.mass_times(q), substructure.stiffness_times(q));
+    let gram = q.transpose() * &moved;
+    let energy = q.transpose() * &stiff;
+    let pairs = || (0..q.ncols()).flat_map(|column| (0..q.ncols()).map(move |row| (row, column)));
+    let unit = |row: usize, column: usize| f64::from(u8::from(row == column));
+    let coupling = coupling(condensed, matrices);
+    let [interior, reaction] = statics(condensed, matrices);
+    let complete = condensed.basis.complete_below().sqrt() / TAU;
+    vec![
+        Check::at_most(
+            "vectors orthonormal",
+            "largest |Q^T M_ii Q - 1|",
+            largest(pairs().map(|(row, column)| gram[(row, column)] - unit(row, column))),
+            PRODUCTS,
+        ),
+        Check::at_most(
+            "vectors diagonalise",
+            "largest |Q^T K_ii Q - k_qq|, relative to both diagonals",
+            largest(pairs().map(|(row, column)| {
+                let expected = unit(row, column) * values[row];
+                (energy[(row, column)] - expected) / (values[row] * values[column]).sqrt()
+            })),
+            PRODUCTS,
+        ),
+        Check::at_most(
+            "constraint modes orthogonal",
+            "largest stiffness between constraint modes and interior vectors, relative to both",
+            coupling,
+            STATIC,
+        ),
+        Check::at_most(
+            "static interior",
+            "|K_ii x + K_ib T u| / |K_ib T u| for interface motions u without pattern",
+            interior,
+            STATIC,
+        ),
+        Check::at_most(
+            STATIC_INTERFACE,
+            "|reaction of the full matrices - k_bb u| / |T^T K_bb T u| for the same motions",
+            reaction,
+            STATIC,
+        ),
+        Check::at_least(
+            "band covered",
+            format!(
+                "frequency up to which all fixed-interface modes are kept ({complete:.0} Hz) / top of the band ({band_hz:.0} Hz)"
+            ),
+            complete / band_hz,
+            1.0,
+        ),
+    ]
+}
+
+/// `Q^T (K_ii Psi + K_ib T)` in units of the energies of both.
+fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
+    let substructure = &condensed.substructure;
+    let partition = substructure.partition();
+    let (q, values) = (condensed.basis.vectors(), condensed.basis.values());
+    if q.ncols() == 0 {
+        return 0.0;
+    }
+    let k_ib = submatrix(&matrices.stiffness, &partition.interior, &partition.driven);
+    let stiff = substructure.stiffness_times(q);
+    let product = stiff.transpose() * substructure.constraint_modes()
+        + transpose_times_dense(&partition.tie, &transpose_times_dense(&k_ib, q)).transpose();
+    let k_bb = &condensed.superelement.stiffness;
+    let typical = (0..substructure.interface_dof()).map(|row| k_bb[(row, row)]);
+    let typical = typical.fold(f64::MIN_POSITIVE, f64::max);
+    let entries = (0..product.ncols()).flat_map(|column| {
+        let product = &product;
+        (0..product.nrows()).map(move |row| product[(row, column)] / (values[row] * typical).sqrt())
+    });
+    largest(entries)
+}
+
+/// Residual of the interior and of the reaction for some interface motions, by the full matrices.
+fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
+    let substructure = &condensed.substructure;
+    let partition = substructure.partition();
+    let interface = substructure.interface_dof();
+    let u = DenseMatrix::from_fn(interface, TRIALS, |row, column| {
+        // irrational steps: no motion is a pattern of the interface
+        ((row + 1) as f64 * (1.0 + column as f64 * 0.414_213_562)).sin()
+    });
+    let coordinates =
+        DenseMatrix::from_fn(condensed.superelement.order(), TRIALS, |row, column| {
+            if row < interface {
+                u[(row, column)]
+            } else {
+                0.0
+            }
+        });
+    let k: &SparseMatrix = &matrices.stiffness;
+    let x = condensed.field(&coordinates, k.rows());
+    let force = sparse_times_dense(k, &x);
+    let pick = |dofs: &[usize], from: &DenseMatrix| {
+        DenseMatrix::from_fn(dofs.len(), TRIALS, |row, column| from[(dofs[row], column)])
+    };
+    let driven = pick(&partition.driven, &x);
+    let k_ib = submatrix(k, &partition.interior, &partition.driven);
+    let pulled = sparse_times_dense(&k_ib, &driven);
+    let residual = pick(&partition.interior, &force);
+    let reaction = transpose_times_dense(&partition.tie, &pick(&partition.driven, &force));
+    let expected = condensed.superelement.stiffness.subrows(0, interface) * &coordinates;
+    // the reaction of a free body may be zero; that of its interface alone is not
+    let k_bb = submatrix(k, &partition.driven, &partition.driven);
+    let alone = transpose_times_dense(&partition.tie, &sparse_times_dense(&k_bb, &driven));
+    let scale = |a: &DenseMatrix| a.norm_l2().max(f64::MIN_POSITIVE);
+    [
+        residual.norm_l2() / scale(&pulled),
+        (&reaction - &expected).norm_l2() / scale(&alone),
+    ]
+}

@@ -1,0 +1,125 @@
+//! Symmetry, definiteness and block structure of a superelement's matrices.
+
+use super::{Check, ReductionError, Superelement};
+use crate::numerics::linalg::{DenseMatrix, acting_motions, congruent, symmetric_eigen};
+
+/// Asymmetry: matrices are symmetrised when they are made, and files keep 16 digits.
+const SYMMETRY: f64 = 1e-12;
+
+/// Smallest eigenvalue of a matrix scaled to a unit diagonal that is not round-off of its entries (1e-16 times an order
+/// of a few hundred).
+const DEFINITE: f64 = 1e-13;
+
+/// Negative eigenvalues of a stiffness that is singular by its rigid motions are round-off of its entries; what is
+/// computed through a factor of condition 1e6 keeps ten digits.
+const SEMIDEFINITE: f64 = -1e-9;
+
+/// What stands in a block that is zero in theory, and how far from one a unit diagonal is: the products of computed
+/// modes, of which residuals are below 1e-5 and errors of orthogonality below the square of that.
+const BLOCK: f64 = 1e-8;
+
+pub(super) fn checks(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
+    let (k, m) = (&element.stiffness, &element.mass);
+    let (b, n) = (element.interface_dof, element.order());
+    let lowest_k = symmetric_eigen(&scaled(k))?;
+    let acting = acting_motions(k, m)?;
+    let lowest_m = match &acting {
+        Some(basis) => symmetric_eigen(&scaled(&congruent(m, basis)))?,
+        None => symmetric_eigen(&scaled(m))?,
+    };
+    let idle = acting.map_or(0, |basis| n - basis.ncols());
+    let first = |values: &[f64]| values.first().copied().unwrap_or(1.0);
+    let modal = b..n;
+    let coupling = modal.clone().flat_map(|q| (0..b).map(move |row| (row, q)));
+    let coupling = largest(coupling.map(|(row, q)| k[(row, q)] / root(k, row, q)));
+    let unit = modal
+        .clone()
+        .flat_map(|q| modal.clone().map(move |p| (p, q)));
+    let unit = largest(unit.map(|(p, q)| m[(p, q)] - f64::from(u8::from(p == q))));
+    let diagonal = modal.clone().flat_map(|q| (b..q).map(move |p| (p, q)));
+    let diagonal = largest(diagonal.map(|(p, q)| k[(p, q)] / root(k, p, q)));
+    Ok(vec![
+        Check::at_most(
+            "stiffness symmetry",
+            "largest |k - k^T| / largest |k|",
+            asymmetry(k),
+            SYMMETRY,
+        ),
+        Check::at_most(
+            "mass symmetry",
+            "largest |m - m^T| / largest |m|",
+            asymmetry(m),
+            SYMMETRY,
+        ),
+        Check::at_least(
+            "stiffness semidefinite",
+            "lowest eigenvalue of k scaled to a unit diagonal",
+            first(&lowest_k.values),
+            SEMIDEFINITE,
+        ),
+        Check::at_least(
+            "mass definite",
+            match idle {
+                0 => "lowest eigenvalue of m scaled to a unit diagonal".to_owned(),
+                _ => format!(
+                    "lowest eigenvalue of m scaled to a unit diagonal, without {idle} motions that have neither stiffness nor mass"
+                ),
+            },
+            first(&lowest_m.values),
+            DEFINITE,
+        ),
+        Check::at_most(
+            "k_bq = 0",
+            "largest stiffness between interface and modal amplitudes, relative to both diagonals",
+            coupling,
+            BLOCK,
+        ),
+        Check::at_most(
+            "k_qq diagonal",
+            "largest stiffness between modal amplitudes, relative to both diagonals",
+            diagonal,
+            BLOCK,
+        ),
+        Check::at_most("m_qq = 1", "largest |m_qq - 1|", unit, BLOCK),
+    ])
+}
+
+fn root(a: &DenseMatrix, row: usize, column: usize) -> f64 {
+    let product = (a[(row, row)] * a[(column, column)]).abs().sqrt();
+    if product > 0.0 { product } else { 1.0 }
+}
+
+/// Largest magnitude; not a number if one of them is none.
+pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest: f64, value| {
+        if value.is_nan() {
+            value
+        } else {
+            largest.max(value.abs())
+        }
+    })
+}
+
+fn asymmetry(a: &DenseMatrix) -> f64 {
+    let scale = a.norm_max();
+    let pairs = (0..a.ncols()).flat_map(|column| (0..column).map(move |row| (row, column)));
+    let found = largest(pairs.map(|(row, column)| a[(row, column)] - a[(column, row)]));
+    if scale > 0.0 { found / scale } else { found }
+}
+
+/// `D A D` with a unit diagonal; a row without a diagonal stays as it is.
+fn scaled(a: &DenseMatrix) -> DenseMatrix {
+    let scale: Vec<f64> = (0..a.nrows())
+        .map(|row| {
+            let diagonal = a[(row, row)];
+            if diagonal > 0.0 {
+                diagonal.sqrt().recip()
+            } else {
+                1.0
+            }
+        })
+        .collect();
+    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| {
+        0.5 * scale[row] * (a[(row, column)] + a[(column, row)]) * scale[column]
+    })
+}

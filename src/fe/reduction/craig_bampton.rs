@@ -1,0 +1,209 @@
+//! Craig-Bampton condensation: constraint modes and a basis of the interior become a superelement.
+//!
+//! ```text
+//! k = [[k_bb, 0], [0, diag(values)]]      m = [[m_bb, A^T Q], [Q^T A, 1]]
+//! ```
+//!
+//! (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319.) Static interface response is exact; frequencies converge from
+//! above.
+
+use super::coupled_modes::reduced_matrices;
+use super::selection::{BasisChoice, choose_basis};
+use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
+use crate::fe::assembly::SystemMatrices;
+use crate::fe::model::HousingPartition;
+use crate::numerics::linalg::{
+    DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense,
+};
+
+/// Columns that are condensed at once.
+const BLOCK: usize = 64;
+
+/// A condensed housing with the way back to its nodes.
+#[derive(Debug, Clone)]
+pub struct CraigBampton {
+    /// The housing's split, its factor and its constraint modes.
+    pub substructure: Substructure,
+    /// What the interior may do beside following the interface.
+    pub basis: InteriorBasis,
+    /// The reduced matrices.
+    pub superelement: Superelement,
+}
+
+/// Condenses a housing on the interface of `partition` with a basis as `choice` asks for; `attached` is what it will
+/// be attached to, which decides which of its motions matter.
+///
+/// # Errors
+/// [`ReductionError`] of the split, of the eigenvalue iteration, and of a basis that does not become good enough.
+pub fn craig_bampton(
+    matrices: &SystemMatrices,
+    partition: &HousingPartition,
+    choice: BasisChoice,
+    attached: Option<Attached<'_>>,
+) -> Result<CraigBampton, ReductionError> {
+    let substructure = Substructure::new(matrices, partition)?;
+    let basis = choose_basis(&substructure, choice, attached)?;
+    Ok(CraigBampton::new(substructure, basis, &matrices.weight))
+}
+
+impl CraigBampton {
+    /// The superelement of a basis; `weight` is that of the housing along the bearing's x and y [dof x 2], kg.
+    pub fn new(substructure: Substructure, basis: InteriorBasis, weight: &DenseMatrix) -> Self {
+        let [stiffness, mass] = reduced_matrices(&substructure, &basis, None);
+        let superelement = Superelement {
+            stiffness,
+            mass,
+            weight: DenseMatrix::zeros(0, 0),
+            structural: None,
+            interface_dof: substructure.interface_dof(),
+        };
+        let mut condensed = Self {
+            substructure,
+            basis,
+            superelement,
+        };
+        condensed.superelement.weight = condensed.project(weight);
+        condensed
+    }
+
+    /// The same with the imaginary part of the stiffness of lossy parts [dof x dof], N/m.
+    pub fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
+        self.superelement.structural = Some(self.condensed(matrix));
+        self
+    }
+
+    /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
+    /// the mesh stays the weight of the mesh, whatever the basis keeps.
+    pub fn project(&self, load: &DenseMatrix) -> DenseMatrix {
+        let partition = self.substructure.partition();
+        let pick = |dofs: &[usize]| {
+            DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| {
+                load[(dofs[row], column)]
+            })
+        };
+        let (interior, driven) = (pick(&partition.interior), pick(&partition.driven));
+        let interface = transpose_times_dense(&partition.tie, &driven)
+            + self.substructure.constraint_modes().transpose() * &interior;
+        let modal = self.basis.vectors().transpose() * &interior;
+        let first = interface.nrows();
+        DenseMatrix::from_fn(
+            self.superelement.order(),
+            load.ncols(),
+            |row, column| match row.checked_sub(first) {
+                None => interface[(row, column)],
+                Some(mode) => modal[(mode, column)],
+            },
+        )
+    }
+
+    /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
+    pub fn condensed(&self, matrix: &SparseMatrix) -> DenseMatrix {
+        let order = self.superelement.order();
+        let mut condensed = DenseMatrix::zeros(order, order);
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let unit = DenseMatrix::from_fn(order, width, |row, column| {
+                f64::from(u8::from(row == first + column))
+            });
+            let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
+            let block = self.project(&moved);
+            for column in 0..width {
+                condensed
+                    .col_as_slice_mut(first + column)
+                    .copy_from_slice(block.col_as_slice(column));
+            }
+        }
+        condensed
+    }
+
+    /// The same housing with further vectors in its basis: the static response of the interior to loads
+    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too. Structural damping is to be added
+    /// again.
+    ///
+    /// # Errors
+    /// As [`InteriorBasis::extended`].
+    pub fn with_loads(
+        self,
+        loads: &DenseMatrix,
+        weight: &DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let interior = &self.substructure.partition().interior;
+        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
+            loads[(interior[row], column)]
+        });
+        self.with_forces(inside, weight)
+    }
+
+    /// The same for forces on the interior [interior x k].
+    ///
+    /// # Errors
+    /// As [`InteriorBasis::extended`].
+    pub fn with_forces(
+        self,
+        forces: DenseMatrix,
+        weight: &DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let static_response = self.substructure.solve_interior(forces)?;
+        let basis = self.basis.extended(&self.substructure, static_response)?;
+        Ok(Self::new(self.substructure, basis, weight))
+    }
+
+    /// Estimated errors of the frequencies in a band, with what will be attached.
+    ///
+    /// # Errors
+    /// As [`ErrorEstimate::of`].
+    pub fn estimate(
+        &self,
+        attached: Option<Attached<'_>>,
+        band_hz: f64,
+    ) -> Result<ErrorEstimate, ReductionError> {
+        ErrorEstimate::of(&self.substructure, &self.basis, attached, band_hz)
+    }
+
+    /// Data recovery: the row that gives a degree of freedom of the housing from the coordinates
+    /// \[order\]; `None` for one that is fixed.
+    pub fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
+        let partition = self.substructure.partition();
+        let interface = self.superelement.interface_dof;
+        if let Ok(place) = partition.interior.binary_search(&dof) {
+            let psi = self.substructure.constraint_modes();
+            let q = self.basis.vectors();
+            let constraint = (0..interface).map(|column| psi[(place, column)]);
+            let modal = (0..q.ncols()).map(|mode| q[(place, mode)]);
+            return Some(constraint.chain(modal).collect());
+        }
+        let place = partition.driven.iter().position(|&b| b == dof)?;
+        let mut row = vec![0.0; self.superelement.order()];
+        for (column, entries) in partition.tie.outer_iterator().enumerate() {
+            row[column] = entries.get(place).copied().unwrap_or(0.0);
+        }
+        Some(row)
+    }
+
+    /// Whole-field recovery: displacements over all degrees of freedom of the housing [dof x k] for coordinates
+    /// [order x k]; fixed ones are zero.
+    pub fn field(&self, coordinates: &DenseMatrix, dof: usize) -> DenseMatrix {
+        let partition = self.substructure.partition();
+        let interface = self.superelement.interface_dof;
+        let boundary = coordinates.subrows(0, interface);
+        let amplitudes = coordinates.subrows(interface, self.basis.count());
+        let interior =
+            self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
+        let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
+        let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
+        for column in 0..coordinates.ncols() {
+            let to = all.col_as_slice_mut(column);
+            for (&dof, &value) in partition.interior.iter().zip(interior.col_as_slice(column)) {
+                to[dof] = value;
+            }
+            for (&dof, &value) in partition.driven.iter().zip(driven.col_as_slice(column)) {
+                to[dof] = value;
+            }
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+#[path = "craig_bampton_tests.rs"]
+mod tests;

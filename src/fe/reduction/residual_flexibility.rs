@@ -1,0 +1,110 @@
+//! What the interior of a condensed housing would still move, in statics, under forces that its basis does not carry.
+//!
+//! The basis Q carries the part `Q diag(1/values) Q^T` of the interior's static response to forces F; the rest, the residual
+//! flexibility of what is left out (MacNeal, Computers and Structures 1 (1971) 581-601), is
+//!
+//! ```text
+//! W = (K_ii^-1 - Q diag(1/values) Q^T) F
+//! ```
+//!
+//! Moving with coordinates p, the interior needs the forces `w^2 B p - i S p`: its inertia, `B = [A, M_ii Q]`, and the losses
+//! of its material, S those of the structural stiffness.
+
+use super::coupled_modes::interior_inertia;
+use super::{CraigBampton, InteriorBasis, ReductionError, Substructure};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
+use faer::c64;
+
+/// Share of the first eigenvalue left out up to which the rest of the series is summed: nearer to it, or above, that sum
+/// says nothing.
+const NEAREST: f64 = 0.9;
+
+/// Residual flexibility for some forces on the interior, in columns [interior x k].
+#[derive(Debug, Clone)]
+pub struct ResidualFlexibility {
+    /// `W^T K_ii W` [k x k].
+    flexibility: DenseMatrix,
+    /// `W^T M_ii W` [k x k].
+    inertia: DenseMatrix,
+    complete_below: f64,
+}
+
+impl ResidualFlexibility {
+    /// For forces F [interior x k].
+    ///
+    /// # Errors
+    /// [`ReductionError::Linalg`].
+    pub fn new(
+        substructure: &Substructure,
+        basis: &InteriorBasis,
+        forces: DenseMatrix,
+    ) -> Result<Self, ReductionError> {
+        let moved = left_out(substructure, basis, forces)?;
+        Ok(Self {
+            flexibility: moved.transpose() * substructure.stiffness_times(&moved),
+            inertia: moved.transpose() * substructure.mass_times(&moved),
+            complete_below: basis.complete_below(),
+        })
+    }
+
+    /// What a response lacks at a squared angular frequency lambda (1/s^2), from amplitudes l of the forces in the
+    /// residual of the response to the load, and s in that of the response to a unit force at the sensor:
+    ///
+    /// ```text
+    /// e = s^T (G_0 + lambda / (1 - lambda / lambda_cut) G_1) l
+    /// ```
+    ///
+    /// with `G_0 = W^T K_ii W`, `G_1 = W^T M_ii W` and `lambda_cut` that of the first fixed-interface mode left out: a
+    /// geometric series from its second term on. Damping of what is left out is neglected.
+    pub fn missing(&self, squared: f64, load: &[c64], sensor: &[c64]) -> c64 {
+        let ratio = (squared / self.complete_below).min(NEAREST);
+        let further = squared / (1.0 - ratio);
+        let mut sum = c64::new(0.0, 0.0);
+        for (column, &load) in load.iter().enumerate() {
+            let pulled: c64 = sensor
+                .iter()
+                .enumerate()
+                .map(|(row, &sensor)| {
+                    let entry = (row, column);
+                    sensor * (self.flexibility[entry] + further * self.inertia[entry])
+                })
+                .sum();
+            sum += pulled * load;
+        }
+        sum
+    }
+}
+
+/// W for forces in columns [interior x k].
+fn left_out(
+    substructure: &Substructure,
+    basis: &InteriorBasis,
+    forces: DenseMatrix,
+) -> Result<DenseMatrix, ReductionError> {
+    let mut carried = basis.vectors().transpose() * &forces;
+    for column in 0..carried.ncols() {
+        let values = carried.col_as_slice_mut(column).iter_mut();
+        for (entry, value) in values.zip(basis.values()) {
+            *entry /= value;
+        }
+    }
+    Ok(substructure.solve_interior(forces)? - basis.vectors() * carried)
+}
+
+impl CraigBampton {
+    /// `B p` for motions in columns [order x k]: what the interior needs for their inertia, per unit of squared frequency
+    /// [interior x k].
+    pub fn inertia_of(&self, motions: &DenseMatrix) -> DenseMatrix {
+        interior_inertia(&self.substructure, &self.basis, motions)
+    }
+
+    /// `S p` for motions in columns [order x k]: what a matrix over the housing's degrees of freedom takes of the interior
+    /// [interior x k].
+    pub fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
+        let whole = sparse_times_dense(matrix, &self.field(motions, matrix.rows()));
+        let interior = &self.substructure.partition().interior;
+        DenseMatrix::from_fn(interior.len(), whole.ncols(), |row, column| {
+            whole[(interior[row], column)]
+        })
+    }
+}

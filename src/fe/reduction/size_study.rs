@@ -1,0 +1,146 @@
+//! Error against size: what a coordinate more buys, by plain fixed-interface modes, with residual vectors, and with modes of
+//! the interface in place of the interface itself.
+
+use super::coupled_lowest::CoupledProblem;
+use super::selection::{filled, modes};
+use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
+use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
+
+/// Sizes that are tried.
+const SIZES: [usize; 10] = [4, 8, 12, 16, 24, 32, 40, 52, 64, 80];
+
+/// Errors of reductions of one size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SizeErrors {
+    /// Coordinates: vectors of the interior beside the whole interface, or these and modes of the interface.
+    pub size: usize,
+    /// Largest relative error of a frequency with fixed-interface modes and the whole interface; `None` of too few
+    /// coordinates to have all these frequencies.
+    pub plain: Option<f64>,
+    /// With residual vectors among them.
+    pub enhanced: Option<f64>,
+    /// With a reduced interface.
+    pub reduced: Option<ReducedSize>,
+}
+
+/// The best split of so many coordinates between interface and interior, of those tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReducedSize {
+    /// Largest relative error of a frequency.
+    pub error: f64,
+    /// Modes of the interface.
+    pub interface_modes: usize,
+    /// Fixed-interface modes.
+    pub fixed_interface_modes: usize,
+    /// Residual vectors.
+    pub residual_vectors: usize,
+}
+
+/// Errors of reductions of some sizes against the frequencies of the full model, Hz, ascending, of which the first `rigid`
+/// are not judged; `interface` are the modes of the interface with what is attached. Half of the vectors of an enhanced
+/// basis are residual vectors. Splits tried have none or as many vectors of the interior as one of the smaller sizes, plain
+/// or enhanced.
+///
+/// # Errors
+/// What the eigenvalue solvers report.
+pub fn size_study(
+    substructure: &Substructure,
+    interface: &CharacteristicModes,
+    full_hz: &[f64],
+    rigid: usize,
+) -> Result<Vec<SizeErrors>, ReductionError> {
+    let largest = SIZES[SIZES.len() - 1];
+    let pairs = modes(substructure, largest)?;
+    let available = pairs.values.len();
+    let error = |values: &[f64]| largest_error(values, full_hz, rigid);
+    let whole = CoupledProblem::new(interface);
+    let of_whole = |basis: &InteriorBasis| -> Result<Option<f64>, ReductionError> {
+        Ok(error(&whole.lowest(basis, full_hz.len())?.values))
+    };
+    let on_modes = OnModes::new(interface, largest);
+    let mut bases = vec![InteriorBasis::of_modes(substructure, &pairs, 0)];
+    let mut rows = Vec::new();
+    for size in SIZES.into_iter().filter(|&size| size <= available) {
+        let plain = InteriorBasis::of_modes(substructure, &pairs, size);
+        let half = InteriorBasis::of_modes(substructure, &pairs, size - size / 2);
+        let enhanced = filled(substructure, half, size, |basis, missing| {
+            whole.lowest(basis, rigid + missing)
+        })?;
+        let mut best: Option<ReducedSize> = None;
+        for basis in &bases {
+            let kept = size - basis.count();
+            if kept > interface.count() {
+                continue;
+            }
+            let found = error(&on_modes.values(basis, kept)?);
+            if let Some(found) = found.filter(|found| best.is_none_or(|best| *found < best.error)) {
+                best = Some(ReducedSize {
+                    error: found,
+                    interface_modes: kept,
+                    fixed_interface_modes: basis.count() - basis.residual_vectors(),
+                    residual_vectors: basis.residual_vectors(),
+                });
+            }
+        }
+        rows.push(SizeErrors {
+            size,
+            plain: of_whole(&plain)?,
+            enhanced: of_whole(&enhanced)?,
+            reduced: best,
+        });
+        bases.extend([plain, enhanced]);
+    }
+    Ok(rows)
+}
+
+/// The first modes of an interface, and the stiffness and mass on them.
+struct OnModes {
+    modes: DenseMatrix,
+    stiffness: DenseMatrix,
+}
+
+impl OnModes {
+    fn new(interface: &CharacteristicModes, most: usize) -> Self {
+        let count = most.min(interface.count());
+        let modes = interface.vectors.subcols(0, count).to_owned();
+        Self {
+            stiffness: congruent(&interface.stiffness, &modes),
+            modes,
+        }
+    }
+
+    /// Squared frequencies on the first `kept` modes and a basis of the interior.
+    fn values(&self, basis: &InteriorBasis, kept: usize) -> Result<Vec<f64>, ReductionError> {
+        let order = kept + basis.count();
+        let driven = basis.participation() * self.modes.subcols(0, kept);
+        let k = DenseMatrix::from_fn(order, order, |row, column| {
+            match (row.checked_sub(kept), column.checked_sub(kept)) {
+                (None, None) => self.stiffness[(row, column)],
+                (Some(mode), Some(other)) if mode == other => basis.values()[mode],
+                _ => 0.0,
+            }
+        });
+        let m = DenseMatrix::from_fn(order, order, |row, column| {
+            match (row.checked_sub(kept), column.checked_sub(kept)) {
+                (Some(mode), None) => driven[(mode, column)],
+                (None, Some(mode)) => driven[(mode, row)],
+                _ => f64::from(u8::from(row == column)),
+            }
+        });
+        Ok(symmetric_generalised_eigen(&k, &m)?.values)
+    }
+}
+
+/// Largest relative error of the frequencies beyond the rigid ones.
+fn largest_error(values: &[f64], full_hz: &[f64], rigid: usize) -> Option<f64> {
+    let judged = values.get(..full_hz.len())?.iter().zip(full_hz).skip(rigid);
+    let error = |(value, hz): (&f64, &f64)| {
+        (value.max(0.0).sqrt() / std::f64::consts::TAU / hz - 1.0).abs()
+    };
+    let largest = judged.map(error).fold(0.0, f64::max);
+    largest.is_finite().then_some(largest)
+}
+
+#[cfg(test)]
+#[path = "size_study_tests.rs"]
+mod tests;

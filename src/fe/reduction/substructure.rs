@@ -1,0 +1,254 @@
+//! What every reduction of a housing starts from, computed once: one factorisation of K_ii, the constraint modes and
+//! the interface's matrices.
+//!
+//! With b the driven degrees of freedom, i the interior and T the map from the interface coordinates to the
+//! displacements that they drive (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319, with the tie folded in):
+//!
+//! ```text
+//! Psi  = -K_ii^-1 K_ib T                                    constraint modes, statically exact
+//! A    = M_ib T + M_ii Psi                                  inertia of the interior that follows the interface
+//! k_bb = T^T K_bb T + (K_ib T)^T Psi
+//! m_bb = T^T M_bb T + (M_ib T)^T Psi + Psi^T A
+//! ```
+
+use super::ReductionError;
+use crate::fe::assembly::SystemMatrices;
+use crate::fe::model::HousingPartition;
+use crate::numerics::linalg::{
+    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence,
+    sparse_times_dense, submatrix, transpose_times_dense,
+};
+
+/// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
+/// modes.
+const BLOCK: usize = 32;
+
+/// Relative error of static solutions above which an interior is refused: fixed-interface eigenvalues are right to as much,
+/// their frequencies to half of it.
+const LARGEST_CONTRACTION: f64 = 1e-4;
+
+/// A housing split into interface and interior, with the factor of its interior.
+#[derive(Debug, Clone)]
+pub struct Substructure {
+    partition: HousingPartition,
+    factor: SparseCholesky,
+    interior: EigenProblem,
+    /// M_ib T [interior x interface].
+    mass_ib: SparseMatrix,
+    pub(super) constraint_modes: DenseMatrix,
+    stiffness: DenseMatrix,
+    mass: DenseMatrix,
+}
+
+impl Substructure {
+    /// Splits a housing and condenses it statically.
+    ///
+    /// # Errors
+    /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
+    /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
+    pub fn new(
+        matrices: &SystemMatrices,
+        partition: &HousingPartition,
+    ) -> Result<Self, ReductionError> {
+        let (k, m) = (&matrices.stiffness, &matrices.mass);
+        let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
+        if i.is_empty() {
+            return Err(ReductionError::NoInterior);
+        }
+        if tie.cols() == 0 {
+            return Err(ReductionError::NoInterface);
+        }
+        let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
+        let dof = |row: usize| i.get(row).copied().unwrap_or(0);
+        let soft = |row, contraction| ReductionError::SoftInterior {
+            dof: dof(row),
+            error: contraction,
+            limit: LARGEST_CONTRACTION,
+        };
+        let floating = |error| match error {
+            LinalgError::NotPositiveDefinite { pivot, .. } => ReductionError::FloatingInterior {
+                interior: i.len(),
+                dof: dof(pivot),
+            },
+            LinalgError::IllConditioned {
+                row, contraction, ..
+            } => soft(row, contraction),
+            other => other.into(),
+        };
+        let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
+        if factor.contraction() > LARGEST_CONTRACTION {
+            return Err(soft(factor.weakest_row(), factor.contraction()));
+        }
+        let interior = EigenProblem::with_factor(&k_ii, &m_ii, &factor)?;
+        drop((k_ii, m_ii));
+        let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
+        let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
+        let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
+        let mut substructure = Self {
+            stiffness: driven(k),
+            mass: driven(m),
+            constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
+            partition: partition.clone(),
+            factor,
+            interior,
+            mass_ib,
+        };
+        substructure.condense_statically(&stiffness_ib)?;
+        Ok(substructure)
+    }
+
+    fn condense_statically(&mut self, stiffness_ib: &SparseMatrix) -> Result<(), ReductionError> {
+        let order = self.interface_dof();
+        for first in (0..order).step_by(BLOCK) {
+            let width = BLOCK.min(order - first);
+            let mut modes = columns_of(stiffness_ib, first, width);
+            modes *= faer::Scale(-1.0);
+            self.factor.solve_columns(&mut modes)?;
+            for column in 0..width {
+                self.constraint_modes
+                    .col_as_slice_mut(first + column)
+                    .copy_from_slice(modes.col_as_slice(column));
+            }
+            let k = transpose_times_dense(stiffness_ib, &modes);
+            add_block(&mut self.stiffness, first, &k);
+            let mut follow = self.mass_times(&modes);
+            add_columns(&mut follow, &self.mass_ib, first);
+            // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
+            let known = self.constraint_modes.subcols(0, first + width);
+            let mut m = known.transpose() * &follow;
+            m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
+            add_block(&mut self.mass, first, &m);
+            add_mirrored(&mut self.mass, first, &m);
+        }
+        symmetrise(&mut self.stiffness);
+        symmetrise(&mut self.mass);
+        Ok(())
+    }
+
+    /// How the degrees of freedom were split.
+    pub fn partition(&self) -> &HousingPartition {
+        &self.partition
+    }
+
+    /// Number of interface coordinates.
+    pub fn interface_dof(&self) -> usize {
+        self.partition.tie.cols()
+    }
+
+    /// Number of interior degrees of freedom.
+    pub fn interior_dof(&self) -> usize {
+        self.partition.interior.len()
+    }
+
+    /// Constraint modes Psi [interior x interface].
+    pub fn constraint_modes(&self) -> &DenseMatrix {
+        &self.constraint_modes
+    }
+
+    /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
+    pub fn stiffness(&self) -> &DenseMatrix {
+        &self.stiffness
+    }
+
+    /// m_bb [interface x interface], kg.
+    pub fn mass(&self) -> &DenseMatrix {
+        &self.mass
+    }
+
+    /// `K_ii^-1 R` for `R` [interior x k].
+    ///
+    /// # Errors
+    /// [`LinalgError::Shape`].
+    pub fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+        self.factor.solve_columns(&mut r)?;
+        Ok(r)
+    }
+
+    /// `K_ii X` for `X` [interior x k].
+    pub fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.interior.stiffness_times(x)
+    }
+
+    /// `M_ii X` for `X` [interior x k].
+    pub fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.interior.mass_times(x)
+    }
+
+    /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
+    pub fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
+        let interior = &self.constraint_modes * u;
+        self.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
+    }
+
+    /// `A^T X` for `X` [interior x k].
+    pub fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.constraint_modes.transpose() * self.mass_times(x)
+            + transpose_times_dense(&self.mass_ib, x)
+    }
+
+    /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.
+    ///
+    /// # Errors
+    /// What the eigenvalue iteration reports.
+    pub fn lowest_modes(&self, count: usize) -> Result<EigenPairs, ReductionError> {
+        Ok(self.interior.lowest(count)?)
+    }
+
+    /// Fixed-interface modes below an eigenvalue, 1/s^2.
+    ///
+    /// # Errors
+    /// What the eigenvalue iteration reports.
+    pub fn modes_below(&self, value: f64) -> Result<EigenPairs, ReductionError> {
+        Ok(self.interior.below(value)?)
+    }
+}
+
+/// A sparse matrix with all its zeros.
+pub(super) fn dense(sparse: &SparseMatrix) -> DenseMatrix {
+    columns_of(sparse, 0, sparse.cols())
+}
+
+/// Some columns of a sparse matrix with all their zeros.
+fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
+    let mut full = DenseMatrix::zeros(sparse.rows(), width);
+    add_columns(&mut full, sparse, first);
+    full
+}
+
+/// Adds columns of a sparse matrix from `first` on.
+fn add_columns(to: &mut DenseMatrix, sparse: &SparseMatrix, first: usize) {
+    for column in 0..to.ncols() {
+        if let Some(entries) = sparse.outer_view(first + column) {
+            for (row, &value) in entries.iter() {
+                to[(row, column)] += value;
+            }
+        }
+    }
+}
+
+fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
+    for column in 0..block.ncols() {
+        for row in 0..block.nrows() {
+            matrix[(row, first + column)] += block[(row, column)];
+        }
+    }
+}
+
+/// Adds the rows of a block of columns above its diagonal block as columns.
+fn add_mirrored(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
+    for column in 0..block.ncols() {
+        for row in 0..first {
+            matrix[(first + column, row)] += block[(row, column)];
+        }
+    }
+}
+
+fn symmetrise(matrix: &mut DenseMatrix) {
+    for column in 0..matrix.ncols() {
+        for row in 0..column {
+            let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
+            matrix[(row, column)] = mean;
+            matrix[(column, row)] = mean;
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Files that a user named, read: regular ones alone, since a device or a pipe could fill the memory or never answer. Folders for
+//! results, made: no symbolic links, since these could lead elsewhere.
+
+mod atomic;
+mod error;
+
+pub use atomic::{AtomicFile, write_atomic};
+pub use error::FileError;
+pub(crate) use error::bytes_of;
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+/// Opens a regular file.
+///
+/// # Errors
+/// What the system says; [`io::ErrorKind::InvalidInput`] for a folder, a device or a pipe.
+pub fn open(path: &Path) -> io::Result<File> {
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_file() {
+        return File::open(path);
+    }
+    let found = if kind.is_dir() {
+        "a folder"
+    } else {
+        "a device or a pipe"
+    };
+    Err(io::Error::new(
+        io::ErrorKind::InvalidInput,
+        format!("expected a file, found {found}"),
+    ))
+}
+
+/// The content of a regular file.
+///
+/// # Errors
+/// As [`open`].
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    io::Read::read_to_end(&mut open(path)?, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// The text of a regular file, UTF-8.
+///
+/// # Errors
+/// As [`open`], and [`io::ErrorKind::InvalidData`] for what is not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    io::read_to_string(open(path)?)
+}
+
+/// SHA-256 (FIPS 180-4) of what a reader gives, to which more can be added.
+///
+/// # Errors
+/// What the system says.
+pub fn sha256(reader: impl io::Read) -> io::Result<Sha256> {
+    let mut hasher = Sha256::new();
+    let mut reader = BufReader::with_capacity(1 << 16, reader);
+    loop {
+        let piece = reader.fill_buf()?;
+        if piece.is_empty() {
+            return Ok(hasher);
+        }
+        hasher.update(piece);
+        let read = piece.len();
+        reader.consume(read);
+    }
+}
+
+/// A digest as 64 hexadecimal digits, as `sha256sum` prints it.
+pub fn hex(hasher: Sha256) -> String {
+    hasher
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}
+
+/// Checks that no symbolic link stands at a path; nothing may.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] for a link.
+pub fn no_link(path: &Path) -> io::Result<()> {
+    if path.is_symlink() {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "expected no symbolic link, which could lead out of the folder for results",
+        ));
+    }
+    Ok(())
+}
+
+/// Makes the folder `name`, and those between, below the folder `root`.
+///
+/// # Errors
+/// What the system says; [`io::ErrorKind::InvalidInput`] if one of them is a symbolic link.
+pub fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
+    let mut path = root.to_owned();
+    for part in name {
+        path.push(part);
+        no_link(&path)?;
+    }
+    fs::create_dir_all(&path)?;
+    Ok(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{make_below, read, read_text};
+    use std::path::Path;
+
+    #[test]
+    fn files_are_read_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.txt");
+        std::fs::write(&file, "2 µm").unwrap();
+        assert_eq!(read_text(&file).unwrap(), "2 µm");
+        assert_eq!(read(&file).unwrap(), "2 µm".as_bytes());
+        let told = |path: &Path| read(path).unwrap_err().to_string();
+        assert_eq!(told(folder.path()), "expected a file, found a folder");
+        let device = Path::new("/dev/zero");
+        assert_eq!(told(device), "expected a file, found a device or a pipe");
+        assert!(told(&folder.path().join("b")).starts_with("No such file"));
+        std::fs::write(&file, b"\xff").unwrap();
+        assert!(read_text(&file).is_err());
+    }
+
+    #[test]
+    fn folders_are_made_through_no_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (root, elsewhere) = (folder.path().join("out"), folder.path().join("elsewhere"));
+        std::fs::create_dir_all(&elsewhere).unwrap();
+        let made = make_below(&root, Path::new("a/b")).unwrap();
+        assert!(made.is_dir() && made == root.join("a/b"));
+        std::os::unix::fs::symlink(&elsewhere, root.join("c")).unwrap();
+        for name in ["c", "c/d"] {
+            let error = make_below(&root, Path::new(name)).unwrap_err();
+            assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput);
+        }
+        assert_eq!(elsewhere.read_dir().unwrap().count(), 0);
+    }
+}

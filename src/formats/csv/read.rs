@@ -1,0 +1,249 @@
+//! Reads a table of mode shapes.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
+
+use super::super::ModeShapes;
+use super::{BY_NODE, BY_POINT, CsvError};
+use crate::files::{FileError, bytes_of};
+
+/// What is wrong in which line.
+struct Fault {
+    line: u64,
+    expected: String,
+    found: String,
+}
+
+/// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
+pub(in super::super) fn line_of(text: &str, place: &Position) -> u64 {
+    let rest = text.get(place.byte() as usize..).unwrap_or_default();
+    let passed = rest
+        .lines()
+        .take_while(|line| line.is_empty() || line.starts_with('#'));
+    place.line() + passed.count() as u64
+}
+
+/// Where a displacement is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    Node(u64),
+    Point([f64; 3]),
+}
+
+/// A mode as gathered so far.
+struct Mode {
+    number: u64,
+    frequency_hz: f64,
+    /// Line of its first row.
+    line: u64,
+    shape: Vec<f64>,
+}
+
+/// Reads the mode shapes of a table; the format is that of [the module](super).
+///
+/// # Errors
+/// [`CsvError`] with file and line, what was found and what was expected.
+pub fn read_modes_csv(path: &Path) -> Result<ModeShapes, CsvError> {
+    modes_from_bytes(&bytes_of(path)?, path)
+}
+
+/// As [`read_modes_csv`], of a file that is in memory; `path` is for messages.
+///
+/// # Errors
+/// As [`read_modes_csv`].
+pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, CsvError> {
+    // Comments may be in any encoding; numbers and header are ASCII.
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    let modes = read(text).map_err(|fault| FileError::Content {
+        path: path.to_owned(),
+        line: fault.line,
+        expected: fault.expected,
+        found: fault.found,
+    })?;
+    modes.check().map_err(|fault| CsvError::Modes {
+        path: path.to_owned(),
+        fault,
+    })?;
+    Ok(modes)
+}
+
+/// A line of the table with the text of its numbers.
+struct Row<'a> {
+    line: u64,
+    record: &'a StringRecord,
+    decimal_comma: bool,
+}
+
+impl Row<'_> {
+    fn fault(&self, expected: impl Into<String>, found: impl std::fmt::Display) -> Fault {
+        Fault {
+            line: self.line,
+            expected: expected.into(),
+            found: format!("\"{found}\""),
+        }
+    }
+
+    fn text(&self, column: usize) -> &str {
+        self.record.get(column).unwrap_or_default()
+    }
+
+    fn whole(&self, column: usize, what: &str) -> Result<u64, Fault> {
+        let text = self.text(column);
+        let fault = |_| self.fault(format!("a whole number for {what}"), text);
+        text.parse().map_err(fault)
+    }
+
+    fn real(&self, column: usize, what: &str) -> Result<f64, Fault> {
+        let text = self.text(column);
+        let value = match self.decimal_comma {
+            true => text.replace(',', ".").parse::<f64>(),
+            false => text.parse(),
+        };
+        let value = value.ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| self.fault(format!("a number for {what}"), text))
+    }
+
+    fn reals(&self, columns: [usize; 3], what: [&str; 3]) -> Result<[f64; 3], Fault> {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.real(columns[axis], what[axis]));
+        Ok([x?, y?, z?])
+    }
+}
+
+fn read(text: &str) -> Result<ModeShapes, Fault> {
+    let header = text
+        .lines()
+        .find(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let semicolon = header.is_some_and(|line| line.contains(';'));
+    let mut table = ReaderBuilder::new()
+        .delimiter(if semicolon { b';' } else { b',' })
+        .comment(Some(b'#'))
+        .trim(Trim::All)
+        .flexible(true)
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    let mut columns: Option<&[&str]> = None;
+    let (mut modes, mut places) = (Vec::<Mode>::new(), Vec::new());
+    let mut index_of = HashMap::new();
+    for record in table.records() {
+        let record = record.map_err(|error| Fault {
+            line: error.position().map_or(0, Position::line),
+            expected: "a line of the table".to_owned(),
+            found: error.to_string(),
+        })?;
+        // programs that keep the separators of empty cells
+        if record.iter().all(str::is_empty) {
+            continue;
+        }
+        let row = Row {
+            line: record.position().map_or(0, |place| line_of(text, place)),
+            record: &record,
+            decimal_comma: semicolon,
+        };
+        let Some(columns) = columns else {
+            columns = Some(header_of(&row)?);
+            continue;
+        };
+        if record.len() != columns.len() {
+            let expected = format!("{} columns", columns.len());
+            return Err(Fault {
+                line: row.line,
+                expected,
+                found: record.len().to_string(),
+            });
+        }
+        let (mode, place, displacement) = values(&row, columns)?;
+        let frequency_hz = mode.frequency_hz;
+        let index = *index_of.entry(mode.number).or_insert_with(|| {
+            modes.push(mode);
+            modes.len() - 1
+        });
+        let own = &mut modes[index];
+        if own.frequency_hz.to_bits() != frequency_hz.to_bits() {
+            let expected = format!("{} Hz as in line {}", own.frequency_hz, own.line);
+            return Err(row.fault(expected, frequency_hz));
+        }
+        let row_of_mode = own.shape.len() / 3;
+        own.shape.extend(displacement);
+        if index == 0 {
+            places.push(place);
+        } else if places.get(row_of_mode) != Some(&place) {
+            return Err(Fault {
+                line: row.line,
+                expected: match places.get(row_of_mode) {
+                    Some(first) => format!("{} as in the first mode", place_text(*first)),
+                    None => format!("{} points as in the first mode", places.len()),
+                },
+                found: place_text(place),
+            });
+        }
+    }
+    complete(modes, places)
+}
+
+fn place_text(place: Place) -> String {
+    match place {
+        Place::Node(tag) => format!("node {tag}"),
+        Place::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
+    }
+}
+
+/// Checks the header and returns it.
+fn header_of(row: &Row) -> Result<&'static [&'static str], Fault> {
+    let names: Vec<String> = row.record.iter().map(str::to_lowercase).collect();
+    if names == BY_POINT {
+        Ok(&BY_POINT)
+    } else if names == BY_NODE {
+        Ok(&BY_NODE)
+    } else {
+        let expected = format!("the header {} or {}", BY_POINT.join(","), BY_NODE.join(","));
+        Err(row.fault(expected, names.join(",")))
+    }
+}
+
+/// Mode, place and displacement of a line.
+fn values(row: &Row, columns: &[&str]) -> Result<(Mode, Place, [f64; 3]), Fault> {
+    let mode = Mode {
+        number: row.whole(0, "mode")?,
+        frequency_hz: row.real(1, "frequency_hz")?,
+        line: row.line,
+        shape: Vec::new(),
+    };
+    let place = if columns.len() == BY_NODE.len() {
+        Place::Node(row.whole(2, "node")?)
+    } else {
+        Place::Point(row.reals([2, 3, 4], ["x", "y", "z"])?)
+    };
+    let last = columns.len();
+    let displacement = row.reals([last - 3, last - 2, last - 1], ["ux", "uy", "uz"])?;
+    Ok((mode, place, displacement))
+}
+
+fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
+    let short = modes
+        .iter()
+        .find(|mode| mode.shape.len() != 3 * places.len());
+    if let Some(mode) = short {
+        return Err(Fault {
+            line: mode.line,
+            expected: format!("{} points in every mode", places.len()),
+            found: format!("{} in mode {}", mode.shape.len() / 3, mode.number),
+        });
+    }
+    let tag = |place: &Place| match *place {
+        Place::Node(tag) => Some(tag),
+        Place::Point(_) => None,
+    };
+    let point = |place: &Place| match *place {
+        Place::Node(_) => None,
+        Place::Point(point) => Some(point),
+    };
+    Ok(ModeShapes {
+        frequencies_hz: modes.iter().map(|mode| mode.frequency_hz).collect(),
+        node_tags: places.iter().map(tag).collect(),
+        points: places.iter().map(point).collect(),
+        shapes: modes.into_iter().map(|mode| mode.shape).collect(),
+    })
+}

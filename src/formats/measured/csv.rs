@@ -1,0 +1,262 @@
+//! Signals in a table.
+
+use std::path::Path;
+use std::rc::Rc;
+
+use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
+
+use super::super::csv::line_of;
+use super::clock::Clock;
+use super::header::{name_and_unit, time_unit};
+use super::{Channel, MeasuredError, SignalRequest, choose};
+use crate::files::{FileError, bytes_of};
+
+/// What is read of each line.
+struct Columns {
+    /// How many columns there are.
+    count: usize,
+    /// Place of the time and seconds in its unit.
+    time: Option<(usize, f64)>,
+    /// Place, name and unit of the channels that are wanted.
+    wanted: Vec<(usize, String, String)>,
+}
+
+/// Text of a table with its path, for messages.
+struct Table<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
+    from_bytes(&bytes_of(path)?, path, request)
+}
+
+pub(super) fn from_bytes(
+    bytes: &[u8],
+    path: &Path,
+    request: &SignalRequest,
+) -> Result<Vec<Channel>, MeasuredError> {
+    // comments may be in any encoding; header and numbers are text
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    Table { path, text }.channels(request)
+}
+
+impl Table<'_> {
+    fn channels(&self, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
+        let mut table = ReaderBuilder::new()
+            .delimiter(self.separator())
+            .comment(Some(b'#'))
+            .trim(Trim::All)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(self.text.as_bytes());
+        let mut record = StringRecord::new();
+        let mut columns: Option<Columns> = None;
+        let (mut times, mut first_row) = (Vec::new(), 0);
+        let mut values: Vec<Vec<f64>> = Vec::new();
+        loop {
+            let more = table.read_record(&mut record);
+            if !more.map_err(|error| self.damaged(&error))? {
+                break;
+            }
+            if record.iter().all(str::is_empty) {
+                continue;
+            }
+            let Some(columns) = &mut columns else {
+                let found = self.header(&record, request)?;
+                values = vec![Vec::new(); found.wanted.len()];
+                let is_data = numbers(&record);
+                columns = Some(found);
+                if is_data && let Some(columns) = &columns {
+                    first_row = self.line(&record);
+                    self.row(&record, columns, &mut times, &mut values)?;
+                }
+                continue;
+            };
+            if first_row == 0 {
+                // a row of units below the names
+                if record
+                    .iter()
+                    .all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell))
+                {
+                    self.units(&record, columns)?;
+                    continue;
+                }
+                first_row = self.line(&record);
+            }
+            self.row(&record, columns, &mut times, &mut values)?;
+        }
+        let Some(columns) = columns.filter(|_| first_row > 0) else {
+            return Err(self.content(1, "a header and rows of numbers", "none"));
+        };
+        let clock = Rc::new(match columns.time {
+            Some(_) => Clock::Times { times, first_row },
+            None => Clock::Unknown,
+        });
+        let pairs = columns.wanted.into_iter().zip(values);
+        let channels = pairs.map(|((_, name, unit), values)| Channel {
+            name,
+            unit,
+            values,
+            clock: Rc::clone(&clock),
+            speed_hz: None,
+        });
+        Ok(channels.collect())
+    }
+
+    /// What separates the columns: the first of tab, semicolon and comma that the first line has.
+    fn separator(&self) -> u8 {
+        let mut lines = self.text.lines();
+        let first = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
+        let has = |separator: char| first.is_some_and(|line| line.contains(separator));
+        match () {
+            () if has('\t') => b'\t',
+            () if has(';') => b';',
+            () => b',',
+        }
+    }
+
+    fn header(
+        &self,
+        record: &StringRecord,
+        request: &SignalRequest,
+    ) -> Result<Columns, MeasuredError> {
+        let line = self.line(record);
+        if let Some(cell) = record.iter().find(|cell| is_comma_number(cell)) {
+            return Err(self.comma(line, cell));
+        }
+        let count = record.len();
+        let (names, time): (Vec<(usize, String, String)>, _) = if numbers(record) {
+            // without names the first column is the time, unless a rate is given
+            let time = (request.rate_hz.is_none() && count > 1).then_some((0, 1.0));
+            let first = usize::from(time.is_some());
+            let name = |place: usize| (place, format!("column {}", place + 1), String::new());
+            ((first..count).map(name).collect(), time)
+        } else {
+            let place = record.iter().position(|cell| time_unit(cell).is_some());
+            let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
+            let others = record
+                .iter()
+                .enumerate()
+                .filter(|&(own, _)| Some(own) != place);
+            let named = others.map(|(own, cell)| {
+                let (name, unit) = name_and_unit(cell);
+                (own, name, unit)
+            });
+            (named.collect(), time)
+        };
+        if time.is_none() && request.rate_hz.is_none() {
+            return Err(MeasuredError::NoTime {
+                path: self.path.to_owned(),
+            });
+        }
+        let only: Vec<String> = names.iter().map(|(_, name, _)| name.clone()).collect();
+        let wanted = choose(self.path, &only, request)?;
+        Ok(Columns {
+            count,
+            time,
+            wanted: wanted
+                .into_iter()
+                .map(|place| names[place].clone())
+                .collect(),
+        })
+    }
+
+    /// Takes units from a row below the names.
+    fn units(&self, record: &StringRecord, columns: &mut Columns) -> Result<(), MeasuredError> {
+        let text = |place: usize| {
+            let cell = record.get(place).unwrap_or_default();
+            cell.trim_matches(['(', ')', '[', ']']).to_owned()
+        };
+        if let Some((place, unit)) = &mut columns.time {
+            let found = text(*place);
+            *unit = time_unit(&format!("time ({found})")).ok_or_else(|| {
+                self.content(self.line(record), "s, ms or us as unit of the time", &found)
+            })?;
+        }
+        for (place, _, unit) in &mut columns.wanted {
+            if unit.is_empty() {
+                *unit = text(*place);
+            }
+        }
+        Ok(())
+    }
+
+    fn row(
+        &self,
+        record: &StringRecord,
+        columns: &Columns,
+        times: &mut Vec<f64>,
+        values: &mut [Vec<f64>],
+    ) -> Result<(), MeasuredError> {
+        if record.len() != columns.count {
+            let expected = format!("{} columns, as in the first line", columns.count);
+            return Err(self.content(self.line(record), &expected, &record.len().to_string()));
+        }
+        if let Some((place, unit)) = columns.time {
+            times.push(self.number(record, place, "the time")? * unit);
+        }
+        for ((place, name, _), values) in columns.wanted.iter().zip(values) {
+            values.push(self.number(record, *place, name)?);
+        }
+        Ok(())
+    }
+
+    fn number(
+        &self,
+        record: &StringRecord,
+        place: usize,
+        what: &str,
+    ) -> Result<f64, MeasuredError> {
+        let cell = record.get(place).unwrap_or_default();
+        match cell.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ if is_comma_number(cell) => Err(self.comma(self.line(record), cell)),
+            _ => {
+                let expected = format!("a finite number for {what}");
+                Err(self.content(self.line(record), &expected, cell))
+            }
+        }
+    }
+
+    fn line(&self, record: &StringRecord) -> u64 {
+        record
+            .position()
+            .map_or(0, |place| line_of(self.text, place))
+    }
+
+    fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
+        let short: String = found.chars().take(40).collect();
+        let content = FileError::Content {
+            path: self.path.to_owned(),
+            line,
+            expected: expected.to_owned(),
+            found: format!("\"{short}\""),
+        };
+        content.into()
+    }
+
+    fn comma(&self, line: u64, found: &str) -> MeasuredError {
+        MeasuredError::DecimalComma {
+            path: self.path.to_owned(),
+            line,
+            found: found.to_owned(),
+        }
+    }
+
+    fn damaged(&self, error: &::csv::Error) -> MeasuredError {
+        let line = error.position().map_or(0, Position::line);
+        self.content(line, "a line of the table", &error.to_string())
+    }
+}
+
+/// Whether a line has numbers alone.
+fn numbers(record: &StringRecord) -> bool {
+    record.iter().all(|cell| cell.parse::<f64>().is_ok())
+}
+
+/// Whether a cell is a number but for its comma.
+fn is_comma_number(cell: &str) -> bool {
+    cell.contains(',') && cell.replacen(',', ".", 1).parse::<f64>().is_ok()
+}

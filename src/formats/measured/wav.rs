@@ -1,0 +1,179 @@
+//! Signals in a sound file.
+
+use std::path::Path;
+use std::rc::Rc;
+
+use super::clock::Clock;
+use super::{Channel, MeasuredError, SignalRequest, choose};
+use crate::files::bytes_of;
+
+/// Format tags.
+const PCM: u16 = 1;
+const FLOAT: u16 = 3;
+/// The tag is in a longer head, first in an identifier of 16 bytes that ends like this.
+const EXTENSIBLE: u16 = 0xfffe;
+const IDENTIFIER_END: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71];
+
+/// Reads the wanted channels of a RIFF WAVE file, full scale 1. Source: IBM and Microsoft, "Multimedia Programming Interface and
+/// Data Specifications 1.0" (1991); extensible heads: Microsoft, "Multiple channel audio data and WAVE files" (2007).
+pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
+    let bytes = bytes_of(path)?;
+    let fault = |found: String| MeasuredError::Wav {
+        path: path.to_owned(),
+        found,
+    };
+    let (format, data) = parts(&bytes).map_err(fault)?;
+    let names: Vec<String> = (1..=format.channels)
+        .map(|n| format!("channel {n}"))
+        .collect();
+    let wanted = choose(path, &names, request)?;
+    let width = format.decode.width();
+    let clock = Rc::new(Clock::Even {
+        start_s: 0.0,
+        step_s: 1.0 / f64::from(format.rate_hz),
+    });
+    let made = wanted.into_iter().map(|place| Channel {
+        name: names[place].clone(),
+        unit: "full scale".to_owned(),
+        values: data
+            .chunks_exact(width * format.channels)
+            .map(|frame| format.decode.value(&frame[place * width..][..width]))
+            .collect(),
+        clock: Rc::clone(&clock),
+        speed_hz: None,
+    });
+    Ok(made.collect())
+}
+
+/// How samples are written.
+#[derive(Debug, Clone, Copy)]
+enum Decode {
+    Unsigned8,
+    Signed16,
+    Signed24,
+    Signed32,
+    Float32,
+    Float64,
+}
+
+impl Decode {
+    fn of(tag: u16, bits: u16) -> Option<Self> {
+        match (tag, bits) {
+            (PCM, 8) => Some(Self::Unsigned8),
+            (PCM, 16) => Some(Self::Signed16),
+            (PCM, 24) => Some(Self::Signed24),
+            (PCM, 32) => Some(Self::Signed32),
+            (FLOAT, 32) => Some(Self::Float32),
+            (FLOAT, 64) => Some(Self::Float64),
+            _ => None,
+        }
+    }
+
+    /// Bytes a sample.
+    fn width(self) -> usize {
+        match self {
+            Self::Unsigned8 => 1,
+            Self::Signed16 => 2,
+            Self::Signed24 => 3,
+            Self::Signed32 | Self::Float32 => 4,
+            Self::Float64 => 8,
+        }
+    }
+
+    /// A sample of so many bytes, full scale 1.
+    fn value(self, bytes: &[u8]) -> f64 {
+        // an integer's bytes as the upper ones of 32 bits: full scale is 2^31 for all depths
+        let upper = || {
+            let mut word = [0; 4];
+            word[4 - bytes.len()..].copy_from_slice(bytes);
+            f64::from(i32::from_le_bytes(word)) / 2_f64.powi(31)
+        };
+        match self {
+            Self::Unsigned8 => (f64::from(bytes[0]) - 128.0) / 128.0,
+            Self::Signed16 | Self::Signed24 | Self::Signed32 => upper(),
+            Self::Float32 => f64::from(f32::from_bits(word(bytes))),
+            Self::Float64 => {
+                let [low, high] = [&bytes[..4], &bytes[4..]].map(|half| u64::from(word(half)));
+                f64::from_bits(high << 32 | low)
+            }
+        }
+    }
+}
+
+/// What the head says.
+struct Format {
+    decode: Decode,
+    channels: usize,
+    rate_hz: u32,
+}
+
+/// The first four bytes as a number; of fewer those that there are.
+fn word(bytes: &[u8]) -> u32 {
+    let bytes = bytes.iter().take(4).rev();
+    bytes.fold(0, |word, byte| word << 8 | u32::from(*byte))
+}
+
+fn half_word(bytes: &[u8]) -> u16 {
+    (word(bytes) & 0xffff) as u16
+}
+
+/// Format and samples of a file, or what was found in their place.
+fn parts(bytes: &[u8]) -> Result<(Format, &[u8]), String> {
+    let is_wave = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE");
+    let mut rest = bytes.get(12..).filter(|_| is_wave);
+    let mut format = None;
+    loop {
+        let Some((head, after)) = rest.and_then(|rest| rest.split_at_checked(8)) else {
+            return Err(match (is_wave, &format) {
+                (false, _) => "no RIFF WAVE head".to_owned(),
+                (true, None) => "no format".to_owned(),
+                (true, Some(_)) => "no samples".to_owned(),
+            });
+        };
+        let size = word(&head[4..]) as usize;
+        let Some(body) = after.get(..size) else {
+            let there = after.len();
+            return Err(format!(
+                "a part of {size} bytes, of which {there} are there"
+            ));
+        };
+        match &head[..4] {
+            b"fmt " => format = Some(format_of(body)?),
+            b"data" => {
+                let format = format.ok_or("samples before their format")?;
+                let frame = format.decode.width() * format.channels;
+                return if body.len().is_multiple_of(frame) {
+                    Ok((format, body))
+                } else {
+                    Err(format!("{size} bytes of samples, {frame} at each instant"))
+                };
+            }
+            _ => {}
+        }
+        // parts begin at even places
+        rest = after.get(size + size % 2..);
+    }
+}
+
+fn format_of(body: &[u8]) -> Result<Format, String> {
+    let at = |place: usize| half_word(body.get(place..).unwrap_or_default());
+    let (channels, rate_hz) = (at(2), word(body.get(4..).unwrap_or_default()));
+    let (align, bits) = (at(12), at(14));
+    let tag = match at(0) {
+        EXTENSIBLE if body.get(26..40) == Some(&IDENTIFIER_END) => at(24),
+        tag => tag,
+    };
+    if rate_hz == 0 || channels == 0 {
+        return Err(format!("{rate_hz} Hz and {channels} channels"));
+    }
+    let decode = Decode::of(tag, bits)
+        .filter(|decode| usize::from(align) == decode.width() * usize::from(channels));
+    let decode = decode.ok_or_else(|| {
+        format!("format {tag} of {bits} bits, {align} bytes for {channels} channels")
+    })?;
+    Ok(Format {
+        decode,
+        channels: usize::from(channels),
+        rate_hz,
+    })
+}

@@ -1,0 +1,251 @@
+//! Mode shapes as other programs give and take them.
+
+use std::collections::HashSet;
+
+use thiserror::Error;
+
+/// Frequencies and shapes of some modes at some points, from a calculation or a measurement.
+///
+/// Units: frequencies in Hz, points in m, shapes in any unit (a shape is known up to a factor). Directions are those of
+/// the points' own axes x, y, z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeShapes {
+    /// Frequency of each mode, Hz, >= 0.
+    pub frequencies_hz: Vec<f64>,
+    /// Label of each point, each once, if they have labels.
+    pub node_tags: Option<Vec<u64>>,
+    /// Coordinates (x, y, z) of each point, m, if they are known.
+    pub points: Option<Vec<[f64; 3]>>,
+    /// Displacements of each mode: (u_x, u_y, u_z) of the first point, of the second, ...
+    pub shapes: Vec<Vec<f64>>,
+}
+
+/// Mode shapes that contradict themselves.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ModeShapesError {
+    /// Nothing to show.
+    #[error("expected at least one mode at one point, found {modes} modes at {points} points")]
+    Empty {
+        /// Number of frequencies.
+        modes: usize,
+        /// Number of points.
+        points: usize,
+    },
+    /// Another number of frequencies than of shapes.
+    #[error("expected a shape for each of {frequencies} frequencies, found {shapes} shapes")]
+    Shapes {
+        /// Number of frequencies.
+        frequencies: usize,
+        /// Number of shapes.
+        shapes: usize,
+    },
+    /// A shape that does not fit the points.
+    #[error("expected {expected} values in mode {mode} (three a point), found {found}")]
+    Length {
+        /// Mode, counted from 1.
+        mode: usize,
+        /// Three times the number of points.
+        expected: usize,
+        /// Values of the mode.
+        found: usize,
+    },
+    /// Labels and coordinates of different numbers of points.
+    #[error("expected as many points as labels, found {points} points and {tags} labels")]
+    Points {
+        /// Number of coordinates.
+        points: usize,
+        /// Number of labels.
+        tags: usize,
+    },
+    /// A label of two points.
+    #[error("expected each node once, found node {tag} twice")]
+    DuplicateTag {
+        /// The label.
+        tag: u64,
+    },
+    /// A frequency that is none.
+    #[error("expected a frequency >= 0 Hz for mode {mode}, found {found}")]
+    Frequency {
+        /// Mode, counted from 1.
+        mode: usize,
+        /// The value.
+        found: f64,
+    },
+    /// A displacement that is infinite or no number.
+    #[error("expected finite displacements in mode {mode}, found {found} at point {point}")]
+    Displacement {
+        /// Mode, counted from 1.
+        mode: usize,
+        /// Point, counted from 1.
+        point: usize,
+        /// The value.
+        found: f64,
+    },
+    /// A coordinate that is infinite or no number.
+    #[error("expected finite coordinates, found {found} at point {point}")]
+    Coordinate {
+        /// Point, counted from 1.
+        point: usize,
+        /// The value.
+        found: f64,
+    },
+}
+
+impl ModeShapes {
+    /// Number of points.
+    pub fn count_points(&self) -> usize {
+        let tags = self.node_tags.as_ref().map(Vec::len);
+        let points = self.points.as_ref().map(Vec::len);
+        tags.or(points)
+            .or(self.shapes.first().map(|shape| shape.len() / 3))
+            .unwrap_or(0)
+    }
+
+    /// Number of modes.
+    pub fn count_modes(&self) -> usize {
+        self.frequencies_hz.len()
+    }
+
+    /// Checks that the lengths fit each other and that every number is one. Every reader of this module has checked
+    /// what it returns, every writer checks what it is given.
+    ///
+    /// # Errors
+    /// [`ModeShapesError`], the first fault found.
+    pub fn check(&self) -> Result<(), ModeShapesError> {
+        let (modes, points) = (self.count_modes(), self.count_points());
+        if modes == 0 || points == 0 {
+            return Err(ModeShapesError::Empty { modes, points });
+        }
+        if self.shapes.len() != modes {
+            return Err(ModeShapesError::Shapes {
+                frequencies: modes,
+                shapes: self.shapes.len(),
+            });
+        }
+        self.check_points(points)?;
+        for (index, &found) in self.frequencies_hz.iter().enumerate() {
+            if !(found.is_finite() && found >= 0.0) {
+                let mode = index + 1;
+                return Err(ModeShapesError::Frequency { mode, found });
+            }
+        }
+        for (index, shape) in self.shapes.iter().enumerate() {
+            let mode = index + 1;
+            if shape.len() != 3 * points {
+                return Err(ModeShapesError::Length {
+                    mode,
+                    expected: 3 * points,
+                    found: shape.len(),
+                });
+            }
+            if let Some(place) = shape.iter().position(|value| !value.is_finite()) {
+                return Err(ModeShapesError::Displacement {
+                    mode,
+                    point: place / 3 + 1,
+                    found: shape[place],
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_points(&self, count: usize) -> Result<(), ModeShapesError> {
+        if let Some(points) = &self.points {
+            if points.len() != count {
+                return Err(ModeShapesError::Points {
+                    points: points.len(),
+                    tags: count,
+                });
+            }
+            for (index, point) in points.iter().enumerate() {
+                if let Some(&found) = point.iter().find(|value| !value.is_finite()) {
+                    let point = index + 1;
+                    return Err(ModeShapesError::Coordinate { point, found });
+                }
+            }
+        }
+        let mut seen = HashSet::new();
+        let mut tags = self.node_tags.iter().flatten();
+        match tags.find(|&&tag| !seen.insert(tag)) {
+            Some(&tag) => Err(ModeShapesError::DuplicateTag { tag }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod samples {
+    use super::ModeShapes;
+
+    /// Two modes at three points with labels that are neither sorted nor dense.
+    pub(in crate::formats) fn two_modes() -> ModeShapes {
+        ModeShapes {
+            frequencies_hz: vec![12.5, 1_234.567_890_123],
+            node_tags: Some(vec![7, 3, 120_000]),
+            points: Some(vec![
+                [0.0, 0.1, 0.2],
+                [1.0 / 3.0, -2e-7, 0.0],
+                [1.0, 2.0, 3.0],
+            ]),
+            shapes: vec![
+                vec![1.0, 0.0, -0.5, 0.25, 1e-3, 0.0, -1.0, 2.0 / 3.0, 1e-30],
+                vec![0.1, 0.2, 0.3, -0.4, 0.5, 0.6, 0.7, -0.8, 0.9],
+            ],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Spoil = fn(&mut ModeShapes);
+
+    #[test]
+    fn every_contradiction_is_told() {
+        let cases: [(Spoil, &str); 9] = [
+            (
+                |modes| modes.frequencies_hz.clear(),
+                "expected at least one mode at one point, found 0 modes at 3 points",
+            ),
+            (
+                |modes| modes.frequencies_hz.push(1.0),
+                "expected a shape for each of 3 frequencies, found 2 shapes",
+            ),
+            (
+                |modes| modes.shapes[1].push(1.0),
+                "expected 9 values in mode 2 (three a point), found 10",
+            ),
+            (
+                |modes| modes.points = Some(vec![[0.0; 3]; 2]),
+                "expected as many points as labels, found 2 points and 3 labels",
+            ),
+            (
+                |modes| modes.node_tags = Some(vec![7, 3, 7]),
+                "expected each node once, found node 7 twice",
+            ),
+            (
+                |modes| modes.frequencies_hz[1] = -1.0,
+                "expected a frequency >= 0 Hz for mode 2, found -1",
+            ),
+            (
+                |modes| modes.frequencies_hz[0] = f64::NAN,
+                "expected a frequency >= 0 Hz for mode 1, found NaN",
+            ),
+            (
+                |modes| modes.shapes[1][5] = f64::INFINITY,
+                "expected finite displacements in mode 2, found inf at point 2",
+            ),
+            (
+                |modes| modes.points = Some(vec![[0.0, f64::NAN, 0.0]; 3]),
+                "expected finite coordinates, found NaN at point 1",
+            ),
+        ];
+        assert_eq!(samples::two_modes().check(), Ok(()));
+        for (spoil, expected) in cases {
+            let mut modes = samples::two_modes();
+            spoil(&mut modes);
+            assert_eq!(modes.check().unwrap_err().to_string(), expected);
+        }
+    }
+}

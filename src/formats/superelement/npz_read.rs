@@ -1,0 +1,299 @@
+//! A superelement from a NumPy archive, this program's or another's.
+
+use std::path::Path;
+
+use super::labels::{INTERFACE, LabelArrays, RECOVERED};
+use super::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementError, SuperelementRecord};
+use crate::formats::{DofBody, DofDirection, DofLabel, NpzReadError, NpzReader};
+use crate::numerics::linalg::DenseMatrix;
+
+/// Reads a superelement as [`write_superelement_npz`](super::write_superelement_npz) describes it.
+///
+/// Required are `k`, `m` and one of
+/// - `interface_dofs` \[b x 2\] (node, component). Without `interface_bodies` the nodes are the housing's; without
+///   `interface_axes` those along and about x, y, z are unit vectors, others not known (NaN); without
+///   `interface_positions` positions are not known.
+/// - `n_interface`, one whole number b: the first b coordinates, with no labels but their numbers
+///   ([`DofBody::Interface`]). Left out of account where `interface_dofs` is there.
+///
+/// Everything else may be missing: `modal_hz` then comes from the diagonals of `k` and `m`. Numbers may have 4 or 8 bytes
+/// in either byte order. Matrices that are symmetric within the limit of [`SuperelementRecord::check`] become exactly so:
+/// the mean of both triangles. Other arrays are left out.
+///
+/// # Errors
+/// [`NpzReadError`] naming file and array, for what cannot be read, is missing, or does not fit.
+pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadError> {
+    let mut npz = NpzReader::open(path)?;
+    let mut file = Source {
+        path,
+        npz: &mut npz,
+    };
+    let fault = |fault| NpzReadError::Superelement {
+        path: path.to_owned(),
+        fault: Box::new(fault),
+    };
+    let stiffness = file.matrix("k", None)?;
+    let order = stiffness.nrows();
+    let mass = file.matrix("m", Some(order))?;
+    let interface = file.interface(order)?;
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, interface).map_err(fault)?;
+    record.damping = file.optional("c", order)?;
+    record.structural = file.optional("structural", order)?;
+    record.weight = file.optional("weight", 3)?;
+    if file.npz.has("modal_hz") {
+        record.modal_hz = file.list("modal_hz")?;
+    }
+    record.band_hz = file.positive("band_hz")?;
+    record.complete_hz = file.positive("complete_hz")?;
+    record.outer_radius = file.positive("outer_radius")?;
+    record.interface_recovery = file.interface_recovery(record.interface.len())?;
+    record.sensors = file.sensors(order)?;
+    record.field = file.field(order)?;
+    record.check().map_err(fault)?;
+    record.symmetrise();
+    Ok(record)
+}
+
+/// An archive and its name.
+struct Source<'a> {
+    path: &'a Path,
+    npz: &'a mut NpzReader,
+}
+
+impl Source<'_> {
+    fn wrong(&self, name: &str, expected: &'static str, found: String) -> NpzReadError {
+        NpzReadError::Array {
+            path: self.path.to_owned(),
+            name: name.to_owned(),
+            expected,
+            found,
+        }
+    }
+
+    /// A matrix of so many columns, or a square one. This is checked before it is made, as a matrix of few rows takes more
+    /// memory than its numbers.
+    fn matrix(
+        &mut self,
+        name: &'static str,
+        columns: Option<usize>,
+    ) -> Result<DenseMatrix, NpzReadError> {
+        let read = self.npz.real(name)?;
+        let fault = |fault| NpzReadError::Superelement {
+            path: self.path.to_owned(),
+            fault: Box::new(fault),
+        };
+        match (read.shape.as_slice(), columns) {
+            (&[rows, columns], None) if rows != columns || rows == 0 => {
+                Err(fault(SuperelementError::Square { rows, columns }))
+            }
+            (&[rows, found], Some(columns)) if found != columns => {
+                Err(fault(SuperelementError::Shape {
+                    array: name,
+                    expected: [rows, columns],
+                    found: [rows, found],
+                }))
+            }
+            (&[rows, columns], _) => {
+                let value = |row: usize, column: usize| read.values[row * columns + column];
+                Ok(DenseMatrix::from_fn(rows, columns, value))
+            }
+            (shape, _) => Err(self.wrong(name, "two dimensions", format!("shape {shape:?}"))),
+        }
+    }
+
+    fn optional(
+        &mut self,
+        name: &'static str,
+        columns: usize,
+    ) -> Result<Option<DenseMatrix>, NpzReadError> {
+        match self.npz.has(name) {
+            true => Ok(Some(self.matrix(name, Some(columns))?)),
+            false => Ok(None),
+        }
+    }
+
+    fn list(&mut self, name: &str) -> Result<Vec<f64>, NpzReadError> {
+        let read = self.npz.real(name)?;
+        if read.shape.len() != 1 {
+            return Err(self.wrong(name, "one dimension", format!("shape {:?}", read.shape)));
+        }
+        Ok(read.values)
+    }
+
+    /// The one number of an array, above zero; `None` for an array that is not there or empty.
+    fn positive(&mut self, name: &str) -> Result<Option<f64>, NpzReadError> {
+        let values = match self.npz.has(name) {
+            true => self.list(name)?,
+            false => Vec::new(),
+        };
+        match values[..] {
+            [] => Ok(None),
+            [value] if value > 0.0 && value.is_finite() => Ok(Some(value)),
+            _ => Err(self.wrong(name, "one number above zero", format!("{values:?}"))),
+        }
+    }
+
+    fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, NpzReadError> {
+        let read = self.npz.texts(name)?;
+        if read.shape != [count] {
+            let found = format!("shape {:?}", read.shape);
+            return Err(self.wrong(name, "as many entries as its array has rows", found));
+        }
+        Ok(read.values)
+    }
+
+    /// Vectors \[count x 3\].
+    fn vectors(&mut self, name: &str, count: usize) -> Result<Vec<[f64; 3]>, NpzReadError> {
+        let read = self.npz.real(name)?;
+        if read.shape != [count, 3] {
+            let found = format!("shape {:?}", read.shape);
+            return Err(self.wrong(name, "three numbers for each of its nodes", found));
+        }
+        Ok(read.values.as_chunks::<3>().0.to_vec())
+    }
+
+    fn interface(&mut self, order: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+        if !self.npz.has("interface_dofs") {
+            return self.numbered(order);
+        }
+        self.labels(&INTERFACE, order)
+    }
+
+    /// What the rows of `names` are, at most so many.
+    fn labels(&mut self, names: &LabelArrays, most: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+        let dofs = self.npz.whole(names.dofs)?;
+        let count = match dofs.shape.as_slice() {
+            &[count, 2] => count,
+            // NumPy's empty list
+            &[0] => 0,
+            found => {
+                let found = format!("shape {found:?}");
+                return Err(self.wrong(names.dofs, "a shape [interface, 2]", found));
+            }
+        };
+        // labels take more memory than the numbers that they come from
+        if count > most {
+            let found = format!("{count} rows, where \"{}\" has {most}", names.matrix);
+            return Err(self.wrong(names.dofs, names.expected, found));
+        }
+        let mut labels = Vec::with_capacity(count);
+        for &[node, component] in dofs.values.as_chunks::<2>().0 {
+            let node = u64::try_from(node)
+                .map_err(|_| self.wrong(names.dofs, "nodes >= 0", node.to_string()))?;
+            let direction = DofDirection::of_component(component).ok_or_else(|| {
+                self.wrong(names.dofs, "components 0 to 9", component.to_string())
+            })?;
+            labels.push(DofLabel {
+                body: DofBody::Housing,
+                node,
+                direction,
+                position: [f64::NAN; 3],
+                axis: unit_vector(direction),
+            });
+        }
+        if self.npz.has(names.bodies) {
+            for (label, name) in labels.iter_mut().zip(self.texts(names.bodies, count)?) {
+                label.body = DofBody::of_name(&name).ok_or_else(|| {
+                    let expected = "\"housing\", \"ring\", \"interface\" or \"modal\"";
+                    self.wrong(names.bodies, expected, format!("\"{name}\""))
+                })?;
+            }
+        }
+        if self.npz.has(names.positions) {
+            let positions = self.vectors(names.positions, count)?;
+            for (label, position) in labels.iter_mut().zip(positions) {
+                label.position = position;
+            }
+        }
+        if self.npz.has(names.axes) {
+            let axes = self.vectors(names.axes, count)?;
+            for (label, axis) in labels.iter_mut().zip(axes) {
+                label.axis = axis;
+            }
+        }
+        Ok(labels)
+    }
+
+    /// The way back to an interface of which the first `interface` coordinates are modes.
+    fn interface_recovery(
+        &mut self,
+        interface: usize,
+    ) -> Result<Option<InterfaceRecovery>, NpzReadError> {
+        let Some(modes) = self.optional("interface_modes", interface)? else {
+            return Ok(None);
+        };
+        let labels = self.labels(&RECOVERED, modes.nrows())?;
+        Ok(Some(InterfaceRecovery { labels, modes }))
+    }
+
+    /// Labels of an interface of which the number is all that is known.
+    fn numbered(&mut self, order: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+        const NAME: &str = "n_interface";
+        if !self.npz.has(NAME) {
+            return Err(NpzReadError::Missing {
+                path: self.path.to_owned(),
+                name: "interface_dofs\" or \"n_interface".to_owned(),
+                known: self.npz.names(),
+            });
+        }
+        let read = self.npz.whole(NAME)?;
+        let &[number] = read.values.as_slice() else {
+            let found = format!("shape {:?}", read.shape);
+            return Err(self.wrong(NAME, "one number", found));
+        };
+        let count = usize::try_from(number).ok().filter(|&count| count <= order);
+        let Some(count) = count else {
+            let expected = "a number from 0 to that of the rows of \"k\"";
+            return Err(self.wrong(NAME, expected, number.to_string()));
+        };
+        Ok((0..count as u64).map(DofLabel::interface).collect())
+    }
+
+    fn sensors(&mut self, order: usize) -> Result<Vec<SensorRow>, NpzReadError> {
+        let Some(rows) = self.optional("sensors", order)? else {
+            return Ok(Vec::new());
+        };
+        let names = match self.npz.has("sensor_names") {
+            true => self.texts("sensor_names", rows.nrows())?,
+            false => (1..=rows.nrows()).map(|n| format!("sensor {n}")).collect(),
+        };
+        let row = |(name, row): (String, usize)| SensorRow {
+            name,
+            row: rows.row(row).iter().copied().collect(),
+        };
+        Ok(names.into_iter().zip(0..).map(row).collect())
+    }
+
+    fn field(&mut self, order: usize) -> Result<Option<FieldRecovery>, NpzReadError> {
+        let Some(recovery) = self.optional("field_recovery", order)? else {
+            return Ok(None);
+        };
+        let nodes = recovery.nrows() / 3;
+        let positions = self.vectors("field_positions", nodes)?;
+        const TAGS: &str = "field_node_tags";
+        let tags = self.npz.whole(TAGS)?;
+        if tags.shape != [nodes] {
+            let found = format!("shape {:?}", tags.shape);
+            return Err(self.wrong(TAGS, "a tag for three rows of \"field_recovery\"", found));
+        }
+        let tag = |&tag: &i64| {
+            u64::try_from(tag).map_err(|_| self.wrong(TAGS, "tags >= 0", tag.to_string()))
+        };
+        let node_tags = tags.values.iter().map(tag).collect::<Result<_, _>>()?;
+        Ok(Some(FieldRecovery {
+            node_tags,
+            positions,
+            recovery,
+        }))
+    }
+}
+
+/// Along or about x, y, z of the mesh, where that is what the direction says.
+fn unit_vector(direction: DofDirection) -> [f64; 3] {
+    match direction {
+        DofDirection::Along(axis) | DofDirection::About(axis) => {
+            [0, 1, 2].map(|own| if own == axis { 1.0 } else { 0.0 })
+        }
+        DofDirection::Polar(_) | DofDirection::Generalised => [f64::NAN; 3],
+    }
+}

@@ -1,0 +1,118 @@
+//! A superelement as a NumPy archive.
+
+use std::path::Path;
+
+use super::SuperelementRecord;
+use super::labels::{INTERFACE, LabelArrays, RECOVERED};
+use crate::formats::{DofLabel, NpzError, NpzWriter};
+use crate::numerics::linalg::DenseMatrix;
+
+/// Writes everything of a superelement, whole or not at all. n coordinates, b of them of the interface; arrays of what
+/// there is not are left out.
+///
+/// | array | shape | what it is |
+/// |---|---|---|
+/// | `k`, `m`, `c`, `structural` | \[n x n\] | stiffness, mass, viscous damping, imaginary part of the stiffness |
+/// | `interface_dofs` | \[b x 2\] | node and component: 1, 2, 3 along x, y, z; 4, 5, 6 about them; 7, 8, 9 radial, tangential, axial; 0 generalised |
+/// | `interface_bodies` | \[b\] | `housing`, `ring`, `interface` |
+/// | `interface_positions`, `interface_axes` | \[b x 3\] | m and unit vector, mesh axes, NaN where not known |
+/// | `interface_modes` | \[d x b\] | displacements of the interface from the first b coordinates, where these are amplitudes of modes |
+/// | `recovered_dofs`, `_bodies`, `_positions`, `_axes` | as above for d | what these displacements are |
+/// | `modal_hz` | \[n - b\] | Hz |
+/// | `band_hz` | \[1\] | top of the band that it was condensed for, Hz |
+/// | `complete_hz` | \[1\] | frequency of the first vector of the interior that was left out, Hz |
+/// | `outer_radius` | \[1\] | radius of the bore that the ring is tied to, m |
+/// | `weight` | \[n x 3\] | mass times unit accelerations along x, y, z |
+/// | `sensors`, `sensor_names` | \[s x n\], \[s\] | displacement a unit of each coordinate |
+/// | `field_node_tags`, `field_positions`, `field_recovery` | \[N\], \[N x 3\], \[3 N x n\] | nodes, m, displacements x, y, z of node after node |
+///
+/// # Errors
+/// [`NpzError::Superelement`] for one that contradicts itself, [`NpzError::Label`] for tags beyond i64, else as
+/// [`NpzWriter`].
+pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Result<(), NpzError> {
+    record
+        .check()
+        .map_err(|fault| NpzError::Superelement { fault })?;
+    let mut npz = NpzWriter::create(path)?;
+    matrix(&mut npz, "k", &record.stiffness)?;
+    matrix(&mut npz, "m", &record.mass)?;
+    for (name, values) in [
+        ("c", &record.damping),
+        ("structural", &record.structural),
+        ("weight", &record.weight),
+    ] {
+        if let Some(values) = values {
+            matrix(&mut npz, name, values)?;
+        }
+    }
+    labels(&mut npz, &record.interface, &INTERFACE)?;
+    if let Some(recovery) = &record.interface_recovery {
+        matrix(&mut npz, "interface_modes", &recovery.modes)?;
+        labels(&mut npz, &recovery.labels, &RECOVERED)?;
+    }
+    npz.array("modal_hz", &record.modal_hz)?;
+    for (name, value) in [
+        ("band_hz", record.band_hz),
+        ("complete_hz", record.complete_hz),
+        ("outer_radius", record.outer_radius),
+    ] {
+        if let Some(value) = value {
+            npz.array(name, &[value])?;
+        }
+    }
+    if !record.sensors.is_empty() {
+        let mut rows = npz.begin("sensors", &[record.sensors.len(), record.order()])?;
+        for sensor in &record.sensors {
+            rows.extend(&sensor.row)?;
+        }
+        rows.end()?;
+        let names = record.sensors.iter().map(|sensor| sensor.name.as_str());
+        npz.texts("sensor_names", &names.collect::<Vec<_>>())?;
+    }
+    if let Some(field) = &record.field {
+        let tags: Result<Vec<i64>, NpzError> = field.node_tags.iter().copied().map(tag).collect();
+        npz.array("field_node_tags", &tags?)?;
+        let positions = &field.positions;
+        npz.matrix(
+            "field_positions",
+            positions.len(),
+            3,
+            positions.as_flattened(),
+        )?;
+        matrix(&mut npz, "field_recovery", &field.recovery)?;
+    }
+    npz.finish()
+}
+
+fn tag(label: u64) -> Result<i64, NpzError> {
+    i64::try_from(label).map_err(|_| NpzError::Label { label })
+}
+
+/// What coordinates are.
+fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Result<(), NpzError> {
+    let mut dofs = Vec::with_capacity(labels.len());
+    for dof in labels {
+        dofs.push([tag(dof.node)?, dof.direction.component()]);
+    }
+    npz.matrix(names.dofs, dofs.len(), 2, dofs.as_flattened())?;
+    let bodies: Vec<&str> = labels.iter().map(|dof| dof.body.name()).collect();
+    npz.texts(names.bodies, &bodies)?;
+    let positions: Vec<[f64; 3]> = labels.iter().map(|dof| dof.position).collect();
+    let axes: Vec<[f64; 3]> = labels.iter().map(|dof| dof.axis).collect();
+    for (name, vectors) in [(names.positions, positions), (names.axes, axes)] {
+        npz.matrix(name, vectors.len(), 3, vectors.as_flattened())?;
+    }
+    Ok(())
+}
+
+/// Row by row, as NumPy has it.
+fn matrix(npz: &mut NpzWriter, name: &str, matrix: &DenseMatrix) -> Result<(), NpzError> {
+    let mut array = npz.begin::<f64>(name, &[matrix.nrows(), matrix.ncols()])?;
+    let mut line = Vec::with_capacity(matrix.ncols());
+    for row in matrix.row_iter() {
+        line.clear();
+        line.extend(row.iter());
+        array.extend(&line)?;
+    }
+    array.end()
+}

@@ -1,0 +1,109 @@
+//! A superelement's matrices under Nastran's names.
+
+use std::path::Path;
+
+use super::{SuperelementError, SuperelementRecord};
+use crate::formats::DofLabel;
+use crate::formats::op4::{Op4Error, Op4Format, Op4Matrix, read_op4, write_op4};
+use crate::numerics::linalg::DenseMatrix;
+
+/// Names of 1 x 1 matrices: top of the band that it was condensed for, and the first vector that was left out, Hz.
+const BAND: &str = "BANDHZ";
+const COMPLETE: &str = "COMPLHZ";
+
+/// Stiffness between modes, relative to both diagonals, that is round-off of a computation.
+const BLOCK: f64 = 1e-8;
+
+/// Reads the matrices that [`write_superelement_op4`] names, whether in capitals or not; `KAA` and `MAA` are required.
+/// Matrices that are symmetric within the limit of [`SuperelementRecord::check`] become exactly so.
+///
+/// The file does not say how many coordinates are those of the interface. `interface` has what it may be, ascending:
+/// the first after which the stiffness is that of modes, a diagonal with nothing beside it, else the largest that the
+/// matrices have rows for; all rows if they are too few for any. Labels are numbers alone ([`DofLabel::interface`]).
+///
+/// # Errors
+/// [`Op4Error`] of the file; [`Op4Error::Missing`], [`Op4Error::Superelement`].
+pub fn read_superelement_op4(
+    path: &Path,
+    interface: &[usize],
+) -> Result<SuperelementRecord, Op4Error> {
+    let fault = |fault: SuperelementError| Op4Error::Superelement {
+        fault: Box::new(fault),
+    };
+    let matrices = read_op4(path)?;
+    let dense = |name: &str| {
+        let mut matrices = matrices.iter();
+        let found = matrices.find(|matrix| matrix.name().eq_ignore_ascii_case(name));
+        found.map(Op4Matrix::dense).transpose()
+    };
+    let required = |name: &'static str| {
+        let known = || match matrices.iter().map(Op4Matrix::name).collect::<Vec<_>>() {
+            names if names.is_empty() => "none".to_owned(),
+            names => names.join(", "),
+        };
+        dense(name)?.ok_or_else(|| Op4Error::Missing {
+            path: path.to_owned(),
+            name,
+            known: known(),
+        })
+    };
+    let (stiffness, mass) = (required("KAA")?, required("MAA")?);
+    let count = interface_of(&stiffness, interface);
+    let labels = (0..count as u64).map(DofLabel::interface).collect();
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels).map_err(fault)?;
+    (record.damping, record.structural) = (dense("BAA")?, dense("K4AA")?);
+    let frequency = |name: &str| -> Result<Option<f64>, Op4Error> {
+        let matrix = dense(name)?.filter(|matrix| matrix.nrows() == 1 && matrix.ncols() == 1);
+        let value = matrix.map(|matrix| matrix[(0, 0)]);
+        Ok(value.filter(|hz| *hz > 0.0 && hz.is_finite()))
+    };
+    (record.band_hz, record.complete_hz) = (frequency(BAND)?, frequency(COMPLETE)?);
+    record.check().map_err(fault)?;
+    record.symmetrise();
+    Ok(record)
+}
+
+/// How many of the coordinates are those of the interface.
+fn interface_of(stiffness: &DenseMatrix, candidates: &[usize]) -> usize {
+    let order = stiffness.nrows().min(stiffness.ncols());
+    let fitting = || candidates.iter().copied().filter(|&count| count <= order);
+    let modal = |&first: &usize| (first..order).all(|mode| is_modal(stiffness, order, mode));
+    let found = fitting().find(modal);
+    found.or_else(|| fitting().next_back()).unwrap_or(order)
+}
+
+/// Whether a coordinate's stiffness is its own alone.
+fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
+    let own = stiffness[(mode, mode)];
+    (0..order).filter(|&row| row != mode).all(|row| {
+        let scale = (own * stiffness[(row, row)]).abs().sqrt();
+        stiffness[(row, mode)].abs() <= BLOCK * scale
+    })
+}
+
+/// Writes the matrices \[n x n\] of a superelement, whole or not at all: `KAA` (stiffness), `MAA` (mass) and, where there
+/// are any, `BAA` (viscous damping) and `K4AA` (imaginary part of the stiffness), and as 1 x 1 matrices what is known of `BANDHZ` (top of the band that
+/// it was condensed for, Hz) and `COMPLHZ` (the first vector that was left out, Hz). Rows are those of
+/// [`SuperelementRecord::labels`]: the boundary set first, then the modes, as Nastran's external superelements have them.
+///
+/// # Errors
+/// [`Op4Error::Superelement`] for one that contradicts itself, else as [`write_op4`].
+pub fn write_superelement_op4(
+    path: &Path,
+    record: &SuperelementRecord,
+    format: Op4Format,
+) -> Result<(), Op4Error> {
+    let fault = |fault: SuperelementError| Op4Error::Superelement {
+        fault: Box::new(fault),
+    };
+    record.check().map_err(fault)?;
+    let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
+    matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
+    matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));
+    let frequencies = [(BAND, record.band_hz), (COMPLETE, record.complete_hz)];
+    let frequencies =
+        frequencies.map(|(name, hz)| (name, hz.map(|hz| DenseMatrix::full(1, 1, hz))));
+    let said = frequencies.iter();
+    matrices.extend(said.filter_map(|(name, hz)| Some((*name, hz.as_ref()?))));
+    write_op4(path, &matrices, format)
+}

@@ -1,0 +1,241 @@
+//! Writes datasets 151, 164, 2411, 2412 and 55.
+
+use std::collections::HashSet;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::super::ModeShapes;
+use super::super::fortran::exponential;
+use super::UffError;
+use super::element::{Descriptor, descriptor};
+use crate::fe::mesh::{ElementId, Mesh};
+use crate::files::{AtomicFile, write_atomic};
+
+/// Largest label of ten digits.
+pub(super) const LAST_LABEL: u64 = 9_999_999_999;
+
+/// A node with its label.
+type Node = (u64, [f64; 3]);
+
+/// An element ready to be written.
+struct Element<'a> {
+    label: u64,
+    descriptor: Descriptor,
+    nodes: &'a [usize],
+}
+
+/// Writes mode shapes at some of the nodes of some elements of a mesh, whole or not at all: header, SI units, nodes,
+/// elements, then one dataset 55 a mode (real, modal mass 1, no damping, 6 digits as the format has it). `description` is
+/// the model's name; only its first line is used.
+///
+/// # Errors
+/// [`UffError`] for elements that the mesh does not have or that are points or lines, mode shapes that contradict
+/// themselves or lie at other nodes, labels of more than ten digits, and when the file cannot be written.
+pub fn write_uff(
+    path: &Path,
+    description: &str,
+    mesh: &Mesh,
+    elements: impl IntoIterator<Item = ElementId>,
+    modes: &ModeShapes,
+) -> Result<(), UffError> {
+    let mut used = vec![false; mesh.nodes.len()];
+    let mut own = Vec::new();
+    for id in elements {
+        let block = mesh.blocks.get(id.block);
+        let found = block.and_then(|block| {
+            let nodes = block.element(id.index)?;
+            Some((block.kind, *block.tags.get(id.index)?, nodes))
+        });
+        let Some((kind, label, nodes)) = found else {
+            return Err(UffError::Element { id });
+        };
+        let Some(descriptor) = descriptor(kind) else {
+            return Err(UffError::Kind { kind });
+        };
+        for &node in nodes {
+            used[node] = true;
+        }
+        own.push(Element {
+            label,
+            descriptor,
+            nodes,
+        });
+    }
+    let nodes: Vec<Node> = (0..used.len())
+        .filter(|&node| used[node])
+        .map(|node| (mesh.node_tags[node], mesh.nodes[node]))
+        .collect();
+    let known: HashSet<u64> = nodes.iter().map(|&(tag, _)| tag).collect();
+    let tags = tags_of(modes);
+    if let Some(&tag) = tags.iter().find(|tag| !known.contains(tag)) {
+        return Err(UffError::UnknownNode { tag });
+    }
+    let labels = known.iter().copied().chain(own.iter().map(|e| e.label));
+    check(path, labels, modes)?;
+    write_file(path, |to| {
+        write_head(to, description)?;
+        write_nodes(to, &nodes)?;
+        write_elements(to, mesh, &own)?;
+        write_modes(to, description, &tags, modes)
+    })
+}
+
+/// Writes mode shapes without elements, and their points if they are known, whole or not at all. Points without labels are
+/// numbered from 1.
+///
+/// # Errors
+/// As [`write_uff`].
+pub fn write_modes_uff(path: &Path, description: &str, modes: &ModeShapes) -> Result<(), UffError> {
+    let tags = tags_of(modes);
+    check(path, tags.iter().copied(), modes)?;
+    let points = modes.points.iter().flatten().copied();
+    let nodes: Vec<Node> = tags.iter().copied().zip(points).collect();
+    write_file(path, |to| {
+        write_head(to, description)?;
+        if !nodes.is_empty() {
+            write_nodes(to, &nodes)?;
+        }
+        write_modes(to, description, &tags, modes)
+    })
+}
+
+fn tags_of(modes: &ModeShapes) -> Vec<u64> {
+    match &modes.node_tags {
+        Some(tags) => tags.clone(),
+        None => (1..=modes.count_points() as u64).collect(),
+    }
+}
+
+fn check(
+    path: &Path,
+    mut labels: impl Iterator<Item = u64>,
+    modes: &ModeShapes,
+) -> Result<(), UffError> {
+    modes.check().map_err(|fault| UffError::Modes {
+        path: path.to_owned(),
+        fault,
+    })?;
+    match labels.find(|&label| label > LAST_LABEL) {
+        Some(label) => Err(UffError::Label { label }),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn write_file(
+    path: &Path,
+    write: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
+) -> Result<(), UffError> {
+    write_atomic(path, write).map_err(|source| UffError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+pub(super) fn begin(to: &mut impl Write, dataset: u32) -> io::Result<()> {
+    writeln!(to, "{:>6}\n{dataset:>6}", -1)
+}
+
+pub(super) fn end(to: &mut impl Write) -> io::Result<()> {
+    writeln!(to, "{:>6}", -1)
+}
+
+/// An identification line: at most 80 characters, "NONE" if there is nothing to say, which the format asks for.
+pub(super) fn identification(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default().trim();
+    let plain = line
+        .chars()
+        .map(|c| if c.is_ascii_graphic() { c } else { ' ' });
+    match line {
+        "" | "-1" => "NONE".to_owned(),
+        _ => plain.take(80).collect(),
+    }
+}
+
+/// Datasets 151 and 164. Dates are fixed, so that the same results give the same bytes.
+pub(super) fn write_head(to: &mut impl Write, description: &str) -> io::Result<()> {
+    let program = concat!("plummer ", env!("CARGO_PKG_VERSION"));
+    let date = format!("{:<10}{:<10}", "01-Jan-00", "00:00:00");
+    begin(to, 151)?;
+    writeln!(to, "{}\nNONE\n{program}", identification(description))?;
+    writeln!(to, "{date}{:>10}{:>10}{:>10}", 0, 0, 0)?;
+    writeln!(to, "{date}\n{program}\n{date}")?;
+    end(to)?;
+    begin(to, 164)?;
+    // SI: metre, newton; temperatures (there are none) in kelvin.
+    writeln!(to, "{:>10}{:<20}{:>10}", 1, "SI: metre (newton)", 1)?;
+    let number = |value| exponential(value, 25, 17, 'D');
+    writeln!(to, "{0}{0}{0}\n{1}", number(1.0), number(273.15))?;
+    end(to)
+}
+
+/// Dataset 2411; coordinate systems 0 are global.
+fn write_nodes(to: &mut impl Write, nodes: &[Node]) -> io::Result<()> {
+    begin(to, 2411)?;
+    for (tag, point) in nodes {
+        writeln!(to, "{tag:>10}{:>10}{:>10}{:>10}", 0, 0, 11)?;
+        let [x, y, z] = point.map(|value| exponential(value, 25, 16, 'D'));
+        writeln!(to, "{x}{y}{z}")?;
+    }
+    end(to)
+}
+
+/// Dataset 2412; properties and materials are tables 1, which are not in the file.
+fn write_elements(to: &mut impl Write, mesh: &Mesh, elements: &[Element]) -> io::Result<()> {
+    begin(to, 2412)?;
+    for element in elements {
+        let Descriptor { id, order } = element.descriptor;
+        let count = order.len();
+        writeln!(
+            to,
+            "{:>10}{id:>10}{:>10}{:>10}{:>10}{count:>10}",
+            element.label, 1, 1, 7
+        )?;
+        for line in order.chunks(8) {
+            for &place in line {
+                write!(to, "{:>10}", mesh.node_tags[element.nodes[place]])?;
+            }
+            writeln!(to)?;
+        }
+    }
+    end(to)
+}
+
+/// One dataset 55 a mode.
+fn write_modes(
+    to: &mut impl Write,
+    description: &str,
+    tags: &[u64],
+    modes: &ModeShapes,
+) -> io::Result<()> {
+    let number = |value| exponential(value, 13, 5, 'E');
+    for (index, (&frequency, shape)) in modes.frequencies_hz.iter().zip(&modes.shapes).enumerate() {
+        let mode = index + 1;
+        begin(to, 55)?;
+        writeln!(
+            to,
+            "{}\nmode shape\nNONE\nNONE",
+            identification(description)
+        )?;
+        writeln!(to, "Mode {mode} Frequency {frequency} Hz")?;
+        // structural, normal mode, 3 translations, displacement, real, 3 values a node
+        writeln!(to, "{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}", 1, 2, 2, 8, 2, 3)?;
+        // 2 whole numbers (load case, mode) and 4 reals (frequency, modal mass, viscous and hysteretic damping)
+        writeln!(to, "{:>10}{:>10}{:>10}{mode:>10}", 2, 4, 1)?;
+        writeln!(
+            to,
+            "{}{}{2}{2}",
+            number(frequency),
+            number(1.0),
+            number(0.0)
+        )?;
+        for (tag, displacement) in tags.iter().zip(shape.chunks_exact(3)) {
+            writeln!(to, "{tag:>10}")?;
+            for &value in displacement {
+                write!(to, "{}", number(value))?;
+            }
+            writeln!(to)?;
+        }
+        end(to)?;
+    }
+    Ok(())
+}

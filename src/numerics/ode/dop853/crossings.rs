@@ -1,0 +1,275 @@
+//! Where the force is not smooth: crossings of event functions through zero, and steps that end there.
+//!
+//! Each event function has a side, above zero or not, which it leaves when it is beyond zero by a band: what happens within the
+//! band is too small to be seen. A step at whose end a function is on its other side is taken back to where it crosses, found
+//! on the dense output; the step that ends there is taken with stages of its own, within the band if the dense output was good,
+//! else the search goes on from there. A function that crosses twice within a step is left to the error estimate.
+
+use super::dense::Dense;
+use super::stages::{Span, Stages};
+use crate::numerics::ode::{SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+
+/// Half of the band about zero in units of `tolerance` times the largest value of the function so far: the force of a contact
+/// there, with the power 3/2 of the overlap, is 1e-3 of the tolerance.
+const BAND: f64 = 1e-2;
+
+/// Places of a step at which a function is looked at before it is searched.
+const PLACES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// Evaluations of a search, more than bisection takes to the last digit of a place.
+const MAX_SEARCH: usize = 80;
+
+/// Trials for one step that ends at an event.
+const MAX_RETAKEN: usize = 8;
+
+/// Steps in succession that events cut to the resolution of time; the next one then ends where it likes.
+const MAX_CROWDED: usize = 10;
+
+/// What is left of the time that can be told from `t` (s): a few units in the last place.
+pub(super) fn resolution(t: f64, step: f64) -> f64 {
+    4.0 * f64::EPSILON * t.abs().max(step)
+}
+
+/// Sides of all event functions.
+#[derive(Debug)]
+pub(super) struct Crossings {
+    tolerance: f64,
+    above: Vec<bool>,
+    largest: Vec<f64>,
+    /// At the start of the step, at its end, and in between.
+    before: Vec<f64>,
+    after: Vec<f64>,
+    between: Vec<f64>,
+    aimed: Option<usize>,
+    retaken: usize,
+    crowded: usize,
+    /// Steps that ended at an event.
+    pub count: u64,
+}
+
+impl Crossings {
+    /// Of a system with event functions; the sides are those at the start.
+    pub fn new<S: SecondOrderSystem>(
+        system: &mut S,
+        tolerance: f64,
+        t: f64,
+        [y, v]: [&[f64]; 2],
+    ) -> Option<Self> {
+        let count = system.events();
+        if count == 0 {
+            return None;
+        }
+        let mut after = vec![0.0; count];
+        system.events_into(t, y, v, &mut after);
+        Some(Self {
+            tolerance,
+            above: after.iter().map(|&value| value > 0.0).collect(),
+            largest: after.iter().map(|value| value.abs()).collect(),
+            before: after.clone(),
+            between: after.clone(),
+            after,
+            aimed: None,
+            retaken: 0,
+            crowded: 0,
+            count: 0,
+        })
+    }
+
+    /// Writes sides and values at the end of the last step; what concerns a step under way is none of it.
+    pub fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.count);
+        snapshot.count(self.crowded as u64);
+        for values in [&self.largest, &self.after] {
+            snapshot.numbers(values);
+        }
+        for &above in &self.above {
+            snapshot.flag(above);
+        }
+    }
+
+    /// As they were written.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for those of another system.
+    pub fn recalled(tolerance: f64, snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+        let (count, crowded) = (snapshot.count()?, snapshot.count()?);
+        let largest = snapshot.numbers()?;
+        let mut after = vec![0.0; largest.len()];
+        snapshot.numbers_into("events", &mut after)?;
+        let above: Result<Vec<bool>, SnapshotError> =
+            after.iter().map(|_| snapshot.flag()).collect();
+        Ok(Self {
+            tolerance,
+            above: above?,
+            before: after.clone(),
+            between: after.clone(),
+            after,
+            largest,
+            aimed: None,
+            retaken: 0,
+            crowded: crowded.try_into().unwrap_or(usize::MAX),
+            count,
+        })
+    }
+
+    /// Goes on from the end of the last step.
+    pub fn turn_over(&mut self) {
+        std::mem::swap(&mut self.before, &mut self.after);
+        (self.aimed, self.retaken) = (None, 0);
+    }
+
+    /// A trial was not good enough: none of its events is sought any more.
+    pub fn forget(&mut self) {
+        (self.aimed, self.retaken) = (None, 0);
+    }
+
+    /// Looks at a good step: the instant (s) to which it must be taken back, or none, and then the sides are those at its end.
+    pub fn look<S: SecondOrderSystem>(
+        &mut self,
+        system: &mut S,
+        stages: &mut Stages,
+        dense: &mut Dense,
+        span: &Span,
+    ) -> Option<f64> {
+        let [y, v] = stages.end();
+        system.events_into(span.to, y, v, &mut self.after);
+        let least = resolution(span.to, span.length());
+        if self.retaken < MAX_RETAKEN && self.crowded < MAX_CROWDED {
+            let mut first: Option<(usize, f64)> = None;
+            for event in 0..self.above.len() {
+                if self.has_left(event, self.after[event]) {
+                    let limit = first.map_or(1.0, |(_, place)| place);
+                    let found = self.place(system, stages, dense, span, event, limit);
+                    first = found.map(|place| (event, place)).or(first);
+                }
+            }
+            if let Some((event, place)) = first {
+                let t = (span.from + place * span.length()).max(span.from + 2.0 * least);
+                if t < span.to - least {
+                    (self.aimed, self.retaken) = (Some(event), self.retaken + 1);
+                    return Some(t);
+                }
+                // it cannot be told from the end
+                self.aimed = Some(event);
+            }
+        }
+        self.stand(span, least);
+        None
+    }
+
+    /// Takes the step as it is.
+    fn stand(&mut self, span: &Span, least: f64) {
+        let aimed = self.aimed;
+        for event in 0..self.above.len() {
+            let value = self.after[event];
+            self.largest[event] = self.largest[event].max(value.abs());
+            let reached = aimed == Some(event) && value.abs() <= self.band(event);
+            if reached || self.has_left(event, value) {
+                self.above[event] = !self.above[event];
+                self.count += u64::from(aimed == Some(event));
+            }
+        }
+        self.crowded = match aimed {
+            Some(_) if span.length() < 1e3 * least => self.crowded + 1,
+            _ => 0,
+        };
+    }
+
+    fn band(&self, event: usize) -> f64 {
+        BAND * self.tolerance * self.largest[event].max(self.after[event].abs())
+    }
+
+    /// Whether a value is beyond the band on the side that the event is not on.
+    fn has_left(&self, event: usize, value: f64) -> bool {
+        self.toward(event, value) < -self.band(event)
+    }
+
+    /// A value, positive on the side that the event is on.
+    fn toward(&self, event: usize, value: f64) -> f64 {
+        if self.above[event] { value } else { -value }
+    }
+
+    /// Where an event that has changed its side by the end of a step first leaves it, up to a place; none if it was never
+    /// beyond the band on it, and has only touched zero.
+    fn place<S: SecondOrderSystem>(
+        &mut self,
+        system: &mut S,
+        stages: &mut Stages,
+        dense: &mut Dense,
+        span: &Span,
+        event: usize,
+        limit: f64,
+    ) -> Option<f64> {
+        let band = self.band(event);
+        let start = self.toward(event, self.before[event]);
+        let mut armed = (start > band).then_some((0.0, start));
+        for share in PLACES {
+            let place = share * limit;
+            let value = if place < 1.0 {
+                self.value(system, stages, dense, span, event, place)
+            } else {
+                self.toward(event, self.after[event])
+            };
+            match armed {
+                Some(before) if value <= 0.0 => {
+                    let bracket = [before, (place, value)];
+                    return Some(self.search(system, stages, dense, span, event, bracket));
+                }
+                Some(_) => armed = Some((place, value)),
+                None if value > band => armed = Some((place, value)),
+                None => {}
+            }
+        }
+        None
+    }
+
+    /// The place of zero in a bracket, by the Illinois form of false position, with a bisection where that gains too little:
+    /// to half the band, or to what can be told apart.
+    fn search<S: SecondOrderSystem>(
+        &mut self,
+        system: &mut S,
+        stages: &mut Stages,
+        dense: &mut Dense,
+        span: &Span,
+        event: usize,
+        [(mut a, mut f_a), (mut b, mut f_b)]: [(f64, f64); 2],
+    ) -> f64 {
+        let enough = 0.5 * self.band(event);
+        let least = (resolution(span.to, span.length()) / span.length()).max(f64::EPSILON);
+        for trial in 0..MAX_SEARCH {
+            if b - a <= least {
+                break;
+            }
+            let secant = a + (b - a) * f_a / (f_a - f_b);
+            let bisect = trial % 4 == 3 || !(a < secant && secant < b);
+            let x = if bisect { 0.5 * (a + b) } else { secant };
+            let f_x = self.value(system, stages, dense, span, event, x);
+            if f_x.abs() <= enough {
+                return x;
+            }
+            if f_x > 0.0 {
+                (a, f_a) = (x, f_x);
+                f_b *= 0.5;
+            } else {
+                (b, f_b) = (x, f_x);
+                f_a *= 0.5;
+            }
+        }
+        b
+    }
+
+    /// An event function at a place of the step, positive on its side.
+    fn value<S: SecondOrderSystem>(
+        &mut self,
+        system: &mut S,
+        stages: &mut Stages,
+        dense: &mut Dense,
+        span: &Span,
+        event: usize,
+        place: f64,
+    ) -> f64 {
+        let [y, v] = dense.at(system, stages, span, place);
+        system.events_into(span.at(place), y, v, &mut self.between);
+        self.toward(event, self.between[event])
+    }
+}

@@ -1,0 +1,307 @@
+//! `TimeSeries`: samples at equal steps, with the unit they are in.
+
+use serde::Serialize;
+
+use super::SeriesError;
+
+/// Part of a step by which an instant may miss a sample and still mean it: window bounds are typed in decimal and
+/// a sample instant is `start + k step` in binary. A millionth of a step is far above rounding (t / step * 2e-16,
+/// 1e-9 for 10 s at 1 MHz) and far below anything one could mean.
+const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
+
+/// Steps by which an instant may miss a sample: round-off counts where time has its origin far away, as seconds since 1970 do.
+fn tolerance_steps(latest_s: f64, step_s: f64) -> f64 {
+    INSTANT_TOLERANCE_STEPS + 4.0 * f64::EPSILON * latest_s / step_s
+}
+
+/// Samples x_k = x(start + k step), k = 0 .. n-1, all finite, n >= 1, in one unit.
+///
+/// ```
+/// use plummer::numerics::series::TimeSeries;
+/// let series = TimeSeries::new(2.0, 0.5, "m/s^2", vec![1.0, -3.0, 2.0, 0.0])?;
+/// assert_eq!(series.window(2.5, 3.5)?.values(), &[-3.0, 2.0]);
+/// # Ok::<(), plummer::numerics::series::SeriesError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TimeSeries {
+    start_s: f64,
+    step_s: f64,
+    unit: String,
+    values: Vec<f64>,
+}
+
+/// A stretch of time, from <= t < to, s.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TimeWindow {
+    /// First instant, s.
+    pub from: f64,
+    /// End, s; the instant itself is outside.
+    pub to: f64,
+}
+
+impl TimeWindow {
+    /// Checks that the window lies in a series of so many samples, the first at `start_s`, one every `step_s`, without the
+    /// series: for one that is read in part.
+    ///
+    /// # Errors
+    /// [`SeriesError::WindowOrder`], [`SeriesError::WindowOutside`].
+    pub fn check_inside(
+        self,
+        start_s: f64,
+        step_s: f64,
+        samples: usize,
+    ) -> Result<(), SeriesError> {
+        let (from_s, to_s) = (self.from, self.to);
+        if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
+            return Err(SeriesError::WindowOrder { from_s, to_s });
+        }
+        let position = |t: f64| (t - start_s) / step_s;
+        let samples = samples as f64;
+        let tolerance = tolerance_steps(start_s.abs().max(to_s.abs()), step_s);
+        if position(from_s) < -tolerance || position(to_s) > samples + tolerance {
+            return Err(SeriesError::WindowOutside {
+                from_s,
+                to_s,
+                start_s,
+                end_s: start_s + samples * step_s,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl TimeSeries {
+    /// Series of `values` (length n >= 1, in `unit`), the first at `start_s`, one every `step_s` > 0 seconds.
+    ///
+    /// # Errors
+    /// [`SeriesError::Start`], [`SeriesError::Step`], [`SeriesError::Empty`], and [`SeriesError::NotFinite`] with the
+    /// first sample that is NaN or infinite.
+    pub fn new(
+        start_s: f64,
+        step_s: f64,
+        unit: impl Into<String>,
+        values: Vec<f64>,
+    ) -> Result<Self, SeriesError> {
+        if !start_s.is_finite() {
+            return Err(SeriesError::Start { start_s });
+        }
+        if !(step_s.is_finite() && step_s > 0.0) {
+            return Err(SeriesError::Step { step_s });
+        }
+        if values.is_empty() {
+            return Err(SeriesError::Empty);
+        }
+        if let Some((index, value)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            return Err(SeriesError::NotFinite {
+                index,
+                time_s: start_s + index as f64 * step_s,
+                value: *value,
+            });
+        }
+        Ok(Self {
+            start_s,
+            step_s,
+            unit: unit.into(),
+            values,
+        })
+    }
+
+    /// Instant of the first sample, s.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// Sampling step, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// Sampling rate, Hz: 1 / step.
+    pub fn rate_hz(&self) -> f64 {
+        1.0 / self.step_s
+    }
+
+    /// One step after the last sample, s: start + n step.
+    pub fn end_s(&self) -> f64 {
+        self.time_s(self.values.len())
+    }
+
+    /// Length in time, s: n step.
+    pub fn duration_s(&self) -> f64 {
+        self.values.len() as f64 * self.step_s
+    }
+
+    /// Instant of sample `index`, s: start + index step (any index; not checked against the length).
+    pub fn time_s(&self, index: usize) -> f64 {
+        self.start_s + index as f64 * self.step_s
+    }
+
+    /// Unit of the values, as a label ("m/s^2").
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// The samples, length n >= 1, in [`unit`](Self::unit).
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The samples, taken out of the series.
+    pub fn into_values(self) -> Vec<f64> {
+        self.values
+    }
+
+    /// Stretch of time that the series covers: start <= t < end.
+    pub fn span(&self) -> TimeWindow {
+        TimeWindow {
+            from: self.start_s,
+            to: self.end_s(),
+        }
+    }
+
+    /// The samples with `from_s` <= t < `to_s` (half-open, so that adjoining windows share no sample); bounds within
+    /// a millionth of a step of a sample mean that sample. `to_s` may be the end of the series, start + n step.
+    ///
+    /// # Errors
+    /// [`SeriesError::WindowOrder`] if `to_s` <= `from_s` or a bound is not finite, [`SeriesError::WindowOutside`] if
+    /// the window reaches beyond the series, [`SeriesError::WindowEmpty`] if it falls between two samples.
+    pub fn window(&self, from_s: f64, to_s: f64) -> Result<Self, SeriesError> {
+        let samples = self.values.len();
+        let window = TimeWindow {
+            from: from_s,
+            to: to_s,
+        };
+        window.check_inside(self.start_s, self.step_s, samples)?;
+        let position = |t: f64| (t - self.start_s) / self.step_s;
+        let samples = samples as f64;
+        let index = |t: f64| {
+            (position(t) - tolerance_steps(self.start_s.abs().max(t.abs()), self.step_s))
+                .ceil()
+                .clamp(0.0, samples) as usize
+        };
+        let (first, end) = (index(from_s), index(to_s));
+        if first >= end {
+            return Err(SeriesError::WindowEmpty {
+                from_s,
+                to_s,
+                step_s: self.step_s,
+            });
+        }
+        Ok(Self {
+            start_s: self.time_s(first),
+            step_s: self.step_s,
+            unit: self.unit.clone(),
+            values: self.values[first..end].to_vec(),
+        })
+    }
+
+    /// Series on the same instants and in the same unit with other values, as a filter makes it.
+    ///
+    /// # Errors
+    /// As [`TimeSeries::new`]: values empty or not finite.
+    pub fn with_values(&self, values: Vec<f64>) -> Result<Self, SeriesError> {
+        Self::new(self.start_s, self.step_s, self.unit.clone(), values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp(start_s: f64, step_s: f64, samples: usize) -> TimeSeries {
+        TimeSeries::new(
+            start_s,
+            step_s,
+            "m",
+            (0..samples).map(|k| k as f64).collect(),
+        )
+        .expect("a valid ramp")
+    }
+
+    #[test]
+    fn window_is_half_open_and_adjoining_windows_share_nothing() {
+        let series = ramp(0.0, 1e-5, 300_000);
+        let first = series.window(2.3, 2.4).expect("inside");
+        let second = series.window(2.4, 2.5).expect("inside");
+        assert_eq!(first.values().len(), 10_000);
+        assert_eq!(first.values().first(), Some(&230_000.0));
+        assert_eq!(first.values().last(), Some(&239_999.0));
+        assert_eq!(second.values().first(), Some(&240_000.0));
+        assert!((first.start_s() - 2.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn instants_typed_in_decimal_mean_their_sample() {
+        // Of these quotients t / step many lie just above or below a whole number.
+        let series = ramp(0.2, 1e-5, 280_000);
+        for hundredth in 21..300_u32 {
+            let from = f64::from(hundredth) / 100.0;
+            let first = series.window(from, 3.0).expect("inside").values()[0];
+            assert!(
+                (first - 1000.0 * f64::from(hundredth - 20)).abs() < 0.5,
+                "{from} s: sample {first}"
+            );
+        }
+    }
+
+    #[test]
+    fn window_may_be_the_whole_series() {
+        let series = ramp(-0.3, 0.1, 7);
+        let span = series.span();
+        assert_eq!(series.window(span.from, span.to).expect("inside"), series);
+    }
+
+    /// Seconds since 1970 have steps of 2.4e-7 s, 3e-3 of a sample at 12 kHz.
+    #[test]
+    fn a_window_may_begin_far_from_the_origin() {
+        let series = TimeSeries::new(1.7e9, 1.0 / 12e3, "V", vec![0.0; 120_000]).expect("valid");
+        let span = series.span();
+        let whole = series.window(span.from, span.to).expect("inside");
+        assert_eq!(whole.values().len(), 120_000);
+        let part = series.window(1.7e9 + 1.0, 1.7e9 + 2.0).expect("inside");
+        assert_eq!(part.values().len(), 12_000);
+        assert!(series.window(span.from, span.to + 1e-4).is_err());
+    }
+
+    #[test]
+    fn errors_fire_with_their_exact_messages() {
+        let message = |r: Result<TimeSeries, SeriesError>| r.expect_err("must fail").to_string();
+        let series = ramp(1.0, 0.5, 4);
+        assert_eq!(
+            message(series.window(2.0, 2.0)),
+            "window must end after it starts, found 2 s to 2 s"
+        );
+        assert_eq!(
+            message(series.window(0.5, 2.0)),
+            "window 0.5 s to 2 s is not inside the series, which covers 1 s to 3 s"
+        );
+        assert_eq!(
+            message(series.window(2.0, 3.5)),
+            "window 2 s to 3.5 s is not inside the series, which covers 1 s to 3 s"
+        );
+        assert_eq!(
+            message(series.window(1.1, 1.2)),
+            "window 1.1 s to 1.2 s holds no sample: the sampling step is 0.5 s"
+        );
+        assert_eq!(
+            message(series.window(f64::NAN, 1.2)),
+            "window must end after it starts, found NaN s to 1.2 s"
+        );
+        assert_eq!(
+            message(TimeSeries::new(0.0, 0.0, "m", vec![1.0])),
+            "sampling step must be positive and finite, found 0 s"
+        );
+        assert_eq!(
+            message(TimeSeries::new(f64::INFINITY, 1.0, "m", vec![1.0])),
+            "start of the series must be finite, found inf s"
+        );
+        assert_eq!(
+            message(TimeSeries::new(0.0, 1.0, "m", vec![])),
+            "series has no samples"
+        );
+        assert_eq!(
+            message(TimeSeries::new(0.0, 0.5, "m", vec![1.0, 2.0, f64::NAN])),
+            "sample 2 (t = 1 s) is NaN, not a finite number"
+        );
+    }
+}

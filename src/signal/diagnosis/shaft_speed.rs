@@ -1,0 +1,301 @@
+//! The shaft's speed, sharpened by the lines that it leaves in a signal and in its envelope.
+
+use serde::Serialize;
+
+use super::angle_grid::AngleGrid;
+use super::bands::{BandSpectrum, searched_band};
+use super::comb::SHOWN_HARMONICS;
+use super::control::ByChance;
+use super::fault::{Fault, FaultOrders};
+use super::inner_race_lines::InnerRaceLines;
+use super::line_spectrum::LineSpectrum;
+use super::verdict::FaultVerdict;
+use super::{Conclusion, DiagnosisError, LEAST_SHORT_HARMONICS};
+use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::signal::WhiteSpectrum;
+
+/// Largest relative error of a speed that is looked for: a motor's nominal speed under load.
+const LARGEST_ERROR: f64 = 0.03;
+/// Relative uncertainty of a speed that the signal does not show.
+const UNSEEN_ERROR: f64 = 3e-3;
+/// Revolutions of a stretch whose spectra are averaged.
+const REVOLUTIONS: f64 = 256.0;
+/// Fewest revolutions: the lines of fewer are no sharper than the speed is known.
+const FEWEST_REVOLUTIONS: f64 = 48.0;
+/// Multiples of the shaft's order that are looked at.
+const MULTIPLES: u32 = 12;
+/// Places of the search in the resolution of the highest multiple.
+const PLACES: f64 = 3.0;
+/// Factors of the speed at which the same comb is tried for what it scores by chance lie between these.
+const CONTROLS: [f64; 2] = [0.4, 2.6];
+/// Probability by chance below which the lines are the shaft's.
+const SEEN_BELOW: f64 = 0.02;
+/// A speed that is so many times its uncertainty away from the given one is clearly another.
+const CLEARLY: f64 = 2.0;
+/// Combs that score this part of the best are as good: they bound the uncertainty.
+const AS_GOOD: f64 = 0.9;
+
+/// Probability by chance below which a race's order is certain, indicated or not.
+const CERTAIN_BELOW: f64 = 1e-6;
+/// Orders of both races sum up to the number of balls within this part of it: printed orders are rounded.
+const WHOLE: f64 = 5e-3;
+
+/// Harmonics of one line among which the orders of two races are looked for.
+const HARMONICS_OF_ONE: u32 = 5;
+
+/// How well the shaft's speed is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum SpeedSource {
+    /// Exactly: a simulation's.
+    #[serde(rename = "exact")]
+    Exact,
+    /// As given, and the signal's own lines do not show it better.
+    #[serde(rename = "given")]
+    Given,
+    /// As given, sharpened by the shaft's lines in the signal.
+    #[serde(rename = "shaft lines")]
+    Sharpened,
+    /// The same, and lines stand halfway between them: the shaft may turn half as fast.
+    #[serde(rename = "shaft lines, perhaps every second")]
+    EverySecond,
+    /// The same, and only even multiples of the speed stand out: the shaft may turn twice as fast.
+    #[serde(rename = "shaft lines, even ones only")]
+    EvenOnly,
+    /// As given, sharpened by the lines of both races, `BPFO + BPFI = N`.
+    #[serde(rename = "lines of both races")]
+    Races,
+}
+
+impl SpeedSource {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Given => "as given: the signal's lines do not confirm it",
+            Self::Sharpened => "by the shaft's lines",
+            Self::EverySecond => "by the shaft's lines, of which it may be every second",
+            Self::EvenOnly => "by the shaft's lines, even multiples alone",
+            Self::Races => "by the lines of both races",
+        }
+    }
+}
+
+/// The shaft's speed over the given one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ShaftSpeed {
+    /// Over the speed that was given.
+    pub(super) factor: f64,
+    /// Relative uncertainty.
+    pub(super) error: f64,
+    pub(super) source: SpeedSource,
+}
+
+impl ShaftSpeed {
+    /// The speed as given, sharpened by the shaft's lines in the signal and in its envelope where they show and orders are not exact.
+    pub(super) fn of(
+        signal: &TimeSeries,
+        white: &WhiteSpectrum,
+        asked_hz: Option<[f64; 2]>,
+        window: TimeWindow,
+        turns: impl Fn(f64) -> f64,
+        orders: &FaultOrders,
+    ) -> Result<Self, DiagnosisError> {
+        let as_given = |error, source| Self {
+            factor: 1.0,
+            error,
+            source,
+        };
+        if orders.is_exact() {
+            return Ok(as_given(0.0, SpeedSource::Exact));
+        }
+        let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
+        let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
+        let strikes_hz = orders.highest() * grid.fastest_hz;
+        let envelope = white.envelope(searched_band(asked_hz, signal, strikes_hz));
+        let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
+        let shown = sharpened(
+            &grid,
+            orders,
+            &[
+                (signal.start_s(), signal.step_s(), signal.values()),
+                (envelope.start_s, envelope.step_s, &magnitude),
+            ],
+        )?;
+        Ok(shown.unwrap_or_else(|| as_given(UNSEEN_ERROR, SpeedSource::Given)))
+    }
+}
+
+/// Sharpens the speed by the comb of the shaft's multiples in the spectra of `series` (start and step in s, values). `None` where the
+/// window is short or the lines do not show: those among them that are no part's at a speed nearby, as every third is at BPFO = 3.05.
+fn sharpened(
+    grid: &AngleGrid,
+    orders: &FaultOrders,
+    series: &[(f64, f64, &[f64])],
+) -> Result<Option<ShaftSpeed>, DiagnosisError> {
+    if grid.turns() < FEWEST_REVOLUTIONS {
+        return Ok(None);
+    }
+    let highest = (f64::from(MULTIPLES) + 1.0) * CONTROLS[1];
+    let spectra: Result<Vec<LineSpectrum>, DiagnosisError> = series
+        .iter()
+        .map(|(start_s, step_s, values)| {
+            let means = grid.means(*start_s, *step_s, values);
+            LineSpectrum::new(&means, grid.per_turn(), highest, 1.0, REVOLUTIONS)
+        })
+        .collect();
+    let spectra = spectra?;
+    let Some(resolution) = spectra.first().map(|spectrum| spectrum.resolution) else {
+        return Ok(None);
+    };
+    let level = |line: f64| {
+        let levels = spectra.iter().map(move |spectrum| {
+            let level = spectrum.bin(line).map(|bin| spectrum.level(bin));
+            level.unwrap_or(0.0)
+        });
+        levels.sum::<f64>()
+    };
+    let score = |order: f64, teeth: &[f64]| {
+        let teeth = teeth.iter().map(|tooth| level(tooth * order));
+        teeth.sum::<f64>()
+    };
+    let step = resolution / (f64::from(MULTIPLES) * PLACES);
+    let best = |centre: f64, teeth: &[f64], reach: f64| {
+        let steps = (reach * centre / step).ceil();
+        let places = -(steps as i32)..=steps as i32;
+        let fits = places.map(|place| {
+            let order = centre * (1.0 + reach * f64::from(place) / steps);
+            (score(order, teeth), order)
+        });
+        let fits: Vec<(f64, f64)> = fits.collect();
+        let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
+        // the middle of those that are about as good, and how far they reach
+        let near = fits.iter().filter(|fit| fit.0 >= AS_GOOD * most);
+        let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| {
+            (low.min(fit.1), high.max(fit.1))
+        });
+        (most, low, high)
+    };
+    // probability that chance finds as good a comb in as wide a search
+    let chance = |most: f64, teeth: &[f64], reach: f64| {
+        let scores = controls().map(|centre| best(centre, teeth, reach).0);
+        ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
+    };
+    let fit = |teeth: &[f64]| {
+        let highest_tooth = teeth.last()?;
+        let (most, low, high) = best(1.0, teeth, LARGEST_ERROR);
+        let error = (0.5 * (high - low)).max(resolution / highest_tooth);
+        let factor = 0.5 * (low + high);
+        // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+        let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
+        let clear = sharper && high - low < LARGEST_ERROR;
+        (clear && chance(most, teeth, LARGEST_ERROR) < SEEN_BELOW).then_some((factor, error))
+    };
+    let seen = |centre: f64, teeth: &[f64], reach: f64| {
+        chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW
+    };
+    // every multiple together is sharpest, where those show too that no part's lines can be taken for
+    let free = free_multiples(orders);
+    let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
+    let moves = |factor: f64| (factor - 1.0).abs() > UNSEEN_ERROR;
+    // a strong line of the shaft at the given speed reaches a little farther than it should
+    let better = |factor: f64, error: f64| {
+        AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0
+    };
+    let shown = fit(&every).filter(|&(factor, error)| {
+        seen(factor, &free, error) && (!moves(factor) || better(factor, error))
+    });
+    let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
+        return Ok(None);
+    };
+    let moved = moves(factor);
+    let inner = InnerRaceLines::of(orders, UNSEEN_ERROR, LARGEST_ERROR);
+    if moved && inner.explain_more(best(factor, &every, error).0, &every, step, &level) {
+        return Ok(None);
+    }
+    let halves: Vec<f64> = every.iter().map(|tooth| tooth - 0.5).collect();
+    let source = if seen(1.0, &halves, LARGEST_ERROR) {
+        SpeedSource::EverySecond
+    } else if seen(2.0 * factor, &every, error) && !seen(2.0 * factor, &halves, error) {
+        SpeedSource::EvenOnly
+    } else {
+        SpeedSource::Sharpened
+    };
+    Ok(Some(ShaftSpeed {
+        factor,
+        error,
+        source,
+    }))
+}
+
+/// Multiples of the shaft's order that are no part's line at a speed within the largest error.
+fn free_multiples(orders: &FaultOrders) -> Vec<f64> {
+    let parts = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
+    let parts: Vec<f64> = parts
+        .iter()
+        .filter_map(|&part| orders.order(part))
+        .collect();
+    let free = |multiple: &f64| {
+        let nearest = |part: &f64| (multiple / part).round().max(1.0) * part;
+        let mut parts = parts.iter();
+        parts.all(|part| (multiple / nearest(part) - 1.0).abs() > LARGEST_ERROR)
+    };
+    (1..=MULTIPLES).map(f64::from).filter(free).collect()
+}
+
+/// Orders, related to no simple ratio of the shaft's, at which its comb is tried for what it scores by chance.
+fn controls() -> impl Iterator<Item = f64> {
+    let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
+    let centres = std::iter::successors(Some(CONTROLS[0]), |centre| {
+        Some(centre * (1.0 + 0.5 * LARGEST_ERROR))
+    });
+    let centres = centres.take_while(|centre| *centre < CONTROLS[1]);
+    centres.filter(move |centre| {
+        let related = |ratio: &f64| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR;
+        !simple.iter().any(related)
+    })
+}
+
+/// Sharpens the speed by the orders at which both races were found, where both are certain. The inner race turns past the cage by what the
+/// cage lacks of a revolution of the shaft, so that `BPFO + BPFI = N` whatever the cage slips.
+pub(super) fn speed_of_races(
+    faults: &[FaultVerdict],
+    orders: &FaultOrders,
+    spectra: &[BandSpectrum],
+) -> Option<ShaftSpeed> {
+    let balls = orders.order(Fault::OuterRace)? + orders.order(Fault::InnerRace)?;
+    let off = balls / balls.round() - 1.0;
+    if off.abs() > WHOLE {
+        return None;
+    }
+    let found = |fault: Fault| {
+        let verdict = faults.iter().find(|verdict| verdict.fault == fault)?;
+        let certain = verdict.conclusion == Conclusion::Named
+            || verdict.false_alarm.is_some_and(|p| p < CERTAIN_BELOW);
+        let seen = verdict.harmonics_seen >= LEAST_SHORT_HARMONICS;
+        verdict.order.filter(|_| certain && seen)
+    };
+    let (outer, inner) = (found(Fault::OuterRace)?, found(Fault::InnerRace)?);
+    let lines = &spectra.first()?.lines;
+    let of_a_race = lines.resolution / f64::from(lines.harmonics);
+    if share_a_fundamental(outer, inner, 2.0 * of_a_race) {
+        return None;
+    }
+    let error = std::f64::consts::SQRT_2 * of_a_race / balls.round();
+    (error < UNSEEN_ERROR).then_some(ShaftSpeed {
+        factor: (outer + inner) / balls.round(),
+        error,
+        source: SpeedSource::Races,
+    })
+}
+
+/// Whether two orders, each known to `error`, may be harmonics of one line: of one race where the shaft turns at a fraction of the given speed.
+pub(super) fn share_a_fundamental(outer: f64, inner: f64, error: f64) -> bool {
+    (1..=HARMONICS_OF_ONE).any(|k| {
+        let k = f64::from(k);
+        let fundamental = outer / k;
+        let nearest = (inner / fundamental).round();
+        nearest <= f64::from(HARMONICS_OF_ONE)
+            && (inner - nearest * fundamental).abs() <= error * (1.0 + nearest / k)
+    })
+}
