@@ -6,7 +6,6 @@ use super::decimate::Thinner;
 use super::family::Family;
 use super::raster::Raster;
 use crate::numerics::series::TimeSeries;
-use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum};
 
 /// How values are spread over an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -203,17 +202,8 @@ impl Curve {
         Self::new(name, x, thinned.values)
     }
 
-    /// An amplitude spectrum over frequency.
-    pub fn of_spectrum(name: impl Into<String>, spectrum: &AmplitudeSpectrum) -> Self {
-        Self::evenly_from_zero(name, &spectrum.frequency_hz, &spectrum.amplitude)
-    }
-
-    /// An envelope spectrum over frequency.
-    pub fn of_envelope_spectrum(name: impl Into<String>, spectrum: &EnvelopeSpectrum) -> Self {
-        Self::evenly_from_zero(name, &spectrum.frequency_hz, &spectrum.amplitude)
-    }
-
-    fn evenly_from_zero(name: impl Into<String>, frequency_hz: &[f64], amplitude: &[f64]) -> Self {
+    /// A spectrum over its evenly spaced frequencies in Hz.
+    pub fn of_spectrum(name: impl Into<String>, frequency_hz: &[f64], amplitude: &[f64]) -> Self {
         let x = match frequency_hz {
             [start, next, ..] => Abscissa::Even {
                 start: *start,
@@ -402,11 +392,9 @@ mod tests {
                 step: 0.25
             }
         );
-        let spectrum =
-            crate::signal::amplitude_spectrum(&series, crate::signal::WindowFunction::Boxcar, 0.25)
-                .expect("spectrum");
-        let curve = Curve::of_spectrum("P1", &spectrum);
-        assert!((curve.x_at(3) - spectrum.frequency_hz[3]).abs() < 1e-15);
-        assert_eq!(curve.y, spectrum.amplitude);
+        let (frequency_hz, amplitude) = ([0.0, 2.5, 5.0, 7.5], [1.0, 3.0, 2.0, 0.5]);
+        let curve = Curve::of_spectrum("P1", &frequency_hz, &amplitude);
+        assert!((curve.x_at(3) - frequency_hz[3]).abs() < 1e-15);
+        assert_eq!(curve.y, amplitude);
     }
 }

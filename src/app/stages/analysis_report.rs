@@ -389,9 +389,13 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
         Axis::new("Amplitude", &window.spectrum.unit),
     )
     .curve(
-        Curve::of_envelope_spectrum("envelope", &window.spectrum)
-            .within(0.0, top.max(1.0))
-            .style(CurveStyle::Line),
+        Curve::of_spectrum(
+            "envelope",
+            &window.spectrum.frequency_hz,
+            &window.spectrum.amplitude,
+        )
+        .within(0.0, top.max(1.0))
+        .style(CurveStyle::Line),
     );
     match smeared(window) {
         Some(text) => plot = plot.caption(text),
