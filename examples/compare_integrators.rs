@@ -11,7 +11,8 @@
 //! ```
 
 use plummer::app::case::Case;
-use plummer::app::stages::{RunResult, Unwatched, compute_run};
+use plummer::app::commands::run::{RunResult, compute_run};
+use plummer::app::scene::Unwatched;
 use plummer::numerics::series::TimeSeries;
 use plummer::signal::{band_limit, relative_difference};
 use std::error::Error;

@@ -13,10 +13,10 @@ use std::f64::consts::TAU;
 use std::io::Write;
 
 use plummer::app::case::Case;
-use plummer::app::stages::{
-    AnalysisSettings, AskedBand, Kinematics, ModelChoice, Scene, Simulation, Span, StructureStage,
-    Unwatched, analyse,
-};
+use plummer::app::commands::analyze::{AnalysisSettings, AskedBand, analyse};
+use plummer::app::commands::run::choice::ModelChoice;
+use plummer::app::commands::run::{Simulation, Span};
+use plummer::app::scene::{Kinematics, Scene, StructureStage, Unwatched};
 use plummer::bearing::kinematics::BallRow;
 use plummer::bearing::{SpeedKnot, SpeedProfile};
 use plummer::numerics::series::{TimeSeries, TimeWindow};

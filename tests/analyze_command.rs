@@ -8,7 +8,9 @@ use std::fs;
 use std::process::Output;
 
 use plummer::app::case::Case;
-use plummer::app::stages::{Unwatched, WindowAnalysis, compute_run};
+use plummer::app::commands::analyze::WindowAnalysis;
+use plummer::app::commands::run::compute_run;
+use plummer::app::scene::Unwatched;
 use plummer::formats::NpzWriter;
 use plummer::signal::diagnosis::Fault;
 use program::{errors, plummer, scratch};

@@ -15,9 +15,9 @@
 //! Where balls strike, references take most of the time: `PLUMMER_KIND=smooth` leaves these scenes out.
 
 use plummer::app::case::Case;
-use plummer::app::stages::{
-    Horizon, ModelChoice, RunEnd, RunModel, Scene, Simulation, Span, Unwatched,
-};
+use plummer::app::commands::run::choice::{Horizon, ModelChoice};
+use plummer::app::commands::run::{RunEnd, Simulation, Span};
+use plummer::app::scene::{RunModel, Scene, Unwatched};
 use plummer::app::studies::chart::Trace;
 use plummer::numerics::ode::Method;
 use plummer::signal::{band_limit_edge_s, band_limit_from_rest};

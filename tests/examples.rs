@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use plummer::app::stages::{Unwatched, compute_modes};
+use plummer::app::commands::modes::compute_modes;
+use plummer::app::scene::Unwatched;
 use plummer::system::LoadedMode;
 
 use plummer::app::case::{

@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::io::load_coo_from_matrix_market_file;
-use plummer::app::stages::MeshDigest;
+use plummer::app::scene::MeshDigest;
 use plummer::formats::{
     Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz,
     write_superelement_npz,

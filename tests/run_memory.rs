@@ -8,9 +8,10 @@
 
 use peak_alloc::PeakAlloc;
 use plummer::app::case::Case;
-use plummer::app::stages::{
-    ModelChoice, RunIdentity, Scene, Simulation, Span, UnfinishedRun, Unwatched,
-};
+use plummer::app::commands::run::choice::ModelChoice;
+use plummer::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
+use plummer::app::commands::run::{Simulation, Span};
+use plummer::app::scene::{Scene, Unwatched};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

@@ -3,7 +3,8 @@
 //! In come a TOML file and arguments; out go result files, figures and one HTML page.
 //!
 //! - [`case`]: the case file, read and checked;
-//! - [`stages`]: what a command computes, as a value;
+//! - [`scene`]: a checked case as domain objects;
+//! - [`commands`]: what each command computes, as a value, and its report;
 //! - [`verification`]: the built-in checks of `plummer verify`;
 //! - [`studies`]: many runs of one case;
 //! - [`cli`]: arguments, progress, files, exit codes.
@@ -12,7 +13,8 @@
 
 pub mod case;
 pub mod cli;
+pub mod commands;
+pub mod scene;
 pub mod shell_word;
-pub mod stages;
 pub mod studies;
 pub mod verification;

@@ -8,7 +8,9 @@
 //! Every flow must be so large that the balance would not close without it: a flow that is left out is noticed.
 
 use plummer::app::case::Case;
-use plummer::app::stages::{InMemory, ModelChoice, Scene, Simulation, Span, Unwatched};
+use plummer::app::commands::run::choice::ModelChoice;
+use plummer::app::commands::run::{InMemory, Simulation, Span};
+use plummer::app::scene::{Scene, Unwatched};
 use plummer::system::EnergyBalance;
 
 /// Samples by `dop853`, far more than the vibrations of a ball between its contacts need for a sum over them.

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use plummer::app::case::{Case, Source};
-use plummer::app::stages::{RunEnd, RunResult, Unwatched, compute_run};
+use plummer::app::commands::run::{RunEnd, RunResult, compute_run};
+use plummer::app::scene::Unwatched;
 
 /// An example at constant speed: 10 Hz between two lines of the envelope's spectrum over 0.2 s, in quarters.
 fn run(example: &str, set: &[&str]) -> RunResult {

@@ -9,7 +9,8 @@
 use crate::reference_frequencies::data;
 use crate::setup::{BORE_RADIUS, Housing, dense, steel_ring};
 use plummer::app::case::{Case, Source};
-use plummer::app::stages::{Unwatched, compute_frf};
+use plummer::app::commands::frf::compute_frf;
+use plummer::app::scene::Unwatched;
 use plummer::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use plummer::fe::element::continuum::{Formulation, Integration};
 use plummer::fe::material::Material;

@@ -12,7 +12,7 @@
 
 use crate::reference_frequencies::data;
 use plummer::app::case::{Case, Source};
-use plummer::app::stages::{CondensedStage, HousingStage, Unwatched};
+use plummer::app::scene::{CondensedStage, HousingStage, Unwatched};
 use plummer::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure,
     choose_basis,

@@ -2,7 +2,8 @@
 
 use plummer::app::case::Case;
 use plummer::numerics::ode::{SecondOrderSystem, State, Tangent};
-use plummer::app::stages::{ModelChoice, RunModel, Scene, Unwatched};
+use plummer::app::commands::run::choice::ModelChoice;
+use plummer::app::scene::{RunModel, Scene, Unwatched};
 use plummer::system::CoupledSystem;
 use std::error::Error;
 

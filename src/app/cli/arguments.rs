@@ -8,8 +8,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use super::progress::Visibility;
 use super::{AnalyzeArguments, InitArguments, SweepArguments};
 use crate::app::case::Case;
+use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::app::shell_word::shell_word;
-use crate::app::stages::CHECKPOINT_S;
 use crate::app::studies::chart::Effort;
 use crate::numerics::units::LengthUnit;
 

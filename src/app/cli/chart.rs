@@ -5,7 +5,7 @@ use super::results::{common, warnings};
 use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::stages::{RunModel, StageError};
+use crate::app::scene::{RunModel, StageError};
 use crate::app::studies::chart::{
     Chart, ComparedFigure, Condition, Effort, Estimate, Failure, GrowthError, Point, PointError,
     StartReference, chart_report, compute_chart, compute_stability, parameter_of,

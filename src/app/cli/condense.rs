@@ -4,10 +4,11 @@ use super::report_files::ReportFiles;
 use super::results::{common, condense_fields, imported_fields, warnings};
 use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::stages::{
-    Boundary, Comparison, CondenseResult, ImportedHousing, StageError, compute_condense,
-    condense_report, imported_report, reduced_superelement_record, superelement_record,
+use crate::app::commands::condense::{
+    Comparison, CondenseResult, compute_condense, condense_report, imported_report,
+    reduced_superelement_record, superelement_record,
 };
+use crate::app::scene::{Boundary, ImportedHousing, StageError};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
 use serde_json::Value;

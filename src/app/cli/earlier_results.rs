@@ -7,8 +7,8 @@ use thiserror::Error;
 
 use super::CliError;
 use crate::app::case::Case;
+use crate::app::scene::MeshDigest;
 use crate::app::shell_word::shell_word;
-use crate::app::stages::MeshDigest;
 use crate::files;
 
 /// Where a result has the digests of the files beside it.

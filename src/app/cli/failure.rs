@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::output::printable;
 use super::{AnalyzeError, ExportError, InitError, RecordError, ResultsError};
 use crate::app::case::CaseError;
-use crate::app::stages::StageError;
+use crate::app::scene::StageError;
 use crate::app::studies::chart::ChartError;
 use crate::app::studies::sweep::SweepError;
 use crate::app::verification::VerificationError;
@@ -275,7 +275,8 @@ mod tests {
         SweepError, VerificationError,
     };
     use crate::app::case::Case;
-    use crate::app::stages::{StageError, UnfinishedError};
+    use crate::app::commands::run::unfinished::UnfinishedError;
+    use crate::app::scene::StageError;
     use crate::formats::DofTableError;
 
     fn every() -> Vec<(CliError, u8, &'static str)> {

@@ -6,7 +6,8 @@ use std::path::Path;
 use serde_json::json;
 
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
-use crate::app::stages::{Inspection, StageError};
+use crate::app::commands::Inspection;
+use crate::app::scene::StageError;
 use crate::numerics::units::LengthUnit;
 use crate::report::significant;
 
@@ -190,7 +191,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
             group.nodes
         );
         let _ = write!(text, "{}", counts(&group.kinds));
-        let same = |size: &&crate::app::stages::GroupSize| {
+        let same = |size: &&crate::app::commands::inspect::GroupSize| {
             size.name == group.name && size.dimension == group.dimension
         };
         if let Some(size) = found.group_sizes.iter().find(same) {

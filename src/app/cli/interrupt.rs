@@ -1,7 +1,7 @@
 //! Signals: Ctrl-C and an end asked for by the system, the first of which asks a run to keep a checkpoint and stop, the second ends the
 //! program; memory and file sizes that run out, which are failures like any other.
 
-use crate::app::stages::StopRequest;
+use crate::app::commands::run::unfinished::StopRequest;
 use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use std::io::{self, Write};

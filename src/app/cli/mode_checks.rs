@@ -1,6 +1,6 @@
 //! Comparisons with other modes and the convergence of the mesh, as lines for a reader.
 
-use crate::app::stages::{
+use crate::app::commands::modes::{
     FileComparison, LoneMode, MeshConvergence, ModesResult, error_text, misses_text, mode_numbers,
     plain, signed,
 };

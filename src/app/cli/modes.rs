@@ -6,7 +6,7 @@ use super::report_files::ReportFiles;
 use super::results::{modes_json, warnings, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::stages::{ModesResult, Reading, compute_modes, modes_report};
+use crate::app::commands::modes::{ModesResult, Reading, compute_modes, modes_report};
 
 /// Computes the modes of a case and writes `report.html`, its tables, `modes.npz` and, last, `modes.json`.
 ///
@@ -75,7 +75,7 @@ fn summary(result: &ModesResult) -> String {
             check.below_hz, check.counted, check.found
         ),
     });
-    lines.extend(crate::app::stages::free_motions(result));
+    lines.extend(crate::app::commands::modes::free_motions(result));
     lines.push(format!(
         "unloaded (Hz): {}",
         listed(&result.base.unloaded_hz)

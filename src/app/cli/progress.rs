@@ -6,7 +6,7 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use crate::app::stages::MeshDigest;
+use crate::app::scene::MeshDigest;
 
 /// Whether progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl Progress {
 }
 
 /// The templates are constants that a test reads; indicatif's own style stands in if one were wrong.
-impl crate::app::stages::Watch for Progress {
+impl crate::app::scene::Watch for Progress {
     fn read(&self, file: &MeshDigest) {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         if !files.contains(file) {

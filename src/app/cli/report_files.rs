@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{CliError, OutputFolder, Progress};
 use crate::app::case::Case;
-use crate::app::stages::{MeshDigest, StageError, mesh_digests};
+use crate::app::scene::{MeshDigest, StageError, mesh_digests};
 use crate::report::{Document, MeshFile, Report};
 
 /// Folders of the tables and of the figures, in that of the results.

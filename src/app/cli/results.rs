@@ -4,10 +4,13 @@ use super::earlier_results::CASE_DIGEST;
 use super::report_files::ReportFiles;
 use super::{CliError, OutputFolder, Progress};
 use crate::app::case::Case;
-use crate::app::stages::{
-    ChosenPart, CondenseResult, ImportedHousing, LoadedPoint, MeshDigest, ModelChoice, ModesResult,
-    Reading, Recording, ReducedInterface, RunEnd, RunResult, SensorScalogram, StageError,
-    StructureStage, WindowAnalysis, WindowChange,
+use crate::app::commands::analyze::{WindowAnalysis, WindowChange};
+use crate::app::commands::condense::CondenseResult;
+use crate::app::commands::modes::{ModesResult, Reading};
+use crate::app::commands::run::choice::{ChosenPart, ModelChoice};
+use crate::app::commands::run::{Recording, RunEnd, RunResult, SensorScalogram};
+use crate::app::scene::{
+    ImportedHousing, LoadedPoint, MeshDigest, ReducedInterface, StageError, StructureStage,
 };
 use crate::fe::reduction::{Bound, Check, SizeErrors};
 use crate::formats::{NpzWriter, write_modes_npz};

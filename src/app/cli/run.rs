@@ -5,11 +5,15 @@ use super::report_files::ReportFiles;
 use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::app::case::{Case, Method, Transient};
-use crate::app::shell_word::shell_word;
-use crate::app::stages::{
-    CHECKPOINT_S, Recording, RunEnd, RunIdentity, RunResult, SHOWN_WINDOWS, StageError,
-    UnfinishedError, UnfinishedRun, compute_kept_run, explain_run, run_report,
+use crate::app::commands::analyze::SHOWN_WINDOWS;
+use crate::app::commands::run::unfinished::{
+    CHECKPOINT_S, RunIdentity, UnfinishedError, UnfinishedRun,
 };
+use crate::app::commands::run::{
+    Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report,
+};
+use crate::app::scene::StageError;
+use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
 use std::time::Duration;

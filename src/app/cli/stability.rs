@@ -4,7 +4,7 @@ use super::report_files::ReportFiles;
 use super::results::common;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::stages::{Scene, StageError};
+use crate::app::scene::{Scene, StageError};
 use crate::app::studies::chart::{
     Condition, Effort, Stability, compute_stability, resonance_plot, stability_map,
     stability_record, stability_report,

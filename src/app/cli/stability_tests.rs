@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::{Effort, OutputFolder, compute_stability, stability_lines, write_stability};
 use crate::app::case::Case;
-use crate::app::stages::{Scene, Unwatched};
+use crate::app::scene::{Scene, Unwatched};
 use crate::app::studies::chart::{Condition, stability_report};
 
 /// The smooth scene made small: a ring of 12 nodes, and a target for which seven modes are enough, whose limits are the test's.

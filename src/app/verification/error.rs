@@ -1,7 +1,7 @@
 //! Why a check could not be carried out: nothing that a user could set right.
 
 use crate::app::case::CaseError;
-use crate::app::stages::StageError;
+use crate::app::scene::StageError;
 use crate::app::verification::ring::RingError as RingFormulaError;
 use crate::bearing::StiffnessError;
 use crate::bearing::hertz::HertzError;

@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn the_built_in_bearing_is_that_of_the_case() {
         let case = beam_case(&[]).unwrap();
-        let setup = crate::app::stages::bearing_setup(&case).unwrap().unwrap();
+        let setup = crate::app::scene::bearing_setup(&case).unwrap().unwrap();
         assert_eq!(*setup.geometry.dimensions(), BEARING);
         assert!((setup.gravity[1] + GRAVITY).abs() < 1e-12);
     }

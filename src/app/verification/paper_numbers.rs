@@ -6,7 +6,8 @@ use super::paper_report::paper_report;
 use super::section::SectionResult;
 use super::stiffness::{Hypothesis, hypotheses};
 use super::{Check, Information, VerificationError, beam_case};
-use crate::app::stages::{ModesResult, Unwatched, Watch, compute_modes};
+use crate::app::commands::modes::{ModesResult, compute_modes};
+use crate::app::scene::{Unwatched, Watch};
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
 use crate::bearing::impact::impact;
 use crate::bearing::kinematics::BallRow;
@@ -174,7 +175,7 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
         young: 206e9,
         poisson: 0.3,
     };
-    let geometry = BearingGeometry::new(BEARING).map_err(crate::app::stages::StageError::from)?;
+    let geometry = BearingGeometry::new(BEARING).map_err(crate::app::scene::StageError::from)?;
     let contacts = RaceContacts::new(&geometry, steel, steel, steel)?;
     let kind = |unit, reason| Kind {
         unit,
@@ -349,7 +350,7 @@ fn consistent_frequencies(result: &ModesResult) -> Vec<Information> {
 /// Two balls share the weight; over one the shaft leans on a neighbour.
 fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, VerificationError> {
     let case = beam_case(&["modes.variants=[]".to_owned()])?;
-    let setup = crate::app::stages::bearing_setup(&case)?.ok_or(VerificationError::NoBearing)?;
+    let setup = crate::app::scene::bearing_setup(&case)?.ok_or(VerificationError::NoBearing)?;
     let weight = setup.shaft.mass * GRAVITY;
     let spacing = 2.0 * PI / f64::from(BEARING.balls);
     let equilibria = |result: &ModesResult| {

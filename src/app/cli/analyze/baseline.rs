@@ -7,7 +7,8 @@ use super::read::{Unnamed, read};
 use super::source::Source;
 use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::app::cli::{CliError, Options};
-use crate::app::stages::{EarlierSignal, StageError, WindowAnalysis, compare_window};
+use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_window};
+use crate::app::scene::StageError;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::TimeWindow;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{AnalyzeArguments, AnalyzeError};
 use crate::app::case::Case;
 use crate::app::cli::CliError;
-use crate::app::stages::{StageError, bearing_geometry};
+use crate::app::scene::{StageError, bearing_geometry};
 use crate::bearing::catalogue::CatalogueBearing;
 use crate::bearing::kinematics::{BallRow, DefectOrders, RaceError};
 use crate::signal::diagnosis::FaultOrders;

@@ -4,7 +4,7 @@ use super::bearing::{Named, described, named_bearing, orders, without_bearing};
 use super::{AnalyzeArguments, GivenSpeed};
 use crate::app::case::Case;
 use crate::app::cli::{CliError, Options};
-use crate::app::stages::{Kinematics, bearing_setup};
+use crate::app::scene::{Kinematics, bearing_setup};
 use crate::bearing::SpeedProfile;
 use crate::formats::MeasuredSignal;
 use crate::report::significant;

@@ -26,8 +26,8 @@ pub use speed::GivenSpeed;
 
 use super::{CliError, Options, Outcome, OutputFolder, emit};
 use crate::app::case::EnvelopeBand;
+use crate::app::commands::analyze::{AnalysisRow, analysis_table};
 use crate::app::shell_word::shell_word;
-use crate::app::stages::{AnalysisRow, analysis_table};
 
 /// Result file and report belong to this word.
 const RESULT: &str = "analysis";

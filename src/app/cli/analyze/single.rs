@@ -11,7 +11,7 @@ use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::{stages_s, windows_json};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::app::stages::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
+use crate::app::commands::analyze::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
 use crate::report::significant;
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 

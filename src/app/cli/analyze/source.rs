@@ -11,10 +11,10 @@ use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{CliError, Options};
-use crate::app::stages::{
-    AnalysisSettings, AskedBand, Kinematics, StageError, Unwatched, WindowAnalysis,
-    compute_analysis,
+use crate::app::commands::analyze::{
+    AnalysisSettings, AskedBand, WindowAnalysis, compute_analysis,
 };
+use crate::app::scene::{Kinematics, StageError, Unwatched};
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;

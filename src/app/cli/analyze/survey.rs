@@ -16,7 +16,7 @@ use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::{stages_s, window_json};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::app::stages::{
+use crate::app::commands::analyze::{
     AnalysisRow, SHOWN_WINDOWS, WindowAnalysis, survey_report, survey_section,
 };
 use crate::report::Section;

@@ -1,6 +1,6 @@
 //! The table of many windows on a terminal: a line a row.
 
-use crate::app::stages::{AnalysisRow, WindowFigures};
+use crate::app::commands::analyze::{AnalysisRow, WindowFigures};
 use crate::report::significant;
 use crate::signal::diagnosis::Conclusion;
 
@@ -142,7 +142,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::stages::PartFigures;
+    use crate::app::commands::analyze::PartFigures;
     use crate::signal::diagnosis::Fault;
 
     #[test]

@@ -4,7 +4,8 @@ use super::record::WrittenFile;
 use super::{CliError, Export, ExportError};
 use crate::app::case::{Case, Interface, InterfaceModes};
 use crate::app::cli::{ExportFormat, OutputFolder, Progress};
-use crate::app::stages::{CondensedStage, StageError, superelement_record};
+use crate::app::commands::condense::superelement_record;
+use crate::app::scene::{CondensedStage, StageError};
 use crate::formats::{
     DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
     write_superelement_op4,

@@ -7,7 +7,7 @@ use super::source::Source;
 use super::{CliError, Export, ExportError};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
-use crate::app::stages::FreeSystem;
+use crate::app::scene::FreeSystem;
 use crate::formats::{
     write_dofs_csv, write_dofs_npz, write_matrix_market, write_modes_npz, write_sparse_npz,
 };

@@ -17,7 +17,7 @@ pub use error::ExportError;
 use super::results::{common, warnings};
 use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::stages::{doubts_of_case, mesh_digests};
+use crate::app::scene::{doubts_of_case, mesh_digests};
 use record::WrittenFile;
 use source::Source;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::app::stages::DraftError;
+use crate::app::commands::init::DraftError;
 use crate::bearing::catalogue::CatalogueBearing;
 
 /// Why no case file was made.

@@ -16,8 +16,8 @@ pub(in crate::app::cli) use error::bearing_names;
 
 use super::inspect::verdict;
 use super::{CliError, Options, Outcome, Verdict, write_atomic};
+use crate::app::commands::init::{Draft, DraftRequest};
 use crate::app::shell_word::shell_word;
-use crate::app::stages::{Draft, DraftRequest};
 use crate::bearing::catalogue::CatalogueBearing;
 
 /// Writes a case file for a mesh, or lists the bearings.

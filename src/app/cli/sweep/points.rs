@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::super::{CliError, Options, folder_lock, write_atomic};
 use super::Share;
-use crate::app::stages::{StopRequest, UnfinishedRun};
+use crate::app::commands::run::unfinished::{StopRequest, UnfinishedRun};
 use crate::app::studies::sweep::{Plan, PointRecord, SweepError, SweepPoint, SweptCommand};
 use crate::files;
 

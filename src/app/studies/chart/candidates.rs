@@ -1,7 +1,7 @@
 //! What is tried: methods, their steps or tolerances, and sizes of the model. The one list of candidates.
 
 use super::{Effort, Settings};
-use crate::app::stages::RunModel;
+use crate::app::scene::RunModel;
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
 

@@ -2,7 +2,8 @@
 
 use super::ChartError;
 use crate::app::case::{self, Case};
-use crate::app::stages::{Span, StageError};
+use crate::app::commands::run::Span;
+use crate::app::scene::StageError;
 use crate::signal::band_limit_edge_s;
 
 /// Samples of the compared signals in a period of the band's highest frequency: well above what must be told apart.

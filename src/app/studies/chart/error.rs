@@ -1,6 +1,6 @@
 //! Why there is no chart.
 
-use crate::app::stages::StageError;
+use crate::app::scene::StageError;
 use crate::numerics::series::SeriesError;
 use crate::signal::SignalError;
 use crate::system::SystemError;

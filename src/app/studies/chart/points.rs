@@ -4,7 +4,8 @@ use super::candidates::{Family, model_name, parameter_of};
 use super::systems::{Ready, Systems};
 use super::trace::{Failure, FailureKind, Trace, simulate};
 use super::{Reference, Settings, StartReference};
-use crate::app::stages::{RunModel, Scene, Span};
+use crate::app::commands::run::Span;
+use crate::app::scene::{RunModel, Scene};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -3,7 +3,7 @@
 use super::systems::Ready;
 use super::trace::{Failure, Trace};
 use super::{ChartError, Growth, Settings, Start, Starts};
-use crate::app::stages::{RunModel, Scene};
+use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
 use rayon::prelude::*;

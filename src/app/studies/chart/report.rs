@@ -4,7 +4,7 @@ use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
 use super::{Chart, GROWTHS, ModelStatistics, Point};
 use crate::app::case::Case;
-use crate::app::stages::{assumptions, bearing_table, model_facts};
+use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
 
 /// Composes the report; `command` is the line that made it.

@@ -1,7 +1,7 @@
 //! Where the runs of an ensemble begin: instants over one ball pass, each at rest in its own equilibrium.
 
 use super::{ChartError, Settings};
-use crate::app::stages::Scene;
+use crate::app::scene::Scene;
 use crate::numerics::ode::State;
 use crate::system::{CoupledSystem, Equilibrium, StaticCondition};
 use rayon::prelude::*;

@@ -3,7 +3,7 @@
 use super::systems::Ready;
 use super::trace::{Failure, simulate};
 use super::{Settings, Start, perturb};
-use crate::app::stages::{RunModel, StageError};
+use crate::app::scene::{RunModel, StageError};
 use crate::numerics::series::TimeSeries;
 use crate::signal::{EnvelopeAnalysis, SignalError, third_octaves};
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use super::Start;
 use super::trace::Failure;
-use crate::app::stages::{RunModel, Scene};
+use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::State;
 use crate::system::CoupledSystem;
 

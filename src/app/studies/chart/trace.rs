@@ -1,7 +1,8 @@
 //! The signals of one run, ready to be compared, or why there are none.
 
 use super::Settings;
-use crate::app::stages::{RunEnd, RunModel, Simulation, Span, StageError};
+use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::scene::{RunModel, StageError};
 use crate::numerics::ode::State;
 use crate::numerics::ode::TransientError;
 use crate::numerics::series::TimeSeries;

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::AxisProblem;
 use crate::app::case::CaseError;
-use crate::app::stages::StageError;
+use crate::app::scene::StageError;
 use crate::formats::NpzError;
 
 /// Why a sweep cannot be planned, or not go on.

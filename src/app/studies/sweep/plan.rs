@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Axis, SweepError};
 use crate::app::case::{Case, Purpose, Source};
-use crate::app::stages::RunIdentity;
+use crate::app::commands::run::unfinished::RunIdentity;
 use crate::files;
 
 /// Most points of a sweep: each has a folder.

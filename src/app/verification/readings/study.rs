@@ -6,7 +6,7 @@ use super::choices::{
 };
 use super::shapes::{ByShape, NamedMotions, ShapeShares};
 use crate::app::case::Case;
-use crate::app::stages::{Watch, bearing_setup};
+use crate::app::scene::{Watch, bearing_setup};
 use crate::app::verification::{PaperFrequencies, TABLE_ONE, VerificationError};
 use crate::bearing::{ContactMaterial, ContactStiffness, RaceContacts};
 use crate::fe::element::curved_beam::RingInterpolation;

@@ -1,7 +1,8 @@
 //! The study against `plummer modes` on the same settings: two ways through different code.
 
 use super::*;
-use crate::app::stages::{Unwatched, compute_modes};
+use crate::app::commands::modes::compute_modes;
+use crate::app::scene::Unwatched;
 use crate::app::verification::beam_case;
 use crate::app::verification::readings::{Factor, Fit, Fits, moved_by_one_choice};
 

@@ -2,7 +2,7 @@
 
 use super::super::{ChartError, Effort};
 use crate::app::case::{self, Case, Defect, Load, SpeedPoint};
-use crate::app::stages::{RunModel, Scene, bearing_setup};
+use crate::app::scene::{RunModel, Scene, bearing_setup};
 use crate::bearing::ContactStiffness;
 use crate::report::significant;
 use crate::system::{

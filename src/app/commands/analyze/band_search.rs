@@ -1,0 +1,273 @@
+//! The band of a signal whose envelope is taken: as asked for, or the most impulsive one of a window.
+
+use crate::app::case::{Case, EnvelopeBand};
+use crate::app::scene::StageError;
+use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::signal::diagnosis::{FaultOrders, JUDGED_HARMONICS};
+use crate::signal::{
+    Butterworth, DEFAULT_ORDER, FilterBand, Kurtogram, KurtogramBand, SignalError, kurtogram,
+    usual_high_pass_hz,
+};
+
+/// Multiples of the shaft's speed that a machine's own lines may reach, which are not to be taken for a resonance: unbalance,
+/// couplings, blades, teeth of a first gear.
+const SHAFT_ORDERS: f64 = 40.0;
+
+/// Confidence of the limit that Gaussian noise keeps below, for all bands together.
+const CONFIDENCE: f64 = 0.99;
+
+/// Highest middle of a band over the sampling rate. What samples has a low-pass before it, and beyond about 0.4 of the rate there is
+/// nothing: kurtosis does not know how weak a band is.
+const HIGHEST_PART: f64 = 0.4;
+
+/// Most levels of halving, 4096 bands: finer is no picture, and a window that long is another's work.
+const MOST_LEVELS: usize = 12;
+
+/// Periods of a corner that are read before and after a window: filter and envelope err there, by the ends of what is read, by
+/// 1 / (pi 2 pi n) of the signal n periods from an end.
+const MARGIN_PERIODS: f64 = 200.0;
+
+/// The band before the envelope as it is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AskedBand {
+    /// All above a corner, Hz.
+    HighPass(f64),
+    /// Between two frequencies, Hz.
+    Between([f64; 2]),
+    /// The most impulsive band of each window.
+    Kurtogram,
+}
+
+impl AskedBand {
+    /// What a case asks for; `None`: the signal as it is.
+    #[must_use]
+    pub fn of(case: &Case) -> Option<Self> {
+        let corner = case.analysis.high_pass_hz.map(Self::HighPass);
+        corner.or(case.analysis.band_hz.map(Self::from))
+    }
+
+    /// Corner of the high-pass that is nearest to it, Hz, for figures that have to be of one band in all runs; of a kurtogram
+    /// the usual one at that sampling rate.
+    #[must_use]
+    pub fn corner_hz(self, rate_hz: f64) -> f64 {
+        match self {
+            Self::HighPass(corner) | Self::Between([corner, _]) => corner,
+            Self::Kurtogram => usual_high_pass_hz(rate_hz),
+        }
+    }
+}
+
+impl From<EnvelopeBand> for AskedBand {
+    fn from(band: EnvelopeBand) -> Self {
+        match band {
+            EnvelopeBand::Between(edges) => Self::Between(edges),
+            EnvelopeBand::Kurtogram => Self::Kurtogram,
+        }
+    }
+}
+
+/// The band before the envelope as it was used.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct UsedBand {
+    /// Corner of the high-pass, Hz; `None`: none.
+    pub high_pass_hz: Option<f64>,
+    /// End of the band, Hz; `None`: that of the signal.
+    pub low_pass_hz: Option<f64>,
+    /// The search that it is from, or why there was none; `None`: not asked for.
+    pub search: Option<Result<BandSearch, String>>,
+}
+
+impl UsedBand {
+    /// The band for a window (s) of a signal at a mean speed (Hz). `read` gives the stretch that holds the window, with so many
+    /// seconds before and after as there are.
+    ///
+    /// A search that finds nothing, or cannot be made, leaves the high-pass of [`usual_high_pass_hz`].
+    ///
+    /// # Errors
+    /// Of `read`.
+    pub(crate) fn of(
+        asked: Option<AskedBand>,
+        window: TimeWindow,
+        read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
+        speed_hz: f64,
+        orders: &FaultOrders,
+    ) -> Result<Self, StageError> {
+        match asked {
+            None => Ok(Self::default()),
+            Some(AskedBand::HighPass(corner)) => Ok(Self::above(corner)),
+            Some(AskedBand::Between([from, to])) => Ok(Self {
+                low_pass_hz: Some(to),
+                ..Self::above(from)
+            }),
+            Some(AskedBand::Kurtogram) => {
+                let limits = SearchLimits::new(speed_hz, orders);
+                let stretch = read(window, margin_s(limits.from_hz))?;
+                let search = limits.search(&stretch, window);
+                let chosen = search.as_ref().ok().and_then(BandSearch::chosen);
+                let used = chosen.map_or_else(
+                    || Self::above(usual_high_pass_hz(stretch.rate_hz())),
+                    |band| {
+                        let [from, to] = band.edges_hz();
+                        let ends = to > (1.0 - 1e-9) * 0.5 * stretch.rate_hz();
+                        Self {
+                            low_pass_hz: (!ends).then_some(to),
+                            ..Self::above(from)
+                        }
+                    },
+                );
+                Ok(Self {
+                    search: Some(search),
+                    ..used
+                })
+            }
+        }
+    }
+
+    fn above(corner: f64) -> Self {
+        Self {
+            high_pass_hz: Some(corner),
+            ..Self::default()
+        }
+    }
+
+    /// Seconds that are to be read before and after a window.
+    pub(crate) fn margin_s(&self) -> f64 {
+        self.high_pass_hz.map_or(0.0, margin_s)
+    }
+
+    /// The band that a search found or that was asked for, Hz; `None` where there is a corner at most.
+    #[must_use]
+    pub fn band_hz(&self) -> Option<[f64; 2]> {
+        let found = self.found().and_then(BandSearch::chosen);
+        let asked = self.high_pass_hz.zip(self.low_pass_hz);
+        found
+            .map(KurtogramBand::edges_hz)
+            .or(asked.map(<[f64; 2]>::from))
+    }
+
+    /// The band that a verdict is sought in, Hz: what was asked for and found, of a simulated signal no higher than `good_to_hz`, where it
+    /// is accurate, unless that end was asked for. `None`: all.
+    #[must_use]
+    pub fn judged_hz(&self, asked: Option<AskedBand>, good_to_hz: Option<f64>) -> Option<[f64; 2]> {
+        let end_hz = good_to_hz.unwrap_or(f64::INFINITY);
+        match asked {
+            None => good_to_hz.map(|end_hz| [0.0, end_hz]),
+            Some(AskedBand::HighPass(corner)) => Some([corner, end_hz]),
+            Some(AskedBand::Between(edges)) => Some(edges),
+            Some(AskedBand::Kurtogram) => {
+                let [from, to] = self.band_hz()?;
+                Some([from, to.min(end_hz)])
+            }
+        }
+    }
+
+    /// The search, if there was one.
+    #[must_use]
+    pub fn found(&self) -> Option<&BandSearch> {
+        self.search.as_ref()?.as_ref().ok()
+    }
+}
+
+fn margin_s(corner_hz: f64) -> f64 {
+    if corner_hz > 0.0 {
+        MARGIN_PERIODS / corner_hz
+    } else {
+        0.0
+    }
+}
+
+/// Where bands may lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SearchLimits {
+    from_hz: f64,
+    width_hz: f64,
+}
+
+impl SearchLimits {
+    /// A band is as wide as the envelope's highest harmonic that is judged: the envelope of a band of width B has nothing beyond B.
+    /// It begins no lower, or its envelope is that of no carrier, and above the shaft's own lines.
+    fn new(speed_hz: f64, orders: &FaultOrders) -> Self {
+        let width_hz = f64::from(JUDGED_HARMONICS) * orders.highest() * speed_hz;
+        Self {
+            from_hz: width_hz.max(SHAFT_ORDERS * speed_hz),
+            width_hz,
+        }
+    }
+
+    fn allow(self, band: &KurtogramBand, rate_hz: f64) -> bool {
+        let [from, _] = band.edges_hz();
+        from >= self.from_hz
+            && band.width_hz >= self.width_hz
+            && band.centre_hz <= HIGHEST_PART * rate_hz
+    }
+
+    fn search(self, stretch: &TimeSeries, window: TimeWindow) -> Result<BandSearch, String> {
+        let half_hz = 0.5 * stretch.rate_hz();
+        if self.width_hz <= 0.0 {
+            return Err("the shaft rests".to_owned());
+        }
+        if self.from_hz >= half_hz {
+            return Err(format!(
+                "bands would have to begin at {:.0} Hz or above, and the signal ends at {half_hz:.0} Hz",
+                self.from_hz
+            ));
+        }
+        let kurtogram = self.kurtogram(stretch, window);
+        let kurtogram = kurtogram.map_err(|error| error.to_string())?;
+        let allowed = kurtogram.of_those(|band| self.allow(band, stretch.rate_hz()));
+        let best = allowed.largest().copied();
+        let best = best.ok_or_else(|| {
+            format!(
+                "no band of {:.0} Hz or more fits between {:.0} Hz and the end of the signal at {half_hz:.0} Hz",
+                self.width_hz, self.from_hz
+            )
+        })?;
+        Ok(BandSearch {
+            best: allowed.most_impulsive().copied().unwrap_or(best),
+            kurtogram,
+            from_hz: self.from_hz,
+            width_hz: self.width_hz,
+        })
+    }
+
+    /// Of the window's signal without what lies below the limits, which would leak into the lower bands.
+    fn kurtogram(self, stretch: &TimeSeries, window: TimeWindow) -> Result<Kurtogram, SignalError> {
+        let filter = Butterworth {
+            band: FilterBand::HighPass {
+                cut_off_hz: self.from_hz,
+            },
+            order: DEFAULT_ORDER,
+        };
+        let part = filter.zero_phase(stretch)?.window(window.from, window.to)?;
+        let halvings = (0.5 * part.rate_hz() / self.width_hz).log2();
+        let levels = (halvings.floor() as usize).clamp(1, MOST_LEVELS);
+        kurtogram(&part, levels, CONFIDENCE)
+    }
+}
+
+/// Search for the band whose envelope says most of impacts: the fast kurtogram of a window.
+///
+/// Allowed are bands at least as wide as eight times the highest order's frequency, from that frequency and the 40th multiple of the
+/// shaft's on, with their middle below 0.4 of the sampling rate.
+///
+/// Source: J. Antoni, "Fast computation of the kurtogram for the detection of transient faults", Mechanical Systems and Signal
+/// Processing 21 (2007) 108-124.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandSearch {
+    /// Kurtosis of all bands, those included that are not allowed.
+    pub kurtogram: Kurtogram,
+    /// Lowest frequency at which a band may begin, Hz.
+    pub from_hz: f64,
+    /// Least width of a band, Hz.
+    pub width_hz: f64,
+    /// Of the allowed bands beyond their limits that of the largest kurtosis; if none is beyond, of all allowed ones.
+    pub best: KurtogramBand,
+}
+
+impl BandSearch {
+    /// The band to demodulate; `None`: no allowed band can be told from Gaussian noise.
+    #[must_use]
+    pub fn chosen(&self) -> Option<&KurtogramBand> {
+        Some(&self.best).filter(|band| band.kurtosis > band.limit)
+    }
+}

@@ -1,0 +1,246 @@
+//! A window of a signal beside an earlier signal of the same machine: what grew.
+
+use super::window::WindowAnalysis;
+use crate::app::scene::{Kinematics, StageError};
+use crate::formats::MeasuredSignal;
+use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::report::significant;
+use crate::signal::diagnosis::{
+    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum,
+    Fault, LevelChange, LineChange, level_changes, line_changes,
+};
+
+/// Speeds that differ by more than this part excite resonances differently.
+const SAME_SPEED: f64 = 0.05;
+/// RMS that changed by more, a factor of a hundred, is in other units.
+const ANOTHER_SCALE_DB: f64 = 40.0;
+/// Highest order of the spectra that are shown.
+const SHOWN_ORDER: f64 = 40.0;
+
+/// An earlier signal, and how its machine moved.
+#[derive(Debug)]
+pub struct EarlierSignal<'a> {
+    /// File or folder, as it was named.
+    pub name: &'a str,
+    /// The signal.
+    pub signal: &'a MeasuredSignal,
+    /// The window of it that counts, s.
+    pub window: TimeWindow,
+    /// Speed and orders.
+    pub kinematics: &'a Kinematics<'a>,
+}
+
+/// What changed in a window since an earlier signal.
+#[derive(Debug, Clone)]
+pub struct WindowChange {
+    /// File or folder of the earlier signal.
+    pub baseline: String,
+    /// Its channel.
+    pub channel: String,
+    /// Its window, s.
+    pub window: TimeWindow,
+    /// Mean shaft speed in it, Hz.
+    pub speed_hz: f64,
+    /// Root mean square in it, in the signal's unit.
+    pub rms: f64,
+    /// Largest magnitude in it, in the signal's unit.
+    pub peak: f64,
+    /// Kurtosis in it; `None` for a constant signal.
+    pub kurtosis: Option<f64>,
+    /// The impacts of each part, and of those that belong to none. Empty where there is no verdict.
+    pub lines: Vec<LineChange>,
+    /// RMS of all of the signal (first), and of each octave.
+    pub levels: Vec<LevelChange>,
+    /// Order spectra of the envelope of one band (Hz) in this signal and in the earlier one.
+    pub spectra: Option<([f64; 2], [EnvelopeOrderSpectrum; 2])>,
+    /// What makes the comparison doubtful, in words.
+    pub warnings: Vec<String>,
+}
+
+impl WindowChange {
+    /// Parts, and impacts of no part, of which this is said.
+    pub fn with(&self, conclusion: ChangeConclusion) -> impl Iterator<Item = &LineChange> {
+        let lines = self.lines.iter();
+        lines.filter(move |line| line.conclusion == conclusion)
+    }
+
+    /// Compares what strikes in two judged signals.
+    fn compare_impacts(
+        &mut self,
+        now: &ComparedSignal<'_>,
+        then: &ComparedSignal<'_>,
+    ) -> Result<(), StageError> {
+        self.speed_hz = then.diagnosis().speed_hz;
+        self.lines = line_changes(now, then)?;
+        if let Some(band_hz) = shown_band(now.diagnosis(), &self.lines) {
+            let spectra = [now, then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
+            let [now, then] = spectra;
+            self.spectra = Some((band_hz, [now?, then?]));
+        }
+        let compared = |line: &LineChange| line.conclusion != ChangeConclusion::NotCompared;
+        if !self.lines.iter().any(compared)
+            && let Some(doubt) = then.diagnosis().speed_doubt()
+        {
+            self.warnings
+                .push(format!("In the earlier signal {doubt}."));
+        }
+        let named: Vec<&str> = then
+            .diagnosis()
+            .named()
+            .map(|verdict| verdict.fault.name())
+            .collect();
+        if !named.is_empty() {
+            self.warnings.push(format!(
+                "The earlier signal indicates a fault by itself: {}. It is no record of a sound bearing.",
+                named.join(", ")
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Compares an analysed window of a signal with an earlier signal, and says in the evidence of each verdict what came of it.
+///
+/// # Errors
+/// [`StageError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
+pub fn compare_window(
+    window: &mut WindowAnalysis,
+    within_hz: Option<[f64; 2]>,
+    signal: &MeasuredSignal,
+    kinematics: &Kinematics<'_>,
+    earlier: &EarlierSignal<'_>,
+) -> Result<(), StageError> {
+    let span = TimeWindow {
+        from: window.from,
+        to: window.to,
+    };
+    let stretch = stretch(&signal.series, span)?;
+    let before = stretch_of(earlier)?;
+    let part = before.window(earlier.window.from, earlier.window.to)?;
+    let levels = level_changes((&stretch, span), (&before, earlier.window))?;
+    let mut change = WindowChange {
+        baseline: earlier.name.to_owned(),
+        channel: earlier.signal.name.clone(),
+        window: earlier.window,
+        speed_hz: earlier.kinematics.mean_speed_hz(earlier.window),
+        rms: part.rms(),
+        peak: part.peak(),
+        kurtosis: part.kurtosis(),
+        lines: Vec::new(),
+        levels,
+        spectra: None,
+        warnings: Vec::new(),
+    };
+    if let Ok(diagnosis) = &window.diagnosis {
+        let orders = earlier.kinematics.orders(earlier.window)?;
+        let turns = |time| earlier.kinematics.turns(time);
+        match Diagnosis::of(&before, within_hz, earlier.window, turns, &orders) {
+            Ok(found) => {
+                let turns_now = |time| kinematics.turns(time);
+                let orders_now = kinematics.orders(span)?;
+                let now = ComparedSignal::new(&stretch, span, turns_now, orders_now, diagnosis);
+                let then = ComparedSignal::new(&before, earlier.window, turns, orders, &found);
+                change.compare_impacts(&now, &then)?;
+            }
+            // said below
+            Err(DiagnosisError::Constant { .. }) => {}
+            Err(error @ (DiagnosisError::NoNoise { .. } | DiagnosisError::Repeated { .. })) => {
+                change.warnings.push(format!(
+                    "No impacts can be compared with the earlier signal, {}: {error}.",
+                    change.channel
+                ))
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+    if part.kurtosis().is_none() {
+        change.warnings.push(format!(
+            "The earlier signal, {}, is constant: nothing can be compared with it.",
+            change.channel
+        ));
+    }
+    let whole_db = change.levels.first().and_then(|level| level.change_db);
+    if let Some(db) = whole_db.filter(|db| db.abs() > ANOTHER_SCALE_DB) {
+        change.warnings.push(format!(
+            "The RMS changed by {db:+.0} dB, which no machine does that still runs: check the units and the gain of both signals."
+        ));
+    }
+    let ratio = change.speed_hz / window.speed_hz;
+    if (ratio - 1.0).abs() > SAME_SPEED {
+        change.warnings.push(format!(
+            "The shaft turned at {} Hz in the earlier signal and turns at {} Hz in this one: resonances are excited differently, and levels change with that.",
+            significant(change.speed_hz, 4),
+            significant(window.speed_hz, 4)
+        ));
+    }
+    if let Ok(diagnosis) = &mut window.diagnosis {
+        explain(diagnosis, &change.lines);
+    }
+    window.change = Some(change);
+    Ok(())
+}
+
+/// A window of a series with as much before and after it as it is long, so that its envelope has no edges.
+fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, StageError> {
+    let samples = series.values().len();
+    let inside = window.check_inside(series.start_s(), series.step_s(), samples);
+    inside.map_err(DiagnosisError::from)?;
+    let (span, margin_s) = (series.span(), window.to - window.from);
+    let from = (window.from - margin_s).max(span.from);
+    let to = (window.to + margin_s).min(span.to);
+    Ok(series.window(from, to)?)
+}
+
+fn stretch_of(earlier: &EarlierSignal<'_>) -> Result<TimeSeries, StageError> {
+    stretch(&earlier.signal.series, earlier.window)
+}
+
+/// Band that is shown: of a part that is indicated, of what grew, of any that was compared.
+fn shown_band(diagnosis: &Diagnosis, lines: &[LineChange]) -> Option<[f64; 2]> {
+    let named = |line: &LineChange| {
+        let mut named = diagnosis.named();
+        named.any(|verdict| Some(verdict.fault) == line.fault)
+    };
+    let compared = || lines.iter().filter(|line| line.order_now.is_some());
+    let line = compared()
+        .find(|line| named(line))
+        .or_else(|| compared().find(|line| line.conclusion == ChangeConclusion::Grew))
+        .or_else(|| compared().next());
+    line.and_then(|line| line.band_hz)
+}
+
+/// Adds to the evidence of each verdict what the comparison says of it. The conclusions stay.
+fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
+    for verdict in &mut diagnosis.faults {
+        let line = lines.iter().find(|line| line.fault == Some(verdict.fault));
+        let Some(line) = line else { continue };
+        let indicated = verdict.conclusion == Conclusion::Named;
+        let words = line.words();
+        let unclear = verdict.conclusion == Conclusion::NotEnough;
+        let text = match line.conclusion {
+            ChangeConclusion::Grew => format!("It grew since the earlier signal: {words}."),
+            ChangeConclusion::AsBefore if indicated && verdict.fault == Fault::OuterRace => {
+                format!(
+                    "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
+                )
+            }
+            ChangeConclusion::AsBefore if indicated || unclear => {
+                format!("It was as strong in the earlier signal: {words}.")
+            }
+            ChangeConclusion::Fell if indicated || unclear => {
+                format!("It was stronger in the earlier signal: {words}.")
+            }
+            ChangeConclusion::NotCertain if indicated || unclear => {
+                format!("Whether it grew since the earlier signal is not certain: {words}.")
+            }
+            ChangeConclusion::NotCompared if indicated => {
+                format!(
+                    "It cannot be compared with the earlier signal. {}",
+                    line.why
+                )
+            }
+            _ => continue,
+        };
+        verdict.why = format!("{} {text}", verdict.why);
+    }
+}

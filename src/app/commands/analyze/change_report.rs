@@ -1,0 +1,159 @@
+//! What a report says of a window beside an earlier signal.
+
+use super::change::WindowChange;
+use super::report::{last_order, order_curve};
+use super::window::WindowAnalysis;
+use crate::report::{
+    Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant,
+};
+use crate::signal::diagnosis::{ChangeConclusion, EnvelopeOrderSpectrum, change_words};
+
+/// What grew in each window, on top of a report, and what makes a comparison doubtful.
+pub(crate) fn change_headlines(mut report: Report, windows: &[WindowAnalysis]) -> Report {
+    for window in windows {
+        let Some(change) = &window.change else {
+            continue;
+        };
+        for line in change.with(ChangeConclusion::Grew) {
+            let what = format!("{} since {}", line.name, change.baseline);
+            report = report.headline(what, line.words(), Verdict::None);
+        }
+        for text in &change.warnings {
+            if !report.warnings.contains(text) {
+                report = report.warning(text.clone());
+            }
+        }
+    }
+    report
+}
+
+/// Tables and plot of a window's change.
+pub(crate) fn change_section(mut section: Section, window: &WindowAnalysis) -> Section {
+    let Some(change) = &window.change else {
+        return section;
+    };
+    section = section.table(line_table(window, change));
+    if let Some((band_hz, spectra)) = &change.spectra {
+        section = section.plot(change_plot(window, *band_hz, spectra));
+    }
+    section.table(level_table(window, change))
+}
+
+fn number(value: Option<f64>, digits: usize) -> Cell {
+    value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits))
+}
+
+fn judged(conclusion: ChangeConclusion) -> Cell {
+    let verdict = match conclusion {
+        ChangeConclusion::Grew => Verdict::Bad,
+        _ => Verdict::None,
+    };
+    Cell::text(conclusion.words()).judged(verdict)
+}
+
+fn line_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
+    let mut table = Table::new(
+        format!("What grew since {}", change.baseline),
+        [
+            Column::text("Part"),
+            Column::text("Change"),
+            Column::text("95 % interval"),
+            Column::number("Level, earlier", &window.unit),
+            Column::number("Level, now", &window.unit),
+            Column::number("Its band as a whole", "dB"),
+            Column::text("Band"),
+            Column::number("Order, earlier", ""),
+            Column::number("Order, now", ""),
+            Column::text("How it was compared, and why not"),
+        ],
+    );
+    for line in &change.lines {
+        let band = line
+            .band_hz
+            .map(|[from, to]| format!("{} to {} Hz", significant(from, 4), significant(to, 4)));
+        table = table.row([
+            Cell::text(line.name.clone()),
+            judged(line.conclusion),
+            Cell::text(line.words()),
+            number(line.earlier, 3),
+            number(line.now, 3),
+            number(line.band_change_db, 3),
+            Cell::text(band.unwrap_or_default()),
+            number(line.order_earlier, 5),
+            number(line.order_now, 5),
+            Cell::text(line.why.clone()),
+        ]);
+    }
+    table
+}
+
+fn level_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
+    let mut table = Table::new(
+        "RMS, earlier and now",
+        [
+            Column::text("What"),
+            Column::number("Earlier", &window.unit),
+            Column::number("Now", &window.unit),
+            Column::text("Change"),
+            Column::text("95 % interval"),
+        ],
+    );
+    for level in &change.levels {
+        let what = match level.centre_hz {
+            Some(hz) => format!("octave about {} Hz", significant(hz, 3)),
+            None => "the whole signal".to_owned(),
+        };
+        table = table.row([
+            Cell::text(what),
+            Cell::number(level.earlier, 3),
+            Cell::number(level.now, 3),
+            judged(level.conclusion),
+            Cell::text(change_words(level.change_db, level.interval_db)),
+        ]);
+    }
+    let plain = |what: &str, earlier: Option<f64>, now: Option<f64>| {
+        let ratio = earlier.zip(now).filter(|(earlier, _)| *earlier > 0.0);
+        let ratio = ratio.map(|(earlier, now)| format!("{} times", significant(now / earlier, 3)));
+        [
+            Cell::text(what),
+            number(earlier, 3),
+            number(now, 3),
+            Cell::text(ratio.unwrap_or_default()),
+            Cell::text(""),
+        ]
+    };
+    table
+        .row(plain("peak", Some(change.peak), Some(window.peak)))
+        .row(plain(
+            "kurtosis (no unit)",
+            change.kurtosis,
+            window.kurtosis,
+        ))
+}
+
+fn change_plot(
+    window: &WindowAnalysis,
+    [from_hz, to_hz]: [f64; 2],
+    [now, earlier]: &[EnvelopeOrderSpectrum; 2],
+) -> Plot {
+    let mut plot = Plot::new(
+        format!(
+            "Envelope of {} to {} Hz over the shaft's angle, earlier and now, {}",
+            significant(from_hz, 4),
+            significant(to_hz, 4),
+            window.sensor
+        ),
+        Axis::new("Order", "").range(0.0, last_order(now)),
+        Axis::new("Amplitude", &now.unit),
+    )
+    .curve(order_curve("now", now))
+    .curve(order_curve("earlier", earlier))
+    .caption("The band of the signals as they are, not whitened. Amplitudes of noise fall with the length of a window; those of lines do not.")
+    .marker(Marker::new(1.0, "shaft").family(0));
+    let faults = window.diagnosis.iter().flat_map(|found| &found.faults);
+    for (family, verdict) in (1..).zip(faults) {
+        let order = verdict.order.unwrap_or(verdict.expected_order);
+        plot = plot.marker(Marker::new(order, verdict.fault.name()).family(family));
+    }
+    plot
+}

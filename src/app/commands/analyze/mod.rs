@@ -1,0 +1,22 @@
+//! `plummer analyze`: which part of a bearing is damaged, by a signal in windows.
+
+pub(crate) mod band_search;
+pub(crate) mod band_search_report;
+#[cfg(test)]
+mod band_search_tests;
+pub(crate) mod change;
+pub(crate) mod change_report;
+pub(crate) mod compute;
+pub(crate) mod no_signs;
+pub(crate) mod report;
+pub(crate) mod survey_report;
+pub(crate) mod table;
+pub(crate) mod window;
+
+pub use band_search::{AskedBand, BandSearch, UsedBand};
+pub use change::{EarlierSignal, WindowChange, compare_window};
+pub use compute::compute_analysis;
+pub use report::analysis_report;
+pub use survey_report::{SHOWN_WINDOWS, survey_report, survey_section};
+pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures, analysis_table};
+pub use window::{AnalysisSettings, WindowAnalysis, analyse};

@@ -1,0 +1,293 @@
+//! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
+
+use super::band_search::{AskedBand, UsedBand};
+use super::change::WindowChange;
+use super::no_signs::no_signs;
+use crate::app::case::Case;
+use crate::app::scene::{Kinematics, StageError};
+use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
+use crate::report::{Curve, Thinner};
+use crate::signal::diagnosis::{Diagnosis, Fault, FaultOrders};
+use crate::signal::{
+    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
+    PeakSearch, band_limit, envelope_peaks, squared, whiten,
+};
+
+/// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
+/// would name peaks by chance: within 3 % of k times a line are 6 k % of the distance of two of its harmonics.
+const HARMONICS: u32 = 3;
+
+/// Highest frequency of the envelope spectrum that is looked at, in shaft orders; the third
+/// harmonic of the highest fault order of usual bearings lies below.
+const HIGHEST_ORDER: f64 = 25.0;
+
+/// Points of a window's signal, and of its envelope, that are kept to be shown.
+const SHOWN_POINTS: usize = 4000;
+
+/// What is analysed of a signal.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AnalysisSettings {
+    /// Band that is asked for; `None`: verdicts look at all bands.
+    pub band: Option<AskedBand>,
+    /// Band of the envelope that is shown where none is asked for; `None`: the signal as it is.
+    pub shown_band: Option<AskedBand>,
+    /// Whether the envelope spectra are those of the whitened signal's squared envelope; verdicts look at both anyway.
+    pub whiten: bool,
+    /// Windows, s.
+    pub windows: Vec<TimeWindow>,
+    /// Frequency up to which a simulated signal is accurate, Hz; `None`: a measured one.
+    pub good_to_hz: Option<f64>,
+    /// Parts of a simulated bearing of which a signal may not indicate a fault, and why.
+    pub no_signs: Vec<(Fault, String)>,
+}
+
+impl AnalysisSettings {
+    /// What a case asks for.
+    #[must_use]
+    pub fn of(case: &Case) -> Self {
+        let windows = case.analysis.envelope.iter();
+        Self {
+            band: AskedBand::of(case),
+            shown_band: None,
+            whiten: case.analysis.whiten,
+            windows: windows
+                .map(|window| TimeWindow {
+                    from: window.from,
+                    to: window.to,
+                })
+                .collect(),
+            good_to_hz: good_to_hz(case),
+            no_signs: no_signs(case),
+        }
+    }
+}
+
+/// Frequency up to which a case's recorded signals are accurate, Hz: the end of its band, or what the recording filter passes.
+fn good_to_hz(case: &Case) -> Option<f64> {
+    let passed = PASSED * case.transient.as_ref()?.output_hz;
+    Some(case.band_hz()?[1].min(passed))
+}
+
+/// A window of the signal, analysed.
+#[derive(Debug, Clone)]
+pub struct WindowAnalysis {
+    /// Sensor that it belongs to.
+    pub sensor: String,
+    /// Unit of its signal.
+    pub unit: String,
+    /// Start, s.
+    pub from: f64,
+    /// End, s.
+    pub to: f64,
+    /// Mean shaft speed in the window, Hz.
+    pub speed_hz: f64,
+    /// Root mean square of the signal, in its unit.
+    pub rms: f64,
+    /// Largest magnitude, in its unit.
+    pub peak: f64,
+    /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
+    pub kurtosis: Option<f64>,
+    /// Signal and envelope over time, thinned.
+    pub shown: [Curve; 2],
+    /// Band that the envelope is of.
+    pub band: UsedBand,
+    /// Whether that spectrum is of the whitened signal's squared envelope.
+    pub whitened: bool,
+    /// Envelope spectrum.
+    pub spectrum: EnvelopeSpectrum,
+    /// Fault lines and the shaft's, with those harmonics that the speed's change leaves sharp.
+    pub lines: Vec<NamedLine>,
+    /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
+    pub smeared_above: Option<f64>,
+    /// Strongest peaks.
+    pub peaks: Vec<EnvelopePeak>,
+    /// For the outer race's line and its second harmonic: expected frequency, peak found within
+    /// three percent (Hz, amplitude); none where the line is smeared. Empty where its order is not known.
+    pub outer: Vec<(f64, Option<(f64, f64)>)>,
+    /// Verdict on each part of the bearing, or why there is none.
+    pub diagnosis: Result<Diagnosis, String>,
+    /// What changed since an earlier signal, where one was named.
+    pub change: Option<WindowChange>,
+}
+
+/// Analyses one sensor's signal in every window. `read` gives the stretch of it that holds a window (s), with
+/// so many seconds before and after as there are: at least the window's own length, that its envelope has no edges.
+///
+/// # Errors
+/// Of `read`, and
+/// [`StageError::Signal`] or [`StageError::Series`] for a window outside the signal or a filter
+/// that does not fit the sampling.
+pub fn analyse(
+    sensor: &str,
+    settings: &AnalysisSettings,
+    read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
+    kinematics: &Kinematics,
+) -> Result<Vec<WindowAnalysis>, StageError> {
+    let windows = settings.windows.iter();
+    windows
+        .map(|&window| {
+            let (from, to) = (window.from, window.to);
+            let speed_hz = kinematics.mean_speed_hz(window);
+            let orders = kinematics.orders(window)?;
+            let read = |window, margin_s: f64| read(window, margin_s.max(to - from));
+            let band = UsedBand::of(
+                settings.band.or(settings.shown_band),
+                window,
+                read,
+                speed_hz,
+                &orders,
+            )?;
+            let filter = EnvelopeAnalysis {
+                high_pass_hz: band.high_pass_hz,
+                ..EnvelopeAnalysis::default()
+            };
+            let stretch = read(window, band.margin_s())?;
+            let envelope_of = |signal: &TimeSeries| match band.low_pass_hz {
+                Some(up_to_hz) => filter.envelope(&band_limit(signal, up_to_hz)?),
+                None => filter.envelope(signal),
+            };
+            let envelope = envelope_of(&stretch)?;
+            let whitened = settings.whiten.then(|| {
+                let white = whiten(&stretch, Emphasis::Even)?;
+                squared(&envelope_of(&white)?)
+            });
+            let whitened = whitened.transpose()?;
+            let part = stretch.window(from, to)?;
+            let spectrum = filter.window_of(whitened.as_ref().unwrap_or(&envelope), from, to)?;
+            let turns = |time| kinematics.turns(time);
+            let mut diagnosis = Diagnosis::of(
+                &stretch,
+                band.judged_hz(settings.band, settings.good_to_hz),
+                window,
+                turns,
+                &orders,
+            );
+            if let Ok(diagnosis) = &mut diagnosis {
+                for (fault, reason) in &settings.no_signs {
+                    diagnosis.doubt(*fault, reason);
+                }
+            }
+            let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
+            let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;
+            let search = PeakSearch {
+                to_hz: Some(HIGHEST_ORDER * speed_hz),
+                ..PeakSearch::default()
+            };
+            let peaks = if speed_hz > 0.0 {
+                envelope_peaks(&spectrum, &lines, &search)
+            } else {
+                Vec::new()
+            };
+            let near = |harmonic: f64, order: f64| {
+                let expected = harmonic * order * speed_hz;
+                let found = spectrum.peak_near(expected, LINE_TOLERANCE);
+                let found = found.filter(|_| harmonic * order <= sharp);
+                (
+                    expected,
+                    found.map(|peak| (peak.frequency_hz, peak.amplitude)),
+                )
+            };
+            let outer = orders.order(Fault::OuterRace).into_iter();
+            Ok(WindowAnalysis {
+                sensor: sensor.to_owned(),
+                unit: stretch.unit().to_owned(),
+                from,
+                to,
+                speed_hz,
+                rms: part.rms(),
+                peak: part.peak(),
+                kurtosis: part.kurtosis(),
+                shown: [
+                    thinned(sensor, &part),
+                    thinned("envelope", &envelope.window(from, to)?),
+                ],
+                whitened: settings.whiten,
+                outer: outer
+                    .flat_map(|order| [near(1.0, order), near(2.0, order)])
+                    .collect(),
+                band,
+                spectrum,
+                lines,
+                smeared_above: smeared.then_some(sharp),
+                peaks,
+                diagnosis: diagnosis.map_err(|error| error.to_string()),
+                change: None,
+            })
+        })
+        .collect()
+}
+
+/// A curve of few points in which spikes survive.
+fn thinned(name: &str, series: &TimeSeries) -> Curve {
+    let mut thinner = Thinner::new(series.values().len(), SHOWN_POINTS);
+    thinner.push(series.values());
+    Curve::of_thinned(name, [series.start_s(), series.step_s()], thinner)
+}
+
+/// The highest order whose line over Hz a change of the speed (Hz) spreads over no more than what a window (s) separates, 1 / T.
+fn sharp_order(spread_hz: f64, duration_s: f64) -> f64 {
+    1.0 / (spread_hz * duration_s)
+}
+
+/// The shaft's line and those of the faults whose order is known, with their harmonics up to the order `sharp`; and whether there
+/// are others.
+fn lines(
+    speed_hz: f64,
+    orders: &FaultOrders,
+    diagnosis: Option<&Diagnosis>,
+    sharp: f64,
+) -> Result<(Vec<NamedLine>, bool), StageError> {
+    if speed_hz <= 0.0 {
+        return Ok((Vec::new(), false));
+    }
+    let harmonics = |fault: Fault| {
+        let mut named = diagnosis.into_iter().flat_map(Diagnosis::named);
+        let named = named.find(|verdict| verdict.fault == fault);
+        let last = named.and_then(|verdict| verdict.harmonics.last());
+        last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS))
+    };
+    let faults = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
+    let known = faults
+        .into_iter()
+        .filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
+    let mut lines = Vec::new();
+    let mut smeared = false;
+    for (name, order, harmonics) in std::iter::once(("shaft", 1.0, HARMONICS)).chain(known) {
+        let kept = (1..=harmonics).take_while(|&k| f64::from(k) * order <= sharp);
+        let kept = kept.last().unwrap_or(0);
+        smeared |= kept < harmonics;
+        if kept > 0 {
+            lines.push(NamedLine::new(name, order * speed_hz, kept)?);
+        }
+    }
+    Ok((lines, smeared))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_the_speed_smears_are_left_out() {
+        let orders = FaultOrders::new([Some(3.5), Some(5.5), None, None], 0.01).unwrap();
+        let kept = |spread_hz: f64| {
+            let sharp = sharp_order(spread_hz, 2.0);
+            let (lines, smeared) = lines(25.0, &orders, None, sharp).unwrap();
+            let kept = lines
+                .iter()
+                .map(|line| (line.name().to_owned(), line.harmonics()));
+            (kept.collect::<Vec<_>>(), smeared)
+        };
+        let line = |name: &str, harmonics| (name.to_owned(), harmonics);
+        let all = vec![
+            line("shaft", 3),
+            line("outer race", 3),
+            line("inner race", 3),
+        ];
+        assert_eq!(kept(0.0), (all, false));
+        // 0.5 Hz is what 2 s separate: sharp up to the order 0.5 / 0.1
+        let some = vec![line("shaft", 3), line("outer race", 1)];
+        assert_eq!(kept(0.1), (some, true));
+        assert_eq!(kept(0.6), (Vec::new(), true));
+    }
+}

@@ -1,0 +1,232 @@
+//! `plummer condense`: a housing as a superelement, with its error and its certificate.
+
+use crate::app::case::{Case, InterfaceModes, ModeExtent};
+use crate::app::scene::CondensedStage;
+use crate::app::scene::ReducedInterface;
+use crate::app::scene::loose::name_mechanisms;
+use crate::app::scene::modal_system::FullModes;
+use crate::app::scene::reduced_interface::characteristic_modes;
+use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
+use crate::app::scene::{HousingStage, StageError, Watch, doubts};
+use crate::fe::reduction::{
+    Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
+    size_study,
+};
+use crate::numerics::linalg::EigenProblem;
+use std::f64::consts::TAU;
+
+/// Agreement of two computations of one eigenvalue, relative, as frequencies: residuals below 1e-5 leave errors of the
+/// order of their squares.
+const SAME: f64 = 1e-7;
+
+/// Errors of the reduction that are compared with their estimate: below it, both are the eigenvalues' own.
+const ABOVE_ROUND_OFF: f64 = 1e-8;
+
+/// What is asked beside the superelement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Comparison {
+    /// Nothing.
+    None,
+    /// Frequencies of the full model.
+    Full,
+}
+
+/// Frequencies of the full model beside those of the reduced one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FullComparison {
+    /// Of the full model in the band, Hz; rigid ones first.
+    pub frequencies_hz: Vec<f64>,
+    /// `(reduced - full) / full` of each; `None` for rigid modes.
+    pub relative_errors: Vec<Option<f64>>,
+    /// Smallest and largest of estimated / true error; `None` if no error is above round-off.
+    pub effectivity: Option<[f64; 2]>,
+    /// Errors of reductions of other sizes; none without an elastic mode in the band.
+    pub sizes: Vec<SizeErrors>,
+}
+
+/// Result of the command.
+#[derive(Debug, Clone)]
+pub struct CondenseResult {
+    /// The condensed housing.
+    pub stage: CondensedStage,
+    /// Its interface on modes, if the case asks for it.
+    pub interface: Option<ReducedInterface>,
+    /// Errors in the band, of the interface's reduction too.
+    pub estimate: ErrorEstimate,
+    /// Its certificate.
+    pub checks: Vec<Check>,
+    /// The full model, if asked for.
+    pub full: Option<FullComparison>,
+    /// What the ring's rigid sections change, if the full model was asked for and a ring is tied.
+    pub tie_price: Option<TiePrice>,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
+}
+
+impl CondenseResult {
+    /// Whether every check passes.
+    pub fn passes(&self) -> bool {
+        self.checks.iter().all(Check::ok)
+    }
+
+    /// The superelement that is handed on.
+    pub fn superelement(&self) -> &Superelement {
+        match &self.interface {
+            Some(interface) => &interface.reduction.superelement,
+            None => &self.stage.condensed.superelement,
+        }
+    }
+}
+
+/// Condenses the housing of a case.
+///
+/// # Errors
+/// [`StageError`] of the stages that it goes through.
+pub fn compute_condense(
+    case: &Case,
+    comparison: Comparison,
+    watch: &impl Watch,
+) -> Result<CondenseResult, StageError> {
+    // a case with neither tie nor other interface was refused before
+    let stage = CondensedStage::build(case, watch)?.ok_or(StageError::NothingToCondense)?;
+    watch.stage("estimate");
+    let band_hz = stage.choice.band_hz;
+    let mut estimate = stage
+        .condensed
+        .estimate(stage.boundary.attached(), band_hz)?;
+    let matrices = stage.matrices();
+    let (mut modes, mut interface) = (None, None);
+    if comparison == Comparison::Full || case.condense.interface_modes != InterfaceModes::None {
+        watch.stage("interface");
+        let all = characteristic_modes(&stage, &matrices)?;
+        if let Some((reduced, of_both)) = ReducedInterface::of(case, &stage, &all, &estimate)? {
+            (interface, estimate) = (Some(reduced), of_both);
+        }
+        modes = Some(all);
+    }
+    watch.stage("check");
+    let rigid = stage.rigid_motions();
+    let mut checks = match &interface {
+        Some(ReducedInterface { reduction, .. }) => {
+            check_interface_reduction(&stage.condensed, reduction, &matrices, &rigid, band_hz)?
+        }
+        None => check_craig_bampton(&stage.condensed, &matrices, &rigid, band_hz)?,
+    };
+    name_mechanisms(&mut checks, &stage)?;
+    checks.push(estimated_error(&estimate, case.target()));
+    let (mut full, mut price) = (None, None);
+    if comparison == Comparison::Full {
+        watch.stage("full model");
+        let mut found = compare(&stage, &estimate, watch)?;
+        checks.push(fixed_interface(&stage)?);
+        checks.push(free_frequencies(&found, case.target()));
+        let elastic = found.relative_errors.iter().any(Option::is_some);
+        if let Some(modes) = modes.as_ref().filter(|_| elastic) {
+            watch.stage("sizes");
+            let rigid = found.relative_errors.iter().take_while(|e| e.is_none());
+            found.sizes = size_study(
+                &stage.condensed.substructure,
+                modes,
+                &found.frequencies_hz,
+                rigid.count(),
+            )?;
+        }
+        full = Some(found);
+        if stage.boundary.ring().is_some() {
+            price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
+        }
+    }
+    drop(matrices);
+    let HousingStage { mesh, model, .. } = &stage.housing;
+    Ok(CondenseResult {
+        doubts: doubts(case, Some((mesh, model)), None)?,
+        stage,
+        interface,
+        estimate,
+        checks,
+        full,
+        tie_price: price,
+    })
+}
+
+fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {
+    let largest = match estimate.converged {
+        true => estimate.largest(),
+        false => f64::INFINITY,
+    };
+    let what = match estimate.converged {
+        true => format!(
+            "largest estimated relative error of the {} frequencies in the band",
+            estimate.modes.len()
+        ),
+        false => "the basis is too poor for an estimate: too many modes below the band's top are left out".to_owned(),
+    };
+    Check::at_most("estimated error", what, largest, target)
+}
+
+fn compare(
+    stage: &CondensedStage,
+    estimate: &ErrorEstimate,
+    watch: &impl Watch,
+) -> Result<FullComparison, StageError> {
+    let extent = ModeExtent::Count(estimate.modes.len().max(1));
+    let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
+    let rigid = modes.basis.rigid_modes;
+    let full = &modes.basis.frequencies_hz;
+    let errors = estimate.modes.iter().zip(full).enumerate();
+    let relative_errors: Vec<Option<f64>> = errors
+        .map(|(place, (mode, hz))| (place >= rigid).then(|| (mode.frequency_hz - hz) / hz))
+        .collect();
+    let pairs = relative_errors.iter().zip(&estimate.modes);
+    let factors = pairs.filter_map(|(found, mode)| {
+        let found = found.filter(|error| *error > ABOVE_ROUND_OFF)?;
+        Some(mode.relative_error / found)
+    });
+    let effectivity = factors.fold(None, |range: Option<[f64; 2]>, factor| {
+        let [low, high] = range.unwrap_or([factor; 2]);
+        Some([low.min(factor), high.max(factor)])
+    });
+    Ok(FullComparison {
+        frequencies_hz: full.clone(),
+        relative_errors,
+        effectivity,
+        sizes: Vec::new(),
+    })
+}
+
+/// Fixed-interface frequencies of a factorisation of its own.
+fn fixed_interface(stage: &CondensedStage) -> Result<Check, StageError> {
+    let basis = &stage.condensed.basis;
+    let kept = basis
+        .values()
+        .partition_point(|&value| value < basis.complete_below());
+    let matrices = stage.matrices();
+    let interior = &stage.boundary.partition().interior;
+    let difference = match kept {
+        0 => 0.0,
+        _ => {
+            let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, interior)?;
+            let pairs = problem.lowest(kept)?;
+            let both = pairs.values.iter().zip(basis.values());
+            both.map(|(full, reduced)| ((reduced / full).sqrt() - 1.0).abs())
+                .fold(0.0, f64::max)
+        }
+    };
+    let top = basis.complete_below().sqrt() / TAU;
+    Ok(Check::at_most(
+        "fixed-interface frequencies",
+        format!("largest relative difference from the full model of the {kept} below {top:.0} Hz"),
+        difference,
+        SAME,
+    ))
+}
+
+fn free_frequencies(found: &FullComparison, target: f64) -> Check {
+    let errors = found.relative_errors.iter().flatten();
+    Check::at_most(
+        "frequencies",
+        "largest relative difference of the coupled frequencies in the band from the full model",
+        errors.fold(0.0, |largest: f64, error| largest.max(error.abs())),
+        target,
+    )
+}

@@ -1,0 +1,16 @@
+//! `plummer frf`: transfer paths from forces to sensors, reduced against full.
+
+pub(crate) mod compared;
+pub(crate) mod compute;
+pub(crate) mod housing;
+pub(crate) mod ranking;
+pub(crate) mod reduced;
+pub(crate) mod report;
+#[cfg(test)]
+mod tests;
+
+pub use compared::ComparedResponse;
+pub use compute::{CarriedPart, FrfResult, TransferPath, compute_frf};
+pub use housing::FrfHousing;
+pub use ranking::RankedPath;
+pub use report::frf_report;

@@ -1,0 +1,289 @@
+//! The report of `plummer frf`.
+
+use super::compute::{FrfResult, TransferPath};
+use super::housing::FrfHousing;
+use crate::app::case::Case;
+use crate::app::scene::StageError;
+use crate::fe::reduction::ResponseEstimate;
+use crate::fe::reduction::frf::FrfQuantity;
+use crate::report::{
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table,
+    Verdict, significant,
+};
+use faer::c64;
+
+/// Modes listed of those that carry a path.
+const LISTED: usize = 8;
+
+/// Composes the report; `command` is the line that made it.
+///
+/// # Errors
+/// [`StageError::Frf`].
+pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, StageError> {
+    let document = Document::new()
+        .case(case.source.path.display().to_string())
+        .signed_by("Prepared by")
+        .signed_by("Checked by");
+    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Transfer paths")
+        .document(document);
+    let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
+    report = match (&result.estimate, result.largest_estimate()) {
+        (None, _) => report.headline("Estimated error", "not known", Verdict::None),
+        (Some(_), largest) => {
+            let largest = largest.unwrap_or_default();
+            let name = "Largest estimated error of a response";
+            report.headline(name, significant(largest.1, 2), passes(largest))
+        }
+    };
+    report = match result.largest_difference() {
+        Some(largest) => report.headline(
+            "Largest difference from the full model",
+            significant(largest.1, 2),
+            passes(largest),
+        ),
+        None => report.headline(
+            "Difference from the full model",
+            "not computed",
+            Verdict::None,
+        ),
+    };
+    report = report.section(model(result));
+    for path in 0..result.paths.len() {
+        report = report.section(of_path(result, path)?);
+    }
+    if let Some(estimate) = &result.estimate {
+        report = report.section(errors(result, estimate));
+    }
+    if !result.ranking.is_empty() {
+        report = report.section(ranking(result));
+    }
+    if let Some(why) = &result.not_compared {
+        report = report.warning(format!("Nothing was compared with the full model: {why}."));
+    }
+    for text in &result.doubts {
+        report = report.warning(text);
+    }
+    Ok(report)
+}
+
+fn model(result: &FrfResult) -> Section {
+    let element = result.housing.element();
+    let coordinates = Fact::new("Interface coordinates", element.interface_dof.to_string());
+    let of_housing = match &result.housing {
+        FrfHousing::Mesh(stage) => {
+            let (substructure, basis) = (&stage.condensed.substructure, &stage.condensed.basis);
+            let modes = basis.count() - basis.residual_vectors();
+            vec![
+                Fact::new("Interior degrees of freedom", substructure.interior_dof().to_string()),
+                coordinates,
+                Fact::new("Fixed-interface modes", modes.to_string()),
+                Fact::new("Residual vectors", basis.residual_vectors().to_string()).note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
+            ]
+        }
+        FrfHousing::File(imported) => vec![
+            Fact::new("Superelement", imported.0.path.display().to_string()),
+            coordinates,
+            Fact::new("Modes", element.modal_dof().to_string()),
+        ],
+    };
+    let of_response = [Fact::new(
+        "Frequencies",
+        result.response.frequencies_hz().len().to_string(),
+    )
+    .note("equal steps of the band, and four to the half-power bandwidth of every resonance")];
+    Section::new("Model").facts(of_housing.into_iter().chain(of_response))
+}
+
+fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
+    let path = &result.paths[index];
+    let title = format!("From {} to {}", path.from, path.to);
+    if path.is_closed() {
+        return Ok(Section::new(title).paragraph(format!("This path {}.", TransferPath::CLOSED)));
+    }
+    let (sensor, load) = path.place;
+    let all = result.response.frequencies_hz();
+    let accelerance = result
+        .response
+        .path(sensor, load, FrfQuantity::Accelerance)?;
+    let full: Vec<(f64, c64)> = result
+        .compared
+        .iter()
+        .map(|at| {
+            (
+                at.frequency_hz,
+                accelerance_of(at.frequency_hz, at.full[index]),
+            )
+        })
+        .collect();
+    let reduced: Vec<(f64, c64)> = all.iter().copied().zip(accelerance).collect();
+    let [low, high] = result.band_hz;
+    let frequency = || Axis::new("Frequency", "Hz").range(low, high);
+    let size = || Axis::new("Acceleration over force", "1/kg").log();
+    let mut magnitude = Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve(
+        "reduced",
+        &reduced,
+        |h| h.norm(),
+    ));
+    let degrees = |h: c64| h.arg().to_degrees();
+    let mut phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
+        .curve(curve("reduced", &reduced, degrees));
+    if !full.is_empty() {
+        magnitude = magnitude.curve(curve("full", &full, |h| h.norm()).style(CurveStyle::Points));
+        phase = phase.curve(curve("full", &full, degrees).style(CurveStyle::Points));
+    }
+    let mut parts = Plot::new(
+        "Accelerance of the modes that carry most",
+        frequency(),
+        size(),
+    )
+    .curve(curve("all", &reduced, |h| h.norm()));
+    for part in &path.carried {
+        let values: Vec<(f64, c64)> = all
+            .iter()
+            .zip(&part.receptance)
+            .map(|(&hz, &receptance)| (hz, accelerance_of(hz, receptance)))
+            .collect();
+        let name = format!("{:.0} Hz", part.frequency_hz);
+        parts = parts.curve(curve(name, &values, |h| h.norm()));
+    }
+    let mut table = Table::new(
+        format!("What carries the path from {} to {}", path.from, path.to),
+        [
+            Column::number("Mode", ""),
+            Column::number("Frequency", "Hz"),
+            Column::number("Damping ratio", ""),
+            Column::number("Share", "%"),
+            Column::number("Alone", "%"),
+        ],
+    );
+    for share in path.shares.modes.iter().take(LISTED) {
+        table = table.row([
+            Cell::text((share.mode + 1).to_string()),
+            Cell::number(share.frequency_hz, 6),
+            share
+                .ratio
+                .map_or_else(|| Cell::text("rigid"), |ratio| Cell::number(ratio, 3)),
+            Cell::number(100.0 * share.share, 3),
+            Cell::number(100.0 * share.alone, 3),
+        ]);
+    }
+    Ok(Section::new(title)
+        .plot(magnitude)
+        .plot(phase)
+        .plot(parts)
+        .table(table.footnote("Share: integral of Re(conj(H) H_r) over that of |H|^2, receptances over the band; the shares of all modes add up to 100 %, modes that work against each other are above it and below zero. Alone: what the mode would bring without the others.")))
+}
+
+fn accelerance_of(hz: f64, receptance: c64) -> c64 {
+    FrfQuantity::Accelerance.factor(hz) * receptance
+}
+
+/// A curve of what is not zero: at rest there is no acceleration, and no logarithm of it.
+fn curve(name: impl Into<String>, values: &[(f64, c64)], of: impl Fn(c64) -> f64) -> Curve {
+    let moving = || values.iter().filter(|(_, h)| h.norm() > 0.0);
+    let hz = moving().map(|(hz, _)| *hz).collect();
+    Curve::new(
+        name,
+        Abscissa::Points(hz),
+        moving().map(|(_, h)| of(*h)).collect(),
+    )
+}
+
+fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
+    let estimated = estimate
+        .frequencies_hz
+        .iter()
+        .zip(&estimate.relative_errors);
+    let positive =
+        |(hz, error): (f64, f64)| (error > 0.0 && error.is_finite()).then_some((hz, error));
+    let (hz, error) = estimated
+        .filter_map(|(&hz, &error)| positive((hz, error)))
+        .unzip();
+    let [low, high] = result.band_hz;
+    let mut plot = Plot::new(
+        "Error of the reduced responses, the largest of the paths",
+        Axis::new("Frequency", "Hz").range(low, high),
+        Axis::new("Error over response", "").log(),
+    )
+    .curve(Curve::new("estimated", Abscissa::Points(hz), error));
+    let target = vec![result.target; 2];
+    plot = plot.curve(Curve::new(
+        "target",
+        Abscissa::Points(vec![low, high]),
+        target,
+    ));
+    if result.compared.is_empty() {
+        return Section::new("Error of the reduced responses").plot(plot);
+    }
+    let compared = result.compared.iter();
+    let (hz, difference) = compared
+        .filter_map(|at| positive((at.frequency_hz, at.difference)))
+        .unzip();
+    let points = Curve::new("against the full model", Abscissa::Points(hz), difference);
+    let residual = result.compared.iter().map(|compared| compared.residual);
+    Section::new("Error of the reduced responses")
+        .plot(plot.curve(points.style(CurveStyle::Points)))
+        .paragraph(format!(
+            "Full: direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included, relative to the response where it is read; it passes up to {}.",
+            significant(residual.fold(0.0, f64::max), 1),
+            significant(result.target, 2)
+        ))
+        .table(compared_table(result))
+}
+
+fn compared_table(result: &FrfResult) -> Table {
+    let mut columns = vec![Column::number("Frequency", "Hz")];
+    for path in &result.paths {
+        let name = |of| format!("{} to {}, {of}", path.from, path.to);
+        columns.push(Column::number(name("reduced"), "m/N"));
+        columns.push(Column::number(name("full"), "m/N"));
+    }
+    columns.push(Column::number("Estimated error", ""));
+    columns.push(Column::number("Largest difference", ""));
+    let mut table = Table::new("Receptance, reduced and full", columns);
+    for compared in &result.compared {
+        let mut cells = vec![Cell::number(compared.frequency_hz, 6)];
+        for (reduced, full) in compared.reduced.iter().zip(&compared.full) {
+            cells.push(Cell::number(reduced.norm(), 6));
+            cells.push(Cell::number(full.norm(), 6));
+        }
+        let outside = || Cell::text("outside the band");
+        cells.push(
+            compared
+                .estimated
+                .map_or_else(outside, |error| Cell::number(error, 2)),
+        );
+        let verdict = Verdict::of(compared.difference <= result.target);
+        cells.push(Cell::number(compared.difference, 2).judged(verdict));
+        table = table.row(cells);
+    }
+    table
+}
+
+fn ranking(result: &FrfResult) -> Section {
+    let [low, high] = result.band_hz;
+    let mut section = Section::new("Which variant transmits least").paragraph(format!(
+        "Energy mean of the accelerance from {low:.0} to {high:.0} Hz, the quietest first."
+    ));
+    for ranked in &result.ranking {
+        let path = &result.paths[ranked.path];
+        let mut table = Table::new(
+            format!("From {} to {}", path.from, path.to),
+            [
+                Column::text("Variant"),
+                Column::number("Level", "dB re 1/kg"),
+                Column::number("Above the quietest", "dB"),
+            ],
+        );
+        for variant in &ranked.variants {
+            table = table.row([
+                Cell::text(&variant.name),
+                Cell::number(variant.mean_db, 5),
+                Cell::number(variant.above_quietest_db, 4),
+            ]);
+        }
+        section = section.table(table);
+    }
+    section
+}

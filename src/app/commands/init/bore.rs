@@ -1,0 +1,154 @@
+//! Which group of a mesh is the bore: a cylindrical hole (in a plane mesh a round one).
+
+use std::collections::HashMap;
+
+use super::cylinder::{Cylinder, Facet, fit};
+use crate::fe::mesh::{BoundaryFace, Mesh, PhysicalGroup};
+
+/// Largest distance of a node from the cylinder, relative to its radius: what the ring's tie accepts.
+pub(crate) const TOLERANCE: f64 = 0.01;
+
+/// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
+const LEAST_TURN: f64 = 1.0 / 12.0;
+
+/// Parts of names that a bore has.
+const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
+
+/// A group that lies on a cylinder.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Candidate {
+    /// Name of the group.
+    pub group: String,
+    /// What it lies on, in the mesh's unit.
+    pub cylinder: Cylinder,
+}
+
+impl Candidate {
+    fn is_hole(&self) -> bool {
+        self.cylinder.hole == Some(true)
+    }
+
+    fn is_named(&self) -> bool {
+        let name = self.group.to_lowercase();
+        NAMES.iter().any(|part| name.contains(part))
+    }
+}
+
+/// What the surfaces of a mesh are.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cylinders {
+    /// The bore, as far as one can tell.
+    pub bore: Option<Candidate>,
+    /// Other holes, best first.
+    pub holes: Vec<Candidate>,
+    /// Round surfaces with the housing inside of them.
+    pub outside: Vec<Candidate>,
+}
+
+/// The boundary of the housing's elements by their corners.
+pub(crate) struct Rim {
+    faces: Vec<BoundaryFace>,
+    by_corners: HashMap<Vec<usize>, usize>,
+}
+
+fn key(nodes: &[usize], corners: usize) -> Vec<usize> {
+    let mut key: Vec<usize> = nodes.iter().copied().take(corners).collect();
+    key.sort_unstable();
+    key
+}
+
+impl Rim {
+    /// The rim of the elements of the highest dimension.
+    pub fn of(mesh: &Mesh, dimension: usize) -> Self {
+        let faces = mesh.boundary_faces(mesh.element_ids(dimension));
+        let keys = faces
+            .iter()
+            .enumerate()
+            .map(|(place, face)| (key(&face.nodes, face.kind.corners()), place));
+        let by_corners = keys.collect();
+        Self { faces, by_corners }
+    }
+
+    /// Each face of the rim with the corners of its element's middle.
+    pub fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
+        self.faces.iter().map(move |face| {
+            let corners = &face.nodes[..face.kind.corners()];
+            Facet {
+                corners: corners.iter().map(|&node| mesh.nodes[node]).collect(),
+                inside: Some(middle(mesh, face)),
+            }
+        })
+    }
+}
+
+/// Mean of the corners of the element that a face belongs to.
+fn middle(mesh: &Mesh, face: &BoundaryFace) -> [f64; 3] {
+    let block = &mesh.blocks[face.element.block];
+    let nodes = block.element(face.element.index).unwrap_or_default();
+    let corners = block.kind.corners().min(nodes.len()).max(1);
+    let mut sum = [0.0; 3];
+    for &node in nodes.iter().take(corners) {
+        for (sum, part) in sum.iter_mut().zip(mesh.nodes[node]) {
+            *sum += part / corners as f64;
+        }
+    }
+    sum
+}
+
+fn facets(mesh: &Mesh, rim: &Rim, group: &PhysicalGroup) -> Vec<Facet> {
+    let faces = group.elements.iter().map(|id| {
+        let block = &mesh.blocks[id.block];
+        let nodes = block.element(id.index).unwrap_or_default();
+        let corners = block.kind.corners();
+        let face = rim.by_corners.get(&key(nodes, corners));
+        Facet {
+            corners: nodes
+                .iter()
+                .take(corners)
+                .map(|&node| mesh.nodes[node])
+                .collect(),
+            inside: face.map(|&place| middle(mesh, &rim.faces[place])),
+        }
+    });
+    faces.collect()
+}
+
+/// Fits a cylinder to every group whose name `usable` accepts, one dimension below the housing.
+pub(crate) fn cylinders(
+    mesh: &Mesh,
+    dimension: usize,
+    rim: &Rim,
+    usable: impl Fn(&PhysicalGroup) -> bool,
+) -> Cylinders {
+    let mut holes = Vec::new();
+    let mut outside = Vec::new();
+    let groups = mesh.groups.iter();
+    for group in groups.filter(|group| group.dimension + 1 == dimension && usable(group)) {
+        let nodes: Vec<[f64; 3]> = group.nodes.iter().map(|&node| mesh.nodes[node]).collect();
+        let Some(cylinder) = fit(&facets(mesh, rim, group), &nodes) else {
+            continue;
+        };
+        if cylinder.farthest > TOLERANCE * cylinder.radius || cylinder.turn < LEAST_TURN {
+            continue;
+        }
+        let group = group.name.clone();
+        let candidate = Candidate { group, cylinder };
+        if candidate.is_hole() {
+            holes.push(candidate);
+        } else {
+            outside.push(candidate);
+        }
+    }
+    // a name before the surface itself: a bearing sits in one hole of many
+    let surface = |candidate: &Candidate| candidate.cylinder.radius * candidate.cylinder.turn;
+    holes.sort_by(|a, b| {
+        let named = b.is_named().cmp(&a.is_named());
+        named.then(surface(b).total_cmp(&surface(a)))
+    });
+    let bore = (!holes.is_empty()).then(|| holes.remove(0));
+    Cylinders {
+        bore,
+        holes,
+        outside,
+    }
+}

@@ -1,0 +1,244 @@
+//! What a mesh shows of a case: bore, parts, supports, unit and bearing.
+
+use super::error::DraftError;
+use super::unit::UnitFrom;
+use super::{page, sensor, unit};
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
+use super::frame::Directions;
+use super::groups::{Groups, usable};
+use super::scene::{BearingNumbers, RingNumbers};
+use crate::app::commands::Inspection;
+use crate::bearing::catalogue::CatalogueBearing;
+use crate::fe::mesh::{Mesh, MeshError};
+use crate::numerics::units::LengthUnit;
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct DraftRequest<'a> {
+    /// The mesh file.
+    pub mesh: &'a Path,
+    /// How the case file names it.
+    pub mesh_in_case: &'a str,
+    /// The case's title.
+    pub title: &'a str,
+    /// Unit of the mesh's coordinates, if it is known.
+    pub length_unit: Option<LengthUnit>,
+    /// The bearing, if it is known.
+    pub bearing: Option<&'static CatalogueBearing>,
+}
+
+/// A group that lies on a cylinder, in m.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FoundCylinder {
+    /// Name of the group.
+    pub group: String,
+    /// Unit vector along the axis.
+    pub axis: [f64; 3],
+    /// Point on the axis in the middle of its length.
+    pub centre_m: [f64; 3],
+    /// Radius.
+    pub radius_m: f64,
+    /// Extent along the axis.
+    pub length_m: f64,
+    /// Root of the mean squared distance of the faces' corners from it.
+    pub rms_m: f64,
+    /// Largest distance of a node from it.
+    pub farthest_m: f64,
+    /// Share of the full turn that it covers, 0 to 1.
+    pub turn: f64,
+}
+
+/// Everything that the text is written from; lengths in m.
+pub(crate) struct Found<'a> {
+    pub(crate) request: DraftRequest<'a>,
+    pub(crate) plane: bool,
+    /// Sides of the mesh's box, in the mesh's unit.
+    pub(crate) extent: [f64; 3],
+    pub(crate) unit: LengthUnit,
+    pub(crate) unit_from: UnitFrom,
+    pub(crate) groups: Groups,
+    pub(crate) bore: Option<FoundCylinder>,
+    pub(crate) holes: Vec<FoundCylinder>,
+    pub(crate) outside: Vec<FoundCylinder>,
+    pub(crate) directions: Directions,
+    /// Place of a sensor.
+    pub(crate) spot: Option<[f64; 3]>,
+    /// The bearing that fits, and others of its outer diameter.
+    pub(crate) bearing: Option<BearingNumbers>,
+    pub(crate) same_size: Vec<&'static str>,
+    pub(crate) ring: RingNumbers,
+    /// Connected parts of the mesh.
+    pub(crate) bodies: usize,
+}
+
+pub(crate) fn find<'a>(
+    request: DraftRequest<'a>,
+    mesh: &Mesh,
+    inspection: &Inspection,
+) -> Result<Found<'a>, DraftError> {
+    let inventory = &inspection.inventory;
+    let dimension = inventory.dimension;
+    let path = || request.mesh.to_owned();
+    if dimension < 2 {
+        return Err(DraftError::NoHousing { path: path() });
+    }
+    let extent = inventory.bounding_box.extent();
+    let plane = dimension == 2;
+    if plane && extent[2] > 1e-9 * inventory.bounding_box.diagonal() {
+        let height = extent[2];
+        return Err(DraftError::Shell {
+            path: path(),
+            height,
+        });
+    }
+    let rim = Rim::of(mesh, dimension);
+    let Cylinders {
+        bore,
+        holes,
+        outside,
+    } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
+    let groups = Groups::of(
+        mesh,
+        dimension,
+        bore.as_ref().map(|bore| bore.group.as_str()),
+    );
+    if groups.parts.is_empty() {
+        // a name that two groups share is no name
+        let solids = mesh
+            .groups
+            .iter()
+            .filter(|group| group.dimension == dimension);
+        let named = solids.map(|group| mesh.group(&group.name));
+        if let Some(shared) = named
+            .filter_map(Result::err)
+            .find(|error| matches!(error, MeshError::AmbiguousGroup { .. }))
+        {
+            return Err(shared.into());
+        }
+        let what = if plane { "surfaces" } else { "volumes" };
+        return Err(DraftError::NoPart { path: path(), what });
+    }
+    let longest = extent.into_iter().fold(0.0, f64::max);
+    let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
+    let (unit, unit_from) = unit::unit(request.length_unit, longest, radius, request.bearing);
+    let metres = unit.to_metres();
+    let directions = Directions::of(
+        bore.as_ref()
+            .map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis),
+    );
+    let middle = inventory.bounding_box;
+    let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
+    let centre = bore.as_ref().map_or(middle, |bore| bore.cylinder.centre);
+    let seen = [directions.up, directions.axis];
+    let spot = sensor::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen);
+    let in_metres = |list: Vec<Candidate>| {
+        list.into_iter()
+            .map(|found| scaled(found, metres))
+            .collect()
+    };
+    let bore = bore.map(|bore| scaled(bore, metres));
+    // no bore: a template for the smallest bearing
+    let diameter = bore.as_ref().map_or(0.0, |bore| 2.0 * bore.radius_m);
+    let (bearing, same_size) = fitting(&request, bore.as_ref())?;
+    let usual = CatalogueBearing::nearest(diameter)
+        .first()
+        .map(|(bearing, _)| *bearing);
+    let of = bearing
+        .or(request.bearing)
+        .or(usual)
+        .unwrap_or(&CatalogueBearing::all()[0]);
+    let diameter = if diameter > 0.0 {
+        diameter
+    } else {
+        of.outer_diameter
+    };
+    Ok(Found {
+        request,
+        plane,
+        extent,
+        unit,
+        unit_from,
+        groups,
+        bore,
+        holes: in_metres(holes),
+        outside: in_metres(outside),
+        directions,
+        spot: spot.map(|point| point.map(|part| part * metres)),
+        bearing: bearing.map(BearingNumbers::of),
+        same_size,
+        ring: RingNumbers::of(of, diameter),
+        bodies: inventory.parts.len(),
+    })
+}
+
+pub(crate) fn scaled(found: Candidate, metres: f64) -> FoundCylinder {
+    let cylinder = found.cylinder;
+    FoundCylinder {
+        group: found.group,
+        axis: cylinder.axis,
+        centre_m: cylinder.centre.map(|part| part * metres),
+        radius_m: cylinder.radius * metres,
+        length_m: cylinder.length * metres,
+        rms_m: cylinder.rms * metres,
+        farthest_m: cylinder.farthest * metres,
+        turn: cylinder.turn,
+    }
+}
+
+/// The bearing asked for, which must fit, else the nearest of the catalogue if it does: of several of one outer diameter that of the
+/// series 62. And the names of all of that diameter.
+pub(crate) fn fitting(
+    request: &DraftRequest<'_>,
+    bore: Option<&FoundCylinder>,
+) -> Result<(Option<&'static CatalogueBearing>, Vec<&'static str>), DraftError> {
+    let Some(bore) = bore else {
+        return Ok((None, Vec::new()));
+    };
+    let diameter = 2.0 * bore.radius_m;
+    let nearest = CatalogueBearing::nearest(diameter);
+    if let Some(bearing) = request.bearing {
+        if (bearing.outer_diameter / diameter - 1.0).abs() <= TOLERANCE {
+            return Ok((Some(bearing), Vec::new()));
+        }
+        let names = nearest.iter().map(|(bearing, _)| {
+            format!(
+                "{} ({} mm)",
+                bearing.name,
+                page::number(1e3 * bearing.outer_diameter, 6)
+            )
+        });
+        return Err(DraftError::BearingSize {
+            bearing: bearing.name,
+            outer_mm: 1e3 * bearing.outer_diameter,
+            group: bore.group.clone(),
+            bore_mm: 1e3 * diameter,
+            nearest: format!(
+                "nearest of the catalogue: {}",
+                names.collect::<Vec<_>>().join(", ")
+            ),
+        });
+    }
+    let fits: Vec<&CatalogueBearing> = nearest
+        .into_iter()
+        .filter(|(_, off)| off.abs() <= TOLERANCE)
+        .map(|(bearing, _)| bearing)
+        .collect();
+    let common =
+        |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
+    let chosen = fits.iter().find(common).or(fits.first()).copied();
+    Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))
+}
+
+impl Found<'_> {
+    /// A group one dimension below the housing that may be held, for a template.
+    pub(crate) fn surface(&self) -> Option<&str> {
+        let below = if self.plane { 1 } else { 2 };
+        let mut others = self.groups.others.iter();
+        let other = others.find(|other| other.dimension == below && other.note.is_none());
+        other.map(|other| other.group.as_str())
+    }
+}

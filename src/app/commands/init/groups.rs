@@ -1,0 +1,183 @@
+//! What the groups of a mesh are for, by dimension and name.
+
+use crate::fe::mesh::{Mesh, PhysicalGroup};
+
+/// Parts of names of what is held.
+const SUPPORTS: [&str; 11] = [
+    "foot", "feet", "base", "bolt", "support", "fixed", "clamp", "mount", "ground", "root", "screw",
+];
+
+/// Parts of names of points where something is measured.
+const SENSORS: [&str; 5] = ["sensor", "accel", "probe", "pickup", "top"];
+
+/// Parts of names and what they are made of.
+const MATERIALS: [(&str, &str); 6] = [
+    ("alu", "aluminium"),
+    ("steel", "steel"),
+    ("stahl", "steel"),
+    ("shaft", "steel"),
+    ("bolt", "steel"),
+    ("screw", "steel"),
+];
+
+/// What a part is made of where its name says nothing.
+const USUAL_MATERIAL: &str = "aluminium";
+
+fn says(name: &str, words: &[&str]) -> bool {
+    let name = name.to_lowercase();
+    words.iter().any(|word| name.contains(word))
+}
+
+/// A part with its material.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct PartGuess {
+    /// Name of the group.
+    pub group: String,
+    /// Name of a built-in material.
+    pub material: &'static str,
+    /// Whether the name says the material.
+    pub by_name: bool,
+}
+
+/// A group that is left to the user.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Other {
+    /// Name of the group.
+    pub group: String,
+    /// 0 to 3.
+    pub dimension: usize,
+    /// Why it is not used, or what it may be for.
+    pub note: Option<&'static str>,
+}
+
+/// What the groups are for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Groups {
+    /// Parts of the housing that share no element.
+    pub parts: Vec<PartGuess>,
+    /// Elements of the highest dimension in no part.
+    pub without_part: usize,
+    /// Groups that are held.
+    pub supports: Vec<String>,
+    /// Groups that are named like supports and share nodes with the bore.
+    pub at_bore: Vec<String>,
+    /// A point where a sensor may stand.
+    pub sensor: Option<String>,
+    /// The rest, but for the bore.
+    pub others: Vec<Other>,
+}
+
+/// Whether a case file can name a group: its name is its own, and it has elements.
+pub(crate) fn usable(mesh: &Mesh, group: &PhysicalGroup) -> bool {
+    mesh.group(&group.name).is_ok()
+}
+
+impl Groups {
+    /// Looks at every group; `bore` is the one that the ring sits in.
+    pub fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
+        let mut found = Self::default();
+        let counts = mesh.blocks.iter().map(|block| vec![false; block.len()]);
+        let mut taken: Vec<Vec<bool>> = counts.collect();
+        let mut on_housing = vec![false; mesh.nodes.len()];
+        // large groups first: of two that overlap the one that holds more is the part
+        let mut solids: Vec<&PhysicalGroup> = mesh
+            .groups
+            .iter()
+            .filter(|group| group.dimension == dimension && usable(mesh, group))
+            .collect();
+        solids.sort_by_key(|group| std::cmp::Reverse(group.elements.len()));
+        for group in solids {
+            if group.elements.iter().any(|id| taken[id.block][id.index]) {
+                found.others.push(Other {
+                    group: group.name.clone(),
+                    dimension,
+                    note: Some("shares elements with a part: an element has one material"),
+                });
+                continue;
+            }
+            for id in &group.elements {
+                taken[id.block][id.index] = true;
+            }
+            for &node in &group.nodes {
+                on_housing[node] = true;
+            }
+            found.parts.push(part(&group.name));
+        }
+        let order = |name: &str| mesh.groups.iter().position(|group| group.name == name);
+        found.parts.sort_by_key(|part| order(&part.group));
+        found.without_part = mesh
+            .element_ids(dimension)
+            .filter(|id| !taken[id.block][id.index])
+            .count();
+        let bore = bore.and_then(|name| mesh.group(name).ok());
+        for group in &mesh.groups {
+            if bore.is_some_and(|bore| bore.name == group.name) {
+                continue;
+            }
+            found.sort_in(mesh, group, dimension, bore, &on_housing);
+        }
+        found
+    }
+
+    fn sort_in(
+        &mut self,
+        mesh: &Mesh,
+        group: &PhysicalGroup,
+        dimension: usize,
+        bore: Option<&PhysicalGroup>,
+        on_housing: &[bool],
+    ) {
+        let name = group.name.as_str();
+        let mut leave = |note| {
+            self.others.push(Other {
+                group: name.to_owned(),
+                dimension: group.dimension,
+                note,
+            });
+        };
+        if group.elements.is_empty() {
+            return leave(Some("has no elements"));
+        }
+        if !usable(mesh, group) {
+            return leave(Some(
+                "another group has this name too: give each its own in gmsh",
+            ));
+        }
+        if group.dimension >= dimension {
+            return;
+        }
+        // both lists are sorted
+        let touches_bore = bore.is_some_and(|bore| {
+            let mut nodes = group.nodes.iter();
+            nodes.any(|node| bore.nodes.binary_search(node).is_ok())
+        });
+        let whole = group.nodes.iter().all(|&node| on_housing[node]);
+        if says(name, &SUPPORTS) {
+            if !whole {
+                leave(Some("looks like a support, but lies on no part"));
+            } else if touches_bore {
+                leave(Some(
+                    "looks like a support, but shares nodes with the bore, which follow the ring",
+                ));
+                self.at_bore.push(name.to_owned());
+            } else {
+                self.supports.push(name.to_owned());
+            }
+        } else if group.dimension == 0 && self.sensor.is_none() && says(name, &SENSORS) && whole {
+            self.sensor = Some(name.to_owned());
+        } else {
+            let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+            leave(touches_bore.then_some(note));
+        }
+    }
+}
+
+fn part(name: &str) -> PartGuess {
+    let lower = name.to_lowercase();
+    let known = MATERIALS.iter().find(|(word, _)| lower.contains(word));
+    PartGuess {
+        group: name.to_owned(),
+        material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
+        by_name: known.is_some(),
+    }
+}

@@ -1,0 +1,22 @@
+//! `plummer init`: a commented case file from a mesh.
+
+pub(crate) mod bore;
+pub(crate) mod cylinder;
+pub(crate) mod draft;
+pub(crate) mod error;
+pub(crate) mod found;
+pub(crate) mod frame;
+pub(crate) mod groups;
+pub(crate) mod page;
+pub(crate) mod run_text;
+pub(crate) mod scene;
+pub(crate) mod sensor;
+#[cfg(test)]
+mod tests;
+pub(crate) mod text;
+pub(crate) mod unit;
+
+pub use draft::Draft;
+pub use error::DraftError;
+pub use found::{DraftRequest, FoundCylinder};
+pub use unit::UnitFrom;

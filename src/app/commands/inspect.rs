@@ -1,0 +1,186 @@
+//! `plummer inspect`: what a mesh contains, how large it is and how well its elements are shaped.
+
+use crate::fe::element::continuum::{measure, quality, surface_weights};
+use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
+use crate::fe::model::{
+    Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind,
+};
+use crate::numerics::units::LengthUnit;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Bad elements that are listed one by one.
+const LISTED: usize = 10;
+
+/// The shape of one element.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ElementShape {
+    /// gmsh's tag.
+    pub tag: u64,
+    /// Its kind.
+    pub kind: ElementKind,
+    /// Smallest Jacobian determinant over the largest: 1 for parallel edges, 0 and below for a folded or
+    /// inverted element.
+    pub scaled_jacobian: f64,
+    /// Smallest determinant, m^2 or m^3.
+    pub smallest_determinant: f64,
+    /// Where that is, m.
+    pub position: [f64; 3],
+}
+
+/// Length (m), area (m^2) or volume (m^3) of a group of curves, surfaces or volumes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GroupSize {
+    /// The group.
+    pub name: String,
+    /// 1 to 3.
+    pub dimension: usize,
+    /// Sum over its valid elements.
+    pub size: f64,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Inspection {
+    /// Unit of the file's coordinates; `None`: not given, one unit was taken as 1 m.
+    pub length_unit: Option<LengthUnit>,
+    /// Counts, groups, extent, and what hangs in the air.
+    #[serde(flatten)]
+    pub inventory: Inventory,
+    /// Area (m^2) of a plane mesh, volume (m^3) of a solid one; elements without valid shape left out.
+    pub size: f64,
+    /// The same for every group.
+    pub group_sizes: Vec<GroupSize>,
+    /// The element with the smallest scaled Jacobian among those of the highest dimension.
+    pub worst: Option<ElementShape>,
+    /// Number of elements that are inverted, folded or without size.
+    pub invalid_elements: usize,
+    /// The first of them.
+    pub invalid: Vec<ElementShape>,
+    /// Elements of the highest dimension on the corners of another one.
+    pub doubled: Option<Doubled>,
+    /// Edges on which elements of the highest dimension do not have the same middle node.
+    pub mixed_orders: Option<MixedOrders>,
+    /// Groups of the highest dimension that lie in one another.
+    pub overlapping: Vec<Overlap>,
+    /// Groups of the highest dimension whose faces lie on each other without common nodes.
+    pub touching: Vec<Touching>,
+    /// Groups of the highest dimension that reach into one another, of which the other lists say nothing.
+    pub crossing: Vec<Crossing>,
+}
+
+impl Inspection {
+    /// Reads a mesh and looks at it; without a unit its coordinates are taken as metres.
+    ///
+    /// # Errors
+    /// [`MeshError`] if it cannot be read.
+    pub fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
+        let mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+        Ok(Self::of_mesh(&mesh, unit))
+    }
+
+    /// Looks at a mesh that was read with this unit, as metres without one.
+    #[must_use]
+    pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
+        let inventory = mesh.inventory();
+        let bodies = Bodies::of_mesh(mesh);
+        let overlapping = bodies.overlaps();
+        let (touching, crossing) = bodies.unconnected(|_| false, &overlapping);
+        let mut found = Self {
+            length_unit: unit,
+            size: 0.0,
+            group_sizes: Vec::new(),
+            worst: None,
+            invalid_elements: 0,
+            invalid: Vec::new(),
+            doubled: bodies.doubled(),
+            mixed_orders: bodies.mixed_orders(),
+            crossing,
+            overlapping,
+            touching,
+            inventory,
+        };
+        let all = elements_of(mesh, found.inventory.dimension);
+        found.size = size(mesh, all.clone());
+        all.for_each(|id| found.look_at(mesh, id));
+        found.group_sizes = mesh
+            .groups
+            .iter()
+            .filter(|group| group.dimension > 0)
+            .map(|group| GroupSize {
+                name: group.name.clone(),
+                dimension: group.dimension,
+                size: size(mesh, group.elements.iter().copied()),
+            })
+            .collect();
+        found
+    }
+
+    fn look_at(&mut self, mesh: &Mesh, id: ElementId) {
+        let block = &mesh.blocks[id.block];
+        let Some(kind) = continuum_kind(block.kind) else {
+            return;
+        };
+        // coordinates are finite and as many as the kind has nodes: the reader has seen to it
+        let Ok(shape) = quality(kind, &coordinates(mesh, id)) else {
+            return;
+        };
+        let shape = ElementShape {
+            tag: block.tags[id.index],
+            kind: block.kind,
+            scaled_jacobian: shape.scaled_jacobian,
+            smallest_determinant: shape.smallest_determinant,
+            position: shape.position,
+        };
+        if measure(kind, &coordinates(mesh, id)).is_err() {
+            self.invalid_elements += 1;
+            if self.invalid.len() < LISTED {
+                self.invalid.push(shape.clone());
+            }
+        }
+        let worse = |worst: &ElementShape| shape.scaled_jacobian < worst.scaled_jacobian;
+        if self.worst.as_ref().is_none_or(worse) {
+            self.worst = Some(shape);
+        }
+    }
+}
+
+pub(crate) fn elements_of(
+    mesh: &Mesh,
+    dimension: usize,
+) -> impl Iterator<Item = ElementId> + Clone + '_ {
+    let blocks = mesh.blocks.iter().enumerate();
+    blocks
+        .filter(move |(_, block)| block.kind.dimension() == dimension)
+        .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
+}
+
+fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
+    let nodes = mesh.blocks[id.block].element(id.index).unwrap_or_default();
+    nodes.iter().map(|&node| mesh.nodes[node]).collect()
+}
+
+/// Sum of lengths, areas or volumes; elements on the same nodes count once, as supports and masses take them.
+pub(crate) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f64 {
+    let mut seen = BTreeSet::new();
+    elements
+        .filter(|id| {
+            let mut nodes = mesh.blocks[id.block]
+                .element(id.index)
+                .unwrap_or_default()
+                .to_vec();
+            nodes.sort_unstable();
+            seen.insert(nodes)
+        })
+        .map(|id| {
+            let kind = mesh.blocks[id.block].kind;
+            let at = coordinates(mesh, id);
+            match (surface_kind(kind), continuum_kind(kind)) {
+                (Some(kind), _) => surface_weights(kind, &at).map_or(0.0, |w| w.iter().sum()),
+                (None, Some(kind)) => measure(kind, &at).unwrap_or(0.0),
+                (None, None) => 0.0,
+            }
+        })
+        .sum()
+}

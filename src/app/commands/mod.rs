@@ -1,0 +1,12 @@
+//! What each command computes, as a value, and its report; nothing here prints.
+
+pub mod analyze;
+pub mod condense;
+pub mod frf;
+pub mod init;
+pub mod inspect;
+pub mod modes;
+pub mod parts;
+pub mod run;
+
+pub use inspect::{ElementShape, GroupSize, Inspection};

@@ -1,0 +1,324 @@
+//! Computed modes against those of a file: which belong together, and whether they agree.
+
+use super::compute::ModesResult;
+use crate::app::case::{Case, ComparedModes};
+use crate::app::scene::StageError;
+use crate::app::scene::mode_set::{OwnModes, placed};
+use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
+use crate::formats::{ModeShapes, read_mode_shapes};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// What a pair of modes, or a mode without a partner, misses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Miss {
+    /// The shapes differ by more than the limit.
+    Mac,
+    /// The frequencies do.
+    Frequency,
+    /// A group of repeated modes has more modes on one side than on the other.
+    Count,
+    /// There is no partner.
+    Partner,
+}
+
+impl Miss {
+    /// In a few words, for tables.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Mac => "MAC",
+            Self::Frequency => "frequency",
+            Self::Count => "number of modes",
+            Self::Partner => "no partner",
+        }
+    }
+}
+
+/// Modes that belong together; indices count from 0 in each list of frequencies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ComparedPair {
+    /// Modes of this case; several are a group of repeated ones.
+    pub here: Vec<usize>,
+    /// Modes of the file.
+    pub there: Vec<usize>,
+    /// Mean frequency of this case's, Hz.
+    pub here_hz: f64,
+    /// Mean frequency of the file's, Hz.
+    pub there_hz: f64,
+    /// (here - there) / there; `None` for modes without stiffness, which have no frequency to speak of.
+    pub relative_difference: Option<f64>,
+    /// Squared cosine of the largest angle between the spaces that they span: the MAC for one mode each.
+    pub mac: f64,
+    /// Mean squared cosine.
+    pub mean_mac: f64,
+    /// What it misses; empty: it passes.
+    pub misses: Vec<Miss>,
+}
+
+/// A mode without a partner.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LoneMode {
+    /// Index from 0 in its list of frequencies.
+    pub mode: usize,
+    /// Its frequency, Hz.
+    pub hz: f64,
+    /// Whether its partner would be within what the other side covers: then it counts as missing.
+    pub missing: bool,
+}
+
+/// The points that were compared.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ComparedPoints {
+    /// How they were found.
+    pub by: MatchedBy,
+    /// Number of common points.
+    pub matched: usize,
+    /// Points of this case.
+    pub here: usize,
+    /// Points of the file.
+    pub there: usize,
+    /// Largest distance of two that were taken as one, m.
+    pub largest_distance_m: f64,
+}
+
+/// The modes of a case against those of a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FileComparison {
+    /// The file.
+    pub file: PathBuf,
+    /// Where its modes come from.
+    pub what: String,
+    /// Smallest MAC that passes.
+    pub mac_limit: f64,
+    /// Largest relative difference of frequencies that passes.
+    pub within: f64,
+    /// Which points were compared.
+    pub points: ComparedPoints,
+    /// Frequencies of the file, Hz.
+    pub there_hz: Vec<f64>,
+    /// What belongs together, by frequency.
+    pub pairs: Vec<ComparedPair>,
+    /// Modes of this case without a partner.
+    pub lone_here: Vec<LoneMode>,
+    /// Modes of the file without a partner.
+    pub lone_there: Vec<LoneMode>,
+    /// MAC of every mode of this case with every one of the file, by row.
+    pub mac: Vec<Vec<f64>>,
+    /// Whether every pair passes, no mode is missing, and there is a pair at all.
+    pub ok: bool,
+}
+
+impl FileComparison {
+    /// Modes of this case that agree, and those that were judged.
+    pub fn agreeing(&self) -> [usize; 2] {
+        let count = |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize {
+            pairs.map(|pair| pair.here.len()).sum()
+        };
+        let passed = count(&mut self.pairs.iter().filter(|pair| pair.misses.is_empty()));
+        let missing = self.lone_here.iter().filter(|mode| mode.missing).count();
+        [passed, count(&mut self.pairs.iter()) + missing]
+    }
+
+    /// Modes of the file that this case should have and has not.
+    pub fn missing_here(&self) -> usize {
+        self.lone_there.iter().filter(|mode| mode.missing).count()
+    }
+}
+
+fn ascending(modes: &[usize]) -> Vec<usize> {
+    let mut modes = modes.to_vec();
+    modes.sort_unstable();
+    modes
+}
+
+/// A file that was read, with what is asked of it.
+pub(crate) struct ComparedFile<'c> {
+    asked: &'c ComparedModes,
+    modes: ModeShapes,
+}
+
+impl<'c> ComparedFile<'c> {
+    /// Reads every file that the case names, before anything is computed.
+    ///
+    /// # Errors
+    /// [`StageError::ModeShapes`] with file and line.
+    pub fn read_all(case: &'c Case) -> Result<Vec<Self>, StageError> {
+        let read = |asked: &'c ComparedModes| {
+            let modes = read_mode_shapes(&asked.file)?;
+            Ok(Self { asked, modes })
+        };
+        case.modes.compare.iter().map(read).collect()
+    }
+
+    /// Compares with what was computed.
+    ///
+    /// # Errors
+    /// [`StageError::PointsUnknown`], [`StageError::Compared`] for points that do not meet the model's.
+    pub fn compare(&self, result: &ModesResult) -> Result<FileComparison, StageError> {
+        let survey = &result.survey;
+        let housing = result.mesh_and_model();
+        let own = OwnModes {
+            frequencies_hz: &survey.basis.frequencies_hz,
+            housing: housing
+                .zip(survey.housing.as_ref())
+                .map(|((mesh, model), shapes)| (mesh, model, shapes)),
+            ring: survey.ring.as_ref(),
+        };
+        let mesh = housing.map(|(mesh, _)| mesh);
+        let check = survey.basis.count_check;
+        let own = Side {
+            set: own.set(),
+            covers_hz: [check.above_hz.unwrap_or(0.0), check.below_hz],
+        };
+        let there = placed(&self.asked.file, &self.modes, mesh)?;
+        self.judge(&own, survey.basis.rigid_modes, there)
+    }
+
+    fn judge(
+        &self,
+        own: &Side,
+        rigid: usize,
+        there: ModeSet,
+    ) -> Result<FileComparison, StageError> {
+        let asked = self.asked;
+        let compared = |source| StageError::Compared {
+            file: asked.file.clone(),
+            source: Box::new(source),
+        };
+        let mut options = ComparisonOptions::default();
+        // what passes must be paired
+        options.least_mac = options.least_mac.min(asked.mac);
+        if let Some(distance) = asked.points_within {
+            options.point_tolerance = (distance / own.set.diagonal()).min(1.0);
+        }
+        let found = ModalComparison::new(&own.set, &there, options).map_err(compared)?;
+        let covered = there
+            .frequencies_hz
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &hz| {
+                [low.min(hz), high.max(hz)]
+            });
+        let there = Side {
+            set: there,
+            covers_hz: covered,
+        };
+        let judge = Judge {
+            asked,
+            own,
+            there: &there,
+            rigid,
+        };
+        let pairs: Vec<ComparedPair> = found.pairs.iter().map(|pair| judge.pair(pair)).collect();
+        let lone_here = judge.lone(&found.unpaired_here, own, &there);
+        let lone_there = judge.lone(&found.unpaired_there, &there, own);
+        let missing = lone_here.iter().chain(&lone_there).any(|mode| mode.missing);
+        let passed = pairs.iter().all(|pair| pair.misses.is_empty());
+        Ok(FileComparison {
+            file: asked.file.clone(),
+            what: asked.name(),
+            mac_limit: asked.mac,
+            within: asked.within,
+            points: ComparedPoints {
+                by: found.points.by,
+                matched: found.points.pairs.len(),
+                here: own.set.points.len(),
+                there: there.set.points.len(),
+                largest_distance_m: found.points.largest_distance,
+            },
+            mac: (0..found.mac.nrows())
+                .map(|row| found.mac.row(row).iter().copied().collect())
+                .collect(),
+            ok: passed && !missing && !pairs.is_empty(),
+            pairs,
+            lone_here,
+            lone_there,
+            there_hz: there.set.frequencies_hz,
+        })
+    }
+}
+
+/// Modes, and the frequencies between which none is left out.
+struct Side {
+    set: ModeSet,
+    covers_hz: [f64; 2],
+}
+
+impl Side {
+    /// Whether a partner of a mode of the other side would be among these: not above what they cover, be it as much
+    /// higher as the limit allows.
+    fn covers(&self, hz: f64, within: f64) -> bool {
+        let [low, high] = self.covers_hz;
+        hz >= low && hz * (1.0 + within) <= high
+    }
+
+    fn mean(&self, modes: &[usize]) -> f64 {
+        let sum: f64 = modes
+            .iter()
+            .map(|&mode| self.set.frequencies_hz[mode])
+            .sum();
+        sum / modes.len().max(1) as f64
+    }
+}
+
+struct Judge<'a> {
+    asked: &'a ComparedModes,
+    own: &'a Side,
+    there: &'a Side,
+    /// Modes of this case without stiffness: the first ones.
+    rigid: usize,
+}
+
+impl Judge<'_> {
+    fn pair(&self, pair: &ModePair) -> ComparedPair {
+        let within = self.asked.within;
+        let [here_hz, there_hz] = [self.own.mean(&pair.here), self.there.mean(&pair.there)];
+        let rigid = pair.here.iter().all(|&mode| mode < self.rigid);
+        let difference = (!rigid && there_hz > 0.0).then(|| here_hz / there_hz - 1.0);
+        // a motion without stiffness has a frequency of round-off: it must be small beside the first elastic one
+        let first = self.own.set.frequencies_hz.get(self.rigid);
+        let agrees = match difference {
+            Some(difference) => difference.abs() <= within,
+            None => rigid && first.is_none_or(|first| there_hz <= within * first),
+        };
+        let short = match pair.here.len().cmp(&pair.there.len()) {
+            std::cmp::Ordering::Equal => false,
+            std::cmp::Ordering::Less => self.own.covers(there_hz, within),
+            std::cmp::Ordering::Greater => self.there.covers(here_hz, within),
+        };
+        let misses = [
+            (pair.mac < self.asked.mac, Miss::Mac),
+            (!agrees, Miss::Frequency),
+            (short, Miss::Count),
+        ];
+        ComparedPair {
+            here: ascending(&pair.here),
+            there: ascending(&pair.there),
+            here_hz,
+            there_hz,
+            relative_difference: difference,
+            mac: pair.mac,
+            mean_mac: pair.mean_mac,
+            misses: misses
+                .into_iter()
+                .filter(|miss| miss.0)
+                .map(|miss| miss.1)
+                .collect(),
+        }
+    }
+
+    fn lone(&self, modes: &[usize], side: &Side, other: &Side) -> Vec<LoneMode> {
+        let of = |&mode: &usize| {
+            let hz = side.set.frequencies_hz[mode];
+            LoneMode {
+                mode,
+                hz,
+                missing: other.covers(hz, self.asked.within),
+            }
+        };
+        modes.iter().map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

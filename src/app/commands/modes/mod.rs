@@ -1,0 +1,20 @@
+//! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded.
+
+pub(crate) mod checks_report;
+pub(crate) mod comparison;
+pub(crate) mod compute;
+pub(crate) mod convergence;
+pub(crate) mod energy_tables;
+pub(crate) mod mesh_sequence;
+pub(crate) mod report;
+pub(crate) mod shape_view;
+pub(crate) mod shapes;
+pub(crate) mod tables;
+
+pub use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
+pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
+pub use compute::{ExpectedMode, ModesResult, Reading, compute_modes};
+pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
+pub use report::modes_report;
+pub use shapes::compute_mode_shapes;
+pub use tables::free_motions;

@@ -1,0 +1,295 @@
+//! The report of `plummer modes`: a modal verification report.
+
+use super::checks_report::{comparison_section, convergence_section, headlines};
+use super::compute::{ModesResult, Reading};
+use super::energy_tables::energy_tables;
+use super::shape_view::shape_view;
+use super::tables::{
+    complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts,
+    material_table, proof_facts,
+};
+use crate::app::case::Case;
+use crate::app::commands::parts::bearing_table;
+use crate::app::commands::parts::drawing::draw;
+use crate::app::commands::parts::statics_report::statics_section;
+use crate::app::commands::parts::tables::{expected_table, mode_table};
+use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::scene::loaded_pass::loaded_pass_section;
+use crate::app::scene::{StageError, bearing_setup, race_contacts};
+use crate::report::{
+    Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,
+    significant,
+};
+
+/// Composes the report; `command` is the line that made it.
+///
+/// # Errors
+/// [`StageError`] if the case's bearing cannot be built.
+pub fn modes_report(
+    case: &Case,
+    result: &ModesResult,
+    command: &str,
+) -> Result<Report, StageError> {
+    let view = shape_view(result);
+    let mut report = head(case, result, command);
+    report = report
+        .section(purpose(result))
+        .section(model(case, result, &view)?);
+    if let Some(mass) = &result.survey.mass {
+        let section = Section::new("Mass properties")
+            .paragraph("From the mass matrix itself, point masses included.")
+            .facts(mass_facts(mass));
+        report = report.section(section);
+    }
+    report = report.section(frequencies(result));
+    let proof = Section::new("Completeness and accuracy")
+        .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
+        .facts(proof_facts(&result.survey));
+    report = report.section(proof);
+    for comparison in &result.comparisons {
+        report = report.section(comparison_section(comparison, &result.survey));
+    }
+    if let Some(convergence) = &result.convergence {
+        report = report.section(convergence_section(convergence, &result.survey));
+    }
+    if result.survey.basis.count() > 0 {
+        if let Some(found) = &result.survey.participation {
+            let mut mass = Section::new("Effective mass")
+                .bars(effective_mass_bars(&result.survey, found))
+                .table(effective_mass_table(&result.survey, found));
+            for table in energy_tables(&result.survey) {
+                mass = mass.table(table);
+            }
+            report = report.section(mass);
+        }
+        let shapes = ModeShapeView {
+            figures: ShapeFigures::Modes,
+            ..view
+        };
+        report = report.section(Section::new("Mode shapes").shapes(shapes));
+    }
+    if !result.variants.is_empty() {
+        report = report.section(
+            Section::new("What each choice does")
+                .paragraph("The same case with one choice changed at a time, nearest mode to each expected frequency. Modes without contact are in full; those under load belong to a model with its housing condensed.")
+                .table(variant_table(&result.base, &result.variants)),
+        );
+    }
+    let setup = bearing_setup(case)?;
+    if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
+        let equilibria = result
+            .statics
+            .iter()
+            .flat_map(|statics| &statics.equilibria);
+        let table = bearing_table(setup, &contacts, equilibria.clone().next());
+        report = report.section(Section::new("Bearing").table(table));
+        if let Some(statics) = &result.statics {
+            report = report.section(statics_section(setup, statics));
+        }
+        if let Some(pass) = &result.loaded_pass {
+            report = report.section(loaded_pass_section(pass));
+        }
+    }
+    for text in assumptions(case, setup.as_ref()) {
+        report = report.assumption(text);
+    }
+    let imported = result.structure.iter().flat_map(|stage| &stage.imported);
+    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
+        report = report.warning(text);
+    }
+    let notes = result.convergence.iter();
+    let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
+    for text in result
+        .doubts
+        .iter()
+        .cloned()
+        .chain(free_motions(result))
+        .chain(notes)
+    {
+        report = report.warning(text);
+    }
+    Ok(report)
+}
+
+fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
+    let document = Document::new()
+        .case(case.source.path.display().to_string())
+        .signed_by("Prepared by")
+        .signed_by("Checked by");
+    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Modal verification report")
+        .document(document);
+    for expected in &result.base.expected {
+        let found = expected.found_hz.map_or_else(
+            || "none".to_owned(),
+            |hz| format!("{} Hz", significant(hz, 4)),
+        );
+        report = report.headline(&expected.what, found, Verdict::of(expected.ok));
+    }
+    for of_check in headlines(result) {
+        report = report.headline(of_check.label, of_check.value, of_check.verdict);
+    }
+    let basis = &result.survey.basis;
+    let modes = format!(
+        "{} of {}",
+        basis.count_check.found, basis.count_check.counted
+    );
+    report = report.headline(
+        "Modes found of those that exist",
+        modes,
+        complete(&result.survey),
+    );
+    if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
+        let first = format!("{} Hz", significant(*first, 5));
+        report = report.headline("First elastic mode", first, Verdict::None);
+    }
+    report
+}
+
+fn purpose(result: &ModesResult) -> Section {
+    let survey = &result.survey;
+    let what = match (&result.structure, result.mesh_and_model()) {
+        (Some(_), Some(_)) => {
+            "a housing and the ring in its bore, coupled in full (nothing condensed)"
+        }
+        (Some(stage), None) if stage.imported.is_some() => {
+            "a ring in a housing that is a superelement from a file"
+        }
+        (Some(_), None) => "a ring on its springs",
+        _ => "a housing",
+    };
+    let mut text = format!(
+        "Eigenfrequencies and mode shapes of {what}: {} modes of {} free degrees of freedom",
+        survey.basis.count(),
+        survey.free_dof
+    );
+    text.push_str(match survey.basis.rigid_modes {
+        0 => ". ",
+        1 => ", one of them without strain. ",
+        _ => ", the first ones without strain. ",
+    });
+    text.push_str("Each frequency comes with a bound on the error of its computation, and the number of modes is proved by a count.");
+    let mut section = Section::new("Purpose").paragraph(text);
+    if !result.base.expected.is_empty() {
+        section = section.table(expected_table(&result.base.expected));
+    }
+    section
+}
+
+fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, StageError> {
+    let mut section = Section::new("Model");
+    if let Some((mesh, model)) = result.mesh_and_model() {
+        let inventory = mesh.inventory();
+        let extent = inventory.bounding_box.extent().map(|length| 1e3 * length);
+        section = section.facts([
+            Fact::new("Mesh", mesh.source.display().to_string()),
+            Fact::new(
+                "Size",
+                format!("{:.3} x {:.3} x {:.3} mm", extent[0], extent[1], extent[2]),
+            ),
+            Fact::new("Elements", model.elements().len().to_string()),
+            Fact::new("Degrees of freedom", result.survey.dof.to_string()),
+            Fact::new("Free ones", result.survey.free_dof.to_string()),
+        ]);
+    }
+    if let Some(stage) = &result.structure {
+        let setup = bearing_setup(case)?;
+        section = section
+            .drawing(draw(case, stage, setup.as_ref()))
+            .facts(model_facts(case, stage, result.base.loaded.is_some()));
+    }
+    section = section.table(material_table(case));
+    if result.mesh_and_model().is_some() {
+        let still = ModeShapeView {
+            title: "The model".to_owned(),
+            figures: ShapeFigures::Mesh,
+            modes: Vec::new(),
+            ..view.clone()
+        };
+        section = section.shapes(still);
+    }
+    Ok(section)
+}
+
+fn frequencies(result: &ModesResult) -> Section {
+    let section = Section::new("Eigenfrequencies").table(frequency_table(&result.survey));
+    match &result.base.loaded {
+        Some(loaded) => {
+            let table = mode_table(&result.base.unloaded_hz, Some(loaded));
+            section.table(match condensation(&result.base) {
+                Some(text) => table.footnote(text),
+                None => table,
+            })
+        }
+        None => section,
+    }
+}
+
+/// What condensing the housing does to the frequencies, so that nobody takes it for an effect of the load.
+fn condensation(reading: &Reading) -> Option<String> {
+    let difference = reading.condensation_difference?;
+    Some(format!(
+        "Loaded modes are those of a model with its housing condensed. That alone moves the elastic frequencies without contact listed by {} % at most: a smaller difference between the columns says nothing of the load.",
+        significant(100.0 * difference, 2)
+    ))
+}
+
+fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
+    let expected = &base.expected;
+    let mut columns = vec![Column::text("Reading")];
+    for expected in expected {
+        columns.push(Column::number(
+            format!("near {} kHz", significant(expected.hz / 1e3, 3)),
+            "Hz",
+        ));
+    }
+    columns.push(Column::number(
+        "Modes below 40 kHz without the balls' own",
+        "kHz",
+    ));
+    columns.push(Column::number("Condensation moves by", "%"));
+    let mut table = Table::new("Readings side by side", columns);
+    for reading in std::iter::once(base).chain(variants) {
+        let name = if reading.what.is_empty() {
+            "this case"
+        } else {
+            &reading.what
+        };
+        let mut cells = vec![Cell::text(name)];
+        for expected in &reading.expected {
+            let cell = match (expected.found_hz, expected.relative_error) {
+                (Some(hz), Some(error)) => {
+                    let error = 100.0 * error;
+                    Cell::text(format!("{} ({error:+.1} %)", significant(hz, 4))).value(hz)
+                }
+                _ => Cell::text("none"),
+            };
+            cells.push(cell.judged(Verdict::of(expected.ok)));
+        }
+        cells.push(Cell::text(own_modes(reading)));
+        cells.push(match reading.condensation_difference {
+            Some(difference) => Cell::number(100.0 * difference, 2),
+            None => Cell::text("-"),
+        });
+        table = table.row(cells);
+    }
+    table
+}
+
+fn own_modes(reading: &Reading) -> String {
+    let frequencies: Vec<f64> = match &reading.loaded {
+        Some(loaded) => loaded
+            .modes
+            .iter()
+            .filter(|mode| !mode.is_ball_mode())
+            .map(|mode| mode.frequency_hz)
+            .collect(),
+        None => reading.unloaded_hz.clone(),
+    };
+    frequencies
+        .iter()
+        .filter(|&&hz| hz < 40e3)
+        .map(|hz| significant(hz / 1e3, 4))
+        .collect::<Vec<_>>()
+        .join(", ")
+}

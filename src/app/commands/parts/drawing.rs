@@ -1,0 +1,234 @@
+//! The picture of the model: mesh, ring, supports, balls, dents, sensors.
+
+use crate::app::case::{Case, SensorSpot};
+use crate::app::scene::StructureStage;
+use crate::bearing::Race;
+use crate::bearing::defect::{DentShape, RaceDefect};
+use crate::fe::mesh::Mesh;
+use crate::fe::model::HousingModel;
+use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
+use crate::system::BearingSetup;
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
+
+/// Angle between two faces (rad) from which on their common edge is drawn: chords of a bore of 16 faces meet at 22
+/// degrees.
+const SHARP: f64 = 0.45;
+
+/// Draws a structure, and the bearing in it if there is one.
+pub(crate) fn draw(case: &Case, stage: &StructureStage, setup: Option<&BearingSetup>) -> Drawing {
+    let ring = stage.structure.ring();
+    let centre = Point { x: 0.0, y: 0.0 };
+    let radius = ring.section().radius;
+    let mut drawing = Drawing {
+        title: "Model".to_owned(),
+        caption: Some("Drawn to scale; springs and sensors are symbols.".to_owned()),
+        ring: Some(Ring {
+            circle: Circle { centre, radius },
+            nodes: (0..ring.nodes())
+                .map(|node| centre.polar(radius, ring.node_angle(node)))
+                .collect(),
+        }),
+        ..Drawing::default()
+    };
+    if let Some(housing) = &stage.housing {
+        add_housing(&mut drawing, &housing.mesh, &housing.model);
+    }
+    add_ring_springs(&mut drawing, case, stage);
+    if let Some(setup) = setup {
+        add_bearing(&mut drawing, case, setup);
+    }
+    add_sensors(&mut drawing, case, stage);
+    drawing
+}
+
+fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
+    let point = |node: usize| {
+        let [x, y, _] = model.ring_coordinates(node);
+        Point { x, y }
+    };
+    let edges = match model.dimension() {
+        2 => element_edges(mesh),
+        _ => feature_edges(mesh),
+    };
+    for edge in edges {
+        // gmsh's order: two ends, then the middle node if there is one
+        let along = match edge.as_slice() {
+            [first, last, middle] => vec![*first, *middle, *last],
+            ends => ends.to_vec(),
+        };
+        let line = along.into_iter().map(point).collect();
+        drawing.mesh_edges.push(line);
+    }
+    for node in model.spring_nodes() {
+        let at = point(node);
+        drawing.springs.push(Spring {
+            at,
+            towards_rad: at.y.atan2(at.x),
+        });
+    }
+}
+
+/// Every edge of a plane housing once.
+fn element_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let mut drawn = BTreeSet::new();
+    let mut edges = Vec::new();
+    for id in mesh.element_ids(2) {
+        let block = &mesh.blocks[id.block];
+        let nodes = block.element(id.index).unwrap_or_default();
+        for face in block.kind.faces() {
+            let edge: Vec<usize> = face.nodes.iter().map(|&local| nodes[local]).collect();
+            if drawn.insert([edge[0].min(edge[1]), edge[0].max(edge[1])]) {
+                edges.push(edge);
+            }
+        }
+    }
+    edges
+}
+
+/// Edges between faces of a solid housing's surface that meet at an angle, as a draughtsman draws them; hidden ones too.
+fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
+    // nodes of an edge, and the normals of the faces that meet there
+    type Meeting = (Vec<usize>, Vec<Vector3<f64>>);
+    let mut meeting: BTreeMap<[usize; 2], Meeting> = BTreeMap::new();
+    for face in mesh.boundary_faces(mesh.element_ids(3)) {
+        let corner = |k: usize| Vector3::from(mesh.nodes[face.nodes[k]]);
+        let normal = (corner(1) - corner(0)).cross(&(corner(2) - corner(0)));
+        let normal = normal.try_normalize(0.0).unwrap_or_default();
+        for side in face.kind.faces() {
+            let edge: Vec<usize> = side.nodes.iter().map(|&local| face.nodes[local]).collect();
+            let ends = [edge[0].min(edge[1]), edge[0].max(edge[1])];
+            let entry = meeting.entry(ends).or_insert_with(|| (edge, Vec::new()));
+            entry.1.push(normal);
+        }
+    }
+    let sharp = |normals: &[Vector3<f64>]| match normals {
+        [a, b] => a.dot(b) < SHARP.cos(),
+        _ => true,
+    };
+    let edges = meeting.into_values().filter(|(_, normals)| sharp(normals));
+    edges.map(|(edge, _)| edge).collect()
+}
+
+fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
+    let ring = stage.structure.ring();
+    for support in case.ring.iter().flat_map(|ring| &ring.supports) {
+        let (from, to) = (support.from_deg, support.to_deg);
+        for node in 0..ring.nodes() {
+            let angle = ring.node_angle(node);
+            let past = (angle.to_degrees() - from + 1e-6).rem_euclid(360.0) - 1e-6;
+            if past < to - from - 1e-6 {
+                let radius = ring.section().radius + support.offset;
+                drawing.springs.push(Spring {
+                    at: Point { x: 0.0, y: 0.0 }.polar(radius, angle),
+                    towards_rad: angle,
+                });
+            }
+        }
+    }
+}
+
+fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
+    let centre = Point { x: 0.0, y: 0.0 };
+    let geometry = &setup.geometry;
+    let circle = |race: Race| Circle {
+        centre,
+        radius: match race {
+            Race::Inner => geometry.effective_inner_race_radius(),
+            Race::Outer => geometry.outer_race_radius(),
+        },
+    };
+    drawing.races = vec![circle(Race::Inner), circle(Race::Outer)];
+    let start = case
+        .transient
+        .as_ref()
+        .map_or(0.0, |transient| transient.start);
+    let shaft_angle = setup.cage.shaft().angle(start);
+    let cage = setup.cage.motion(start);
+    for ball in 0..geometry.balls() {
+        let angle = setup.cage.ball_angle(cage.angle, ball);
+        drawing.balls.push(Circle {
+            centre: centre.polar(geometry.pitch_radius(), angle),
+            radius: geometry.ball_radius(),
+        });
+    }
+    for defect in &setup.race_defects {
+        let race = circle(defect.race());
+        let turned = match defect.race() {
+            Race::Inner => shaft_angle,
+            Race::Outer => 0.0,
+        };
+        let length = 2.0 * defect.half_angle() * race.radius;
+        let label = match defect {
+            RaceDefect::Dent(dent) => dent_label(dent.shape()),
+            RaceDefect::SurfaceDent(dent) => dent_label(dent.shape()),
+            RaceDefect::Measured(_) => format!("profile {:.2} mm long", length * 1e3),
+        };
+        drawing.dents.push(Dent {
+            race,
+            angle_rad: defect.angle() + turned,
+            length,
+            label,
+        });
+    }
+}
+
+fn dent_label(shape: &DentShape) -> String {
+    let [long, deep] = [shape.length * 1e3, shape.depth * 1e6];
+    format!("dent {long:.2} mm long, {deep:.0} \u{b5}m deep")
+}
+
+fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
+    let origin = Point { x: 0.0, y: 0.0 };
+    for sensor in &case.sensors {
+        let at = match &sensor.spot {
+            SensorSpot::RingDeg(degrees) => Some(origin.polar(
+                stage.structure.ring().section().radius,
+                degrees.to_radians(),
+            )),
+            SensorSpot::Point(point) => stage.housing.as_ref().map(|housing| {
+                let [x, y, _] = housing.model.frame().point(*point);
+                Point { x, y }
+            }),
+            SensorSpot::Node(tag) => stage.housing.as_ref().and_then(|housing| {
+                let node = housing
+                    .model
+                    .node_tags
+                    .iter()
+                    .position(|found| found == tag)?;
+                let [x, y] = [0, 1].map(|k| housing.model.ring_coordinates(node)[k]);
+                Some(Point { x, y })
+            }),
+            // a row does not say where it is
+            SensorSpot::Recovered(_) => None,
+            SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
+                let nodes = &housing.mesh.group(group).ok()?.nodes;
+                let mean = |k: usize| {
+                    let sum: f64 = nodes
+                        .iter()
+                        .map(|&n| housing.model.ring_coordinates(n)[k])
+                        .sum();
+                    sum / nodes.len() as f64
+                };
+                Some(Point {
+                    x: mean(0),
+                    y: mean(1),
+                })
+            }),
+        };
+        let [x, y, _] = stage.frame().vector(sensor.direction);
+        let size = sensor
+            .direction
+            .iter()
+            .fold(0.0_f64, |size, part| size.max(part.abs()));
+        let direction_rad = (x.hypot(y) > 1e-9 * size).then(|| y.atan2(x).rem_euclid(2.0 * PI));
+        if let Some(at) = at {
+            drawing.sensors.push(Sensor {
+                name: sensor.name.clone(),
+                at,
+                direction_rad,
+            });
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Sections that several reports show: model, bearing, statics.
+
+pub(crate) mod bearing_table;
+pub(crate) mod dent_drops;
+pub(crate) mod drawing;
+pub(crate) mod statics_report;
+pub(crate) mod tables;
+
+pub use bearing_table::bearing_table;
+pub(crate) use tables::{assumptions, model_facts};

@@ -1,0 +1,213 @@
+//! How long a run's estimated error holds: its first milliseconds beside a finer run.
+//!
+//! Where balls strike, small differences grow until the signal is one of many that the same machine makes. The finer run of
+//! [`pilot`](super::pilot) has the error of modes and steps along the way: on `examples/scenes` it found that of a run with all modes within
+//! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
+
+use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT, USUAL_BAND};
+use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
+use crate::app::case::Case;
+use crate::app::commands::run::Span;
+use crate::app::scene::Scene;
+use crate::report::significant;
+
+/// How far is looked in units of the pilot's stretch: at first, and where the estimate holds so long.
+const LENGTHS: [f64; 2] = [3.0, LONG];
+
+/// How long an estimated error was seen to hold, s from [`from_s`](Self::from_s).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Horizon {
+    /// Where it was looked at, s: from the start of a run that is as short as the looks, else where the pilot begins.
+    pub from_s: f64,
+    /// Until then the difference from the finer run since there was at most two thirds of the estimate, since that errs as well; 0 where it never was.
+    pub held_s: f64,
+    /// Until then it was looked at.
+    pub looked_s: f64,
+    /// Start of the run.
+    pub start_s: f64,
+    /// Length of the run.
+    pub run_s: f64,
+    /// Whether balls strike, so that differences grow beyond any estimate.
+    pub strikes: bool,
+}
+
+impl Horizon {
+    /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already. `None` for a
+    /// model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
+    pub fn of(case: &Case, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
+        let asked = case.transient.as_ref()?;
+        let (start_s, run_s) = (asked.start, asked.end - asked.start);
+        if choice.growth <= 1.0 {
+            let measured = choice.measured?;
+            return Some(Self {
+                from_s: measured.from_s,
+                held_s: measured.length_s,
+                looked_s: measured.length_s,
+                start_s,
+                run_s,
+                strikes: false,
+            });
+        }
+        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let finer = choice.measured?.finer;
+        let most = choice.share_of_steps()? / SAFETY;
+        let first_s = stretch_s(asked, band_hz);
+        let from_s = long_begin(asked, scene, LENGTHS[1] * first_s);
+        let mut horizon = None;
+        for length in LENGTHS {
+            let looked_s = (length * first_s).min(run_s);
+            let span = Span {
+                duration: looked_s,
+                output_hz: asked.output_hz,
+            };
+            let models = [&choice.model, &finer];
+            let Ok(compared) = Compared::over(scene, models, span, from_s, band_hz) else {
+                break;
+            };
+            let held_s = compared.held_s(most, first_s);
+            horizon = Some(Self {
+                from_s,
+                start_s,
+                held_s: held_s.min(looked_s),
+                looked_s,
+                run_s,
+                strikes: true,
+            });
+            if held_s < looked_s || looked_s >= run_s {
+                break;
+            }
+        }
+        horizon
+    }
+
+    /// Whether the error was seen to pass the estimate.
+    pub fn passed(&self) -> bool {
+        self.held_s < self.looked_s
+    }
+
+    /// For how long the estimate holds, after "estimated error ...".
+    pub fn sentence(&self) -> String {
+        let ms = |seconds: f64| significant(1e3 * seconds, 2);
+        let whole = ms(self.run_s);
+        let later = match self.strikes {
+            true => "the waveform is one of many: compare spectra and verdicts, not samples",
+            false => "it is larger: lower accuracy.target",
+        };
+        let held = ms(self.held_s);
+        let place = match self.from_s > self.start_s {
+            true => format!(
+                "for {held} ms from rest at {} s",
+                significant(self.from_s, 4)
+            ),
+            false => format!("in the first {held} ms of {whole}"),
+        };
+        match (self.passed(), self.looked_s < self.run_s) {
+            (true, _) if self.held_s <= 0.0 => {
+                format!("passed within {} ms; then {later}", ms(self.looked_s))
+            }
+            (true, _) => format!("{place}; later, {later}"),
+            (false, true) if self.strikes => {
+                format!("{place}, as far as it was looked at; at some time later, {later}")
+            }
+            (false, true) => format!("{place} at least"),
+            (false, false) => "over the whole run".to_owned(),
+        }
+    }
+}
+
+impl ModelChoice {
+    /// What the measured error of modes and steps may be while the estimate of all parts holds, relative; `None` without an estimate.
+    fn share_of_steps(&self) -> Option<f64> {
+        let together = self.estimated_error?;
+        let part = |what: &str| {
+            let part = self.parts.iter().find(|part| part.what == what);
+            part.and_then(|part| part.estimated_error)
+        };
+        let measured = part("method")?;
+        let unseen = [SUPERELEMENT, CONDENSATION].map(|what| part(what).unwrap_or(0.0));
+        let unseen = unseen[0].hypot(unseen[1]);
+        if measured <= 0.0 {
+            return Some(together);
+        }
+        Some(together * measured / measured.hypot(unseen))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::run::choice::ModelChoice;
+    use crate::app::scene::Unwatched;
+
+    fn horizon(example: &str, set: &[&str]) -> Horizon {
+        let case = Case::example(example, set);
+        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let asked = case.transient.as_ref().unwrap();
+        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        Horizon::of(&case, &scene, &choice).unwrap()
+    }
+
+    /// Against runs with all modes in equal steps of 25 ns, the error since the start passes the estimate of 0.0037 after 5.6 ms.
+    #[test]
+    fn a_healthy_bearing_in_play_is_predicted_for_some_milliseconds() {
+        let end = [
+            "transient.start=0",
+            "transient.end=0.02",
+            "analysis.envelope=[]",
+        ];
+        let horizon = horizon("scenes/healthy", &end);
+        assert!((3e-3..5.6e-3).contains(&horizon.held_s), "{horizon:?}");
+        assert!(horizon.passed() && horizon.strikes);
+        let sentence = horizon.sentence();
+        assert!(
+            sentence.contains(" ms of 20; later, the waveform"),
+            "{sentence}"
+        );
+    }
+
+    /// The same references: 0.015 is passed after 2.5 ms, where the first ball that the preload does not hold comes back.
+    #[test]
+    fn a_preload_of_ten_nanometres_holds_no_ball_for_long() {
+        let horizon = horizon(
+            "scenes/smooth",
+            &[
+                "ring.nodes=36",
+                "bearing.radial_play=-1e-8",
+                "transient.end=5e-3",
+            ],
+        );
+        assert!((1.9e-3..2.5e-3).contains(&horizon.held_s), "{horizon:?}");
+    }
+
+    #[test]
+    fn pressed_balls_are_predicted_to_the_end() {
+        let horizon = horizon("scenes/smooth", &["transient.end=6e-3"]);
+        assert!(!horizon.strikes && !horizon.passed(), "{horizon:?}");
+        assert_eq!(horizon.sentence(), "over the whole run");
+        let longer = Horizon {
+            run_s: 1.0,
+            ..horizon
+        };
+        assert!(longer.sentence().contains("at least"), "{longer:?}");
+    }
+
+    /// What no finer model sees leaves less to what it sees.
+    #[test]
+    fn vectors_left_out_shorten_it() {
+        let case = Case::example("scenes/impact", &[]);
+        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let asked = case.transient.as_ref().unwrap();
+        let mut choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let method = choice.parts.iter().find(|part| part.what == "method");
+        let mut part = method.unwrap().clone();
+        let measured = part.estimated_error.unwrap();
+        assert_eq!(choice.share_of_steps(), choice.estimated_error);
+        // three times the measured error: a third of the whole is left to it, within 6 % as the modes' part counts in none
+        part.what = CONDENSATION;
+        part.estimated_error = Some(3.0 * measured);
+        choice.parts.push(part);
+        choice.estimated_error = choice.estimated_error.map(|e| e.hypot(3.0 * measured));
+        let share = choice.share_of_steps().unwrap() / measured;
+        assert!((1.0..1.06).contains(&share), "{share}");
+    }
+}

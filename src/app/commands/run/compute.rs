@@ -1,0 +1,367 @@
+//! `plummer run`: equilibrium, transient, signals, analysis.
+
+use super::keeper::{InMemory, Keeper};
+use super::recording::Recording;
+use super::scalogram::SensorScalogram;
+use super::simulation::{RunEnd, Simulation, Span};
+use crate::app::case::Case;
+use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
+use crate::app::commands::parts::bearing_table;
+use crate::app::commands::run::choice::{Horizon, ModelChoice};
+use crate::app::scene::Statics;
+use crate::app::scene::{Kinematics, Scene, StageError, Watch};
+use crate::report::{Table, significant};
+use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
+
+/// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
+/// (callgrind, seven modes with residual), 0.2 s of the wall's clock then.
+const FEW_SAMPLES: f64 = 1e5;
+
+/// Why there is no balance of energy.
+const NO_ENERGY: &str = "energy: a balance needs `bearing.formulation = \"consistent\"`, whose forces have potentials, and `bearing.balls_inertia = \"dynamic\"`";
+
+/// Result of a run.
+#[derive(Debug)]
+pub struct RunResult<R = RunRecord> {
+    /// What was simulated.
+    pub scene: Scene,
+    /// Its equilibrium among the others, and over a ball pass.
+    pub statics: Statics,
+    /// The model, and why it is this one.
+    pub choice: ModelChoice,
+    /// How long its estimated error was seen to hold; `None` where this was not measured.
+    pub horizon: Option<Horizon>,
+    /// Modes linearised there.
+    pub loaded: LoadedModes,
+    /// The signals, and what they took.
+    pub simulation: Simulation<R>,
+    /// Analysed windows of all sensors.
+    pub windows: Vec<WindowAnalysis>,
+    /// Scalograms of all sensors, if the case asks for them.
+    pub scalograms: Vec<SensorScalogram>,
+    /// Windows or sensors that could not be analysed, and why.
+    pub not_analysed: Vec<String>,
+    /// The scene's doubts, and what of the model errs by more than the target.
+    pub warnings: Vec<String>,
+}
+
+/// Carries the command out, its signals in memory.
+///
+/// # Errors
+/// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
+pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
+    compute_kept_run(case, watch, &mut InMemory)
+}
+
+/// The model that a case's run would take, without running it, and warnings about the case and it, a sentence each.
+///
+/// # Errors
+/// As [`compute_run`].
+pub fn explain_run(
+    case: &Case,
+    watch: &impl Watch,
+) -> Result<(ModelChoice, Vec<String>), StageError> {
+    let scene = Scene::build(case, watch)?;
+    // a run without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    let warnings = [scene.doubts, choice.warnings()].concat();
+    Ok((choice, warnings))
+}
+
+/// Carries the command out with its signals where `keeper` wants them, from where it says.
+///
+/// # Errors
+/// As [`compute_run`], [`StageError::Interrupted`] and what the keeper returns.
+pub fn compute_kept_run<K: Keeper>(
+    case: &Case,
+    watch: &impl Watch,
+    keeper: &mut K,
+) -> Result<RunResult<K::Record>, StageError> {
+    let mut scene = Scene::build(case, watch)?;
+    // a run without transient was refused with the case
+    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let statics = Statics::compute(&scene.stage, &scene.setup, asked.start)?;
+    watch.stage("linearise");
+    let loaded = LoadedModes::at(
+        &scene.stage.structure,
+        &scene.stage.modes,
+        &scene.setup,
+        &scene.equilibrium,
+    )?;
+    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    scene.setup.balls_inertia = choice.model.balls_inertia;
+    let span = Span {
+        duration: asked.end - asked.start,
+        output_hz: asked.output_hz,
+    };
+    watch.stage("compare with a finer run");
+    let horizon = Horizon::of(case, &scene, &choice);
+    watch.stage("step");
+    let samples = span.duration / choice.model.step;
+    let energy = case.analysis.energy.unwrap_or(samples <= FEW_SAMPLES);
+    let told = |done| watch.fraction(done);
+    let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
+    let mut result = RunResult {
+        warnings: [
+            scene.doubts.clone(),
+            choice.warnings(),
+            energy_warning(simulation.energy.as_ref()),
+        ]
+        .concat(),
+        scene,
+        statics,
+        choice,
+        horizon,
+        loaded,
+        simulation,
+        windows: Vec::new(),
+        scalograms: Vec::new(),
+        not_analysed: Vec::new(),
+    };
+    watch.stage("analyse");
+    result.analyse(case);
+    let complete = matches!(result.simulation.end, RunEnd::Complete);
+    if case.analysis.energy == Some(true) && complete && result.simulation.energy.is_none() {
+        result.not_analysed.push(NO_ENERGY.to_owned());
+    }
+    Ok(result)
+}
+
+/// Energy that does not add up, in units of what was exchanged, from which on a run is doubted. Runs in steps that resolve their contacts missed by 6e-3
+/// at most. One in steps that did not missed by 0.075, as a burst of 6 ms in 48 ms was 18 times too loud, another by 0.9.
+const ENERGY_GAP: f64 = 0.01;
+/// What is exchanged where nothing moves but by round-off is less, J: at rest 1e-17 were.
+const LEAST_EXCHANGED_J: f64 = 1e-12;
+/// Signals below this are taken for rest, m/s^2: no accelerometer for machines resolves less.
+const REST: f64 = 1e-3;
+
+fn energy_warning(energy: Option<&EnergyBalance>) -> Vec<String> {
+    let moved = energy.filter(|energy| energy.exchanged_j > LEAST_EXCHANGED_J);
+    let gap = moved.map(EnergyBalance::error);
+    let gap = gap.filter(|gap| gap.abs() > ENERGY_GAP);
+    let text = gap.map(|gap| {
+        format!(
+            "The energy balance misses by {} of all that was exchanged: the steps make energy, and the signals cannot be trusted. Leave transient.step to the program, or shorten it until the balance closes.",
+            significant(gap.abs(), 2)
+        )
+    });
+    text.into_iter().collect()
+}
+
+impl<R: Recording> RunResult<R> {
+    /// Everything about the bearing in one table.
+    pub fn bearing_table(&self) -> Table {
+        let scene = &self.scene;
+        bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
+    }
+
+    /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
+    pub fn distrust(&self) -> Option<&'static str> {
+        let gap = !energy_warning(self.simulation.energy.as_ref()).is_empty();
+        let measured = self.choice.measured;
+        let hopeless = measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST);
+        if self.choice.stable_s.is_some() {
+            Some("the step is longer than small motions at rest bear")
+        } else if gap {
+            Some("the energy balance does not close")
+        } else if hopeless {
+            Some("on a stretch a finer run differs by as much as they are")
+        } else {
+            None
+        }
+    }
+
+    /// The estimated error of the signals, and for how long it holds.
+    pub fn estimate_sentence(&self) -> String {
+        let (choice, horizon) = (&self.choice, self.horizon.map(|horizon| horizon.sentence()));
+        let Some(error) = choice.estimated_error else {
+            return "the error of the signals is not estimated".to_owned();
+        };
+        format!(
+            "estimated error of the signals in the band: {} of their RMS (target {}{}), {}",
+            significant(error, 2),
+            significant(choice.target, 2),
+            if error > choice.target {
+                ", missed"
+            } else {
+                ""
+            },
+            horizon
+                .as_deref()
+                .unwrap_or("while nearby solutions stay together"),
+        )
+    }
+
+    /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
+    fn analyse(&mut self, case: &Case) {
+        let settings = AnalysisSettings::of(case);
+        for (index, name) in self.simulation.record.sensors().iter().enumerate() {
+            let read = |window, margin| self.simulation.stretch(index, window, margin);
+            let kinematics = Kinematics::of(&self.scene.setup);
+            let analysed = analyse(name, &settings, read, &kinematics);
+            match analysed {
+                Ok(windows) => self.windows.extend(windows),
+                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
+            }
+            let Some(window) = case.analysis.scalogram else {
+                continue;
+            };
+            match SensorScalogram::of(&self.simulation, index, window) {
+                Ok(scalogram) => self.scalograms.push(scalogram),
+                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::run::RunEnd;
+    use crate::app::scene::Unwatched;
+    use crate::numerics::series::TimeSeries;
+    use crate::signal::relative_difference;
+
+    /// What a run of an example says with these keys set.
+    fn message(set: &[&str]) -> String {
+        let case = Case::example("tadina2011/outer-dent", set);
+        compute_run(&case, &Unwatched).unwrap_err().to_string()
+    }
+
+    /// In seven modes, whose figures are the tests': what a run chooses is another matter.
+    fn smooth(set: &[&str]) -> RunResult {
+        let set = [&["transient.end=1e-3", "transient.modes=7"], set].concat();
+        compute_run(&Case::example("scenes/smooth", &set), &Unwatched).unwrap()
+    }
+
+    /// Relative to what is expected, root mean square.
+    fn difference(result: &RunResult, expected: &TimeSeries) -> f64 {
+        let found = result.simulation.signal(0).unwrap();
+        relative_difference(&found, expected).unwrap()
+    }
+
+    /// The signal is a thousandth of what the static forces would make: a tolerance that refers to these does not see how the contacts'
+    /// vibrations grow in steps beyond the stable one, and four samples an output interval may be beyond it.
+    #[test]
+    fn a_signal_small_beside_the_loads_is_right_at_low_output_rates() {
+        for rate in ["100e3", "200e3"] {
+            let rate = format!("transient.output_hz={rate}");
+            let keys = [&rate, "transient.end=2e-3"];
+            let by = |more: &[&str]| smooth(&[&keys, more].concat());
+            let fine = by(&["transient.method=exponential-adams", "transient.step=1e-7"]);
+            let expected = fine.simulation.signal(0).unwrap();
+            let difference = difference(&by(&[]), &expected);
+            println!("{rate}: {difference:.1e}");
+            // the target
+            assert!(difference < 1e-2, "{rate}: {difference:e}");
+        }
+    }
+
+    /// A smooth scene, 1 ms: from rest the unbalance and the turning balls excite it.
+    #[test]
+    fn implicit_methods_give_the_signal_of_the_exponential_one() {
+        let step = "transient.step=2e-8";
+        let expected = smooth(&[step]).simulation.signal(0).unwrap();
+        for set in [
+            ["transient.method=newmark", step],
+            ["transient.method=generalized-alpha", step],
+            ["transient.method=newmark", "transient.step=1e-7"],
+        ] {
+            let result = smooth(&set);
+            let difference = difference(&result, &expected);
+            let counts = result.simulation.statistics;
+            let solves = counts.solves as f64 / counts.steps as f64;
+            let cost = result.simulation.stepping_s / counts.steps as f64;
+            println!("{set:?}: {difference:.1e}, {solves:.2} solves and {cost:.1e} s a step");
+            // found 1.7e-5 and 1.8e-5, and 5.0e-4 at the longer step: the period's error (w h)^2 / 12
+            assert!(difference < 1e-3, "{set:?}: {difference:e}");
+            // two corrections find it, the second without being applied anew
+            assert!(solves < 2.5, "{set:?}: {solves}");
+        }
+    }
+
+    /// The first ball climbs out of a dent, and the others lift off and land.
+    #[test]
+    fn implicit_methods_solve_impacts() {
+        let dented = |method: &str| {
+            let method = format!("transient.method={method}");
+            smooth(&[
+                "transient.end=4e-3",
+                "transient.step=1e-7",
+                "bearing.radial_play=2.5e-6",
+                "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]",
+                &method,
+            ])
+        };
+        let expected = dented("exponential");
+        let peak = |result: &RunResult| {
+            let values = result.simulation.record.outer_force.iter();
+            values.fold(0.0, |most: f64, force| most.max(*force))
+        };
+        for method in ["newmark", "generalized-alpha"] {
+            let result = dented(method);
+            assert!(
+                matches!(result.simulation.end, RunEnd::Complete),
+                "{:?}",
+                result.simulation.end
+            );
+            let solves = result.simulation.statistics.solves as f64
+                / result.simulation.statistics.steps as f64;
+            let (found, expected) = (peak(&result), peak(&expected));
+            println!("{method}: {solves:.2} solves a step, {found:.3} N, {expected:.3} N");
+            assert!(solves < 3.0, "{method}: {solves}");
+            // many times the static force: impacts
+            assert!(found > 3.0, "{method}: {found} N");
+            assert!((found / expected - 1.0).abs() < 0.02, "{method}: {found} N");
+        }
+    }
+
+    /// The balls are held by both races all the time, so that the limit at one instant is nearly that of the run.
+    #[test]
+    fn a_blow_up_names_a_step_that_holds_and_leaves_the_instants_before() {
+        for method in ["exponential", "exponential-adams"] {
+            let with_step = |step: f64| {
+                let [method, step] = [format!("method={method}"), format!("step={step:e}")]
+                    .map(|key| format!("transient.{key}"));
+                smooth(&[
+                    &method,
+                    &step,
+                    "transient.output_hz=1e5",
+                    "transient.end=2e-3",
+                ])
+                .simulation
+            };
+            let far_too_long = with_step(1e-5);
+            let RunEnd::BlewUp(blow_up) = &far_too_long.end else {
+                panic!("{method} takes 1e-5 s");
+            };
+            println!("{blow_up}");
+            assert!(blow_up.time - blow_up.good_until < 4.5e-5);
+            let limit = blow_up.limit.expect("contacts vibrate").step_s;
+            assert!((2e-7..1e-5).contains(&limit), "{limit}");
+            // what was good until then is there: the rows whose low-pass does not reach beyond it
+            let good = usize::try_from(blow_up.good_intervals).unwrap();
+            let instants = far_too_long.record.time_s.len();
+            assert!(
+                instants <= good && instants + 15 >= good,
+                "{instants} {good}"
+            );
+            assert!(matches!(with_step(0.5 * limit).end, RunEnd::Complete));
+        }
+    }
+
+    #[test]
+    fn structural_damping_is_refused_before_anything_is_computed() {
+        let (lossy, nowhere) = (
+            "materials.aluminium.loss_factor=0.01",
+            "housing.mesh=nowhere.msh",
+        );
+        assert_eq!(
+            message(&[lossy, nowhere]),
+            "materials.aluminium: loss_factor = 0.01 is structural damping, which has a meaning for harmonic motion alone (frf); a run steps through time: leave the key out and give [damping]"
+        );
+        let none = message(&["materials.aluminium.loss_factor=0", nowhere]);
+        assert!(none.contains("nowhere.msh"), "{none}");
+    }
+}

@@ -1,0 +1,298 @@
+//! The report of `plummer run`.
+
+use super::compute::RunResult;
+use super::recording::Recording;
+use super::scalogram::SensorScalogram;
+use super::simulation::RunEnd;
+use crate::app::case::Case;
+use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
+use crate::app::commands::analyze::survey_report::{counts, verdicts};
+use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
+use crate::app::commands::modes::ExpectedMode;
+use crate::app::commands::parts::drawing::draw;
+use crate::app::commands::parts::statics_report::statics_section;
+use crate::app::commands::parts::tables::{expected_table, mode_table};
+use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::scene::StageError;
+use crate::report::{
+    Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant,
+};
+use crate::system::Column;
+
+/// Unloaded modes listed beside the loaded ones.
+const LISTED_MODES: usize = 20;
+
+/// Composes the report; `command` is the line that made it.
+///
+/// # Errors
+/// [`StageError`] if a signal cannot be shown.
+pub fn run_report<R: Recording>(
+    case: &Case,
+    result: &RunResult<R>,
+    command: &str,
+) -> Result<Report, StageError> {
+    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
+        .subtitle("Run-up transient of a ball bearing in its housing");
+    let windows = result.windows.iter();
+    let name = case.source.path.display().to_string();
+    let rows: Vec<AnalysisRow> = windows
+        .map(|window| AnalysisRow::of(&name, window))
+        .collect();
+    let few = rows.len() <= SHOWN_WINDOWS;
+    report = match few {
+        true => verdict_headlines(report, &result.windows),
+        false => counts(report, &rows),
+    };
+    report = headlines(report, result);
+    if let RunEnd::BlewUp(error) = &result.simulation.end {
+        report = report.warning(format!("{error} The signals end there."));
+    }
+    for text in &result.not_analysed {
+        report = report.warning(format!("Not analysed: {text}"));
+    }
+    for text in &result.warnings {
+        report = report.warning(text);
+    }
+    if few {
+        report
+            .sections
+            .extend(result.windows.iter().map(window_section));
+    } else {
+        let instead = "`plummer analyze FOLDER --channel NAME` shows one sensor's.";
+        report = report.section(verdicts(&rows, instead));
+    }
+    report = report.section(signals(result)?);
+    let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
+    report
+        .sections
+        .extend(scalograms.map(SensorScalogram::section));
+    report = report.section(frequencies(case, result));
+    report = report.section(
+        Section::new("Model")
+            .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
+            .facts(model_facts(case, &result.scene.stage, true)),
+    );
+    report = report.section(
+        Section::new("What was modelled, and why")
+            .paragraph(format!("{}.", capital(&result.estimate_sentence())))
+            .table(result.choice.table()),
+    );
+    report = report.section(Section::new("Bearing").table(result.bearing_table()));
+    report = report.section(statics_section(&result.scene.setup, &result.statics));
+    report = report.section(Section::new("Computation").facts(computation(result)));
+    let imported = result.scene.stage.imported.iter();
+    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
+        report = report.warning(text);
+    }
+    for text in assumptions(case, Some(&result.scene.setup)) {
+        report = report.assumption(text);
+    }
+    report = report.assumption(
+        "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
+    );
+    Ok(report)
+}
+
+fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
+    let mut report = report.headline(
+        "Simulated",
+        format!("{} s", significant(result.simulation.simulated_s, 4)),
+        Verdict::of(matches!(result.simulation.end, RunEnd::Complete)),
+    );
+    report = report.headline(
+        "Real-time factor",
+        significant(result.simulation.realtime_factor(), 3),
+        Verdict::None,
+    );
+    if let Some(window) = result.windows.first() {
+        report = report.headline(
+            format!("{} peak, {}-{} s", window.sensor, window.from, window.to),
+            format!("{} m/s^2", significant(window.peak, 3)),
+            Verdict::None,
+        );
+    }
+    // a window in which the speed smears no line over Hz
+    let mut windows = result.windows.iter();
+    if let Some(window) = windows.find(|window| window.smeared_above.is_none()) {
+        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
+            if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
+                report = report.headline(
+                    format!(
+                        "Envelope line at {harmonic} x outer race ({} Hz)",
+                        significant(expected, 4)
+                    ),
+                    format!("{} Hz", significant(hz, 4)),
+                    Verdict::of((hz / expected - 1.0).abs() <= 0.03),
+                );
+            }
+        }
+    }
+    report
+}
+
+fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
+    let mut section = Section::new("Signals");
+    let simulation = &result.simulation;
+    let (record, rows) = (&simulation.record, simulation.record.rows());
+    if rows == 0 {
+        return Ok(section.paragraph("The run ended before the first instant was complete."));
+    }
+    let sensors = record.sensors();
+    let grid = [simulation.start_s, simulation.schedule.interval];
+    let shown = &sensors[..sensors.len().min(SHOWN_WINDOWS)];
+    if shown.len() < sensors.len() {
+        section = section.paragraph(format!(
+            "The first {} of {} sensors are shown; signals.npz has all.",
+            shown.len(),
+            sensors.len()
+        ));
+    }
+    for (index, name) in shown.iter().enumerate() {
+        let mut thinner = Thinner::new(rows, SIGNAL_POINTS / shown.len());
+        record.read(Column::Sensor(index), 0..rows, &mut |piece| {
+            thinner.push(piece);
+            Ok(())
+        })?;
+        section = section.plot(
+            Plot::new(
+                format!("Acceleration at {name}"),
+                Axis::new("Time", "s"),
+                Axis::new("Acceleration", "m/s^2"),
+            )
+            .curve(Curve::of_thinned(name, grid, thinner))
+            .caption("Drag to zoom, double click to reset."),
+        );
+    }
+    Ok(section)
+}
+
+fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
+    let modes = &result.scene.stage.modes;
+    let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES))
+        .map(|mode| modes.frequency_hz(mode))
+        .collect();
+    let expected: Vec<ExpectedMode> = case
+        .modes
+        .expected
+        .iter()
+        .map(|expected| {
+            let found_hz = result
+                .loaded
+                .nearest(expected.hz)
+                .map(|mode| mode.frequency_hz);
+            let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
+            ExpectedMode {
+                hz: expected.hz,
+                what: expected.what.clone(),
+                found_hz,
+                relative_error,
+                within: expected.within,
+                ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
+            }
+        })
+        .collect();
+    let mut section = Section::new("Eigenfrequencies");
+    if !expected.is_empty() {
+        section = section.table(expected_table(&expected));
+    }
+    section.table(mode_table(&unloaded, Some(&result.loaded)))
+}
+
+fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
+    let energy = result.simulation.energy.map(|energy| {
+        let [input, taken, stored, error] = [
+            energy.input_j(),
+            energy.dissipated_j(),
+            energy.stored_j,
+            energy.error().abs(),
+        ]
+        .map(|value| significant(value, 2));
+        Fact::new("Energy that does not add up", error).note(format!(
+            "of all that was exchanged: {input} J came in, {taken} J were damped, {stored} J more are stored"
+        ))
+    });
+    let mut facts = vec![
+        Fact::new("Method", result.simulation.method.name()),
+        Fact::new(
+            "Step",
+            format!("{} s", significant(result.simulation.step_s(), 4)),
+        ),
+        Fact::new("Steps", result.simulation.statistics.steps.to_string()),
+        Fact::new(
+            "Kept modes",
+            format!(
+                "{} of {}",
+                result.simulation.modes,
+                result.scene.stage.structure.dof()
+            ),
+        )
+        .note(if result.simulation.residual {
+            "the others by their static residual"
+        } else {
+            "without static residual"
+        }),
+        Fact::new(
+            "Wall time of the stepping",
+            format!("{} s", significant(result.simulation.stepping_s, 3)),
+        ),
+        Fact::new(
+            "Real-time factor",
+            significant(result.simulation.realtime_factor(), 3),
+        )
+        .note("simulated time over wall time"),
+        Fact::new(
+            "Time per step",
+            format!(
+                "{} \u{b5}s",
+                significant(
+                    1e6 * result.simulation.stepping_s
+                        / result.simulation.statistics.steps.max(1) as f64,
+                    3
+                )
+            ),
+        ),
+    ];
+    facts.extend(energy);
+    facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::run::compute_run;
+    use crate::app::scene::Unwatched;
+    use crate::report::Block;
+
+    /// Twelve sensors are drawn, and of more than twelve windows there is one table.
+    #[test]
+    fn a_report_of_many_sensors_shows_some_and_says_so() {
+        let sections = |sensors: usize| {
+            let sensor = |at| format!("{{name='P{at}',ring_deg={at},direction=[0,1,0]}}");
+            let all: Vec<String> = (0..sensors).map(sensor).collect();
+            let all = format!("sensors=[{}]", all.join(","));
+            let window = "analysis.envelope=[{from=0.2e-3,to=0.8e-3}]";
+            let set = [&*all, window, "transient.end=1e-3", "transient.modes=3"];
+            let case = Case::example("scenes/smooth", &set);
+            let result = compute_run(&case, &Unwatched).unwrap();
+            assert_eq!(result.windows.len(), sensors, "{:?}", result.not_analysed);
+            run_report(&case, &result, "").unwrap().sections
+        };
+        let plots = |sections: &[Section]| {
+            let blocks = sections.iter().flat_map(|section| &section.blocks);
+            blocks
+                .filter(|block| matches!(block, Block::Plot(_)))
+                .count()
+        };
+        let titled = |sections: &[Section], title: &str| {
+            sections.iter().any(|section| section.title == title)
+        };
+        let (few, many) = (sections(SHOWN_WINDOWS), sections(SHOWN_WINDOWS + 1));
+        assert!(!titled(&few, "Verdicts") && titled(&many, "Verdicts"));
+        assert!(plots(&few) > 2 * SHOWN_WINDOWS && plots(&many) < plots(&few));
+        let said = many.iter().flat_map(|section| &section.blocks);
+        let said = said.filter(|block| {
+            matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors"))
+        });
+        assert_eq!(said.count(), 1);
+    }
+}

@@ -1,0 +1,363 @@
+//! A scene stepped through time by one model.
+
+use super::keeper::fingerprint;
+use super::keeper::{InMemory, Keeper, Wish};
+use super::recording::Recording;
+use crate::app::commands::run::unfinished::UnfinishedError;
+use crate::app::scene::{RunModel, Scene, StageError};
+use crate::numerics::ode::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
+use crate::numerics::ode::{Instant as Now, Observer, Snapshot, State};
+use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow};
+use crate::system::{Column, CoupledSystem, EnergyBalance, EnergyMeter, Recorder, RunRecord};
+use std::time::Instant;
+
+/// Rows that are handed on at once.
+const BLOCK: usize = 4096;
+
+/// Parts of the way at which it is told.
+const TOLD: u64 = 10_000;
+
+/// What is simulated of a scene, from its start on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Length, s.
+    pub duration: f64,
+    /// Sampling rate of the signals, Hz.
+    pub output_hz: f64,
+}
+
+/// How a simulation ended.
+#[derive(Debug)]
+pub enum RunEnd {
+    /// At the end of its time.
+    Complete,
+    /// The solution blew up; what was recorded before is there.
+    BlewUp(Box<BlowUp>),
+}
+
+/// Signals of a scene by one model, and what they took.
+#[derive(Debug)]
+pub struct Simulation<R = RunRecord> {
+    /// Method used.
+    pub method: Method,
+    /// How the time was cut.
+    pub schedule: Schedule,
+    /// Kept modes of the structure.
+    pub modes: usize,
+    /// Whether the static residual of the others was in use.
+    pub residual: bool,
+    /// Steps and evaluations.
+    pub statistics: Statistics,
+    /// When it began, s.
+    pub start_s: f64,
+    /// Simulated time, s.
+    pub simulated_s: f64,
+    /// Wall time of the stepping alone, s; of a run that went on, of all its parts.
+    pub stepping_s: f64,
+    /// Signals.
+    pub record: R,
+    /// The energy balance from the start to the last step; `None` where it was not asked for, where the equations have none
+    /// ([`EnergyMeter::new`]) and after a blow-up.
+    pub energy: Option<EnergyBalance>,
+    /// How it ended.
+    pub end: RunEnd,
+}
+
+impl Simulation {
+    /// Steps a scene through `span` from rest, its signals in memory; `fraction` is told how far it is, 0 to 1.
+    ///
+    /// # Errors
+    /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
+    pub fn from_rest(
+        scene: &Scene,
+        model: &RunModel,
+        span: Span,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        Self::kept_from_rest(scene, model, span, false, &mut InMemory, fraction)
+    }
+
+    /// Steps a system of a model through `span` from a state.
+    ///
+    /// # Errors
+    /// As [`from_rest`](Self::from_rest).
+    pub fn from_state(
+        system: CoupledSystem,
+        state: State,
+        model: &RunModel,
+        span: Span,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        Self::kept(system, state, model, span, false, &mut InMemory, fraction)
+    }
+
+    /// A sensor's acceleration as a series, m/s^2.
+    ///
+    /// # Errors
+    /// [`StageError::Series`] if nothing was recorded.
+    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
+        let values = self.record.sensors[sensor].1.clone();
+        let step = self.schedule.interval;
+        Ok(TimeSeries::new(self.start_s, step, UNIT, values)?)
+    }
+}
+
+/// Unit of the sensors.
+const UNIT: &str = "m/s^2";
+
+impl<R: Recording> Simulation<R> {
+    /// Steps a scene through `span` from rest, or goes on where `keeper` says, and with `energy` takes the balance of its energy.
+    /// What it takes does not grow with time.
+    ///
+    /// # Errors
+    /// [`StageError`], [`StageError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
+    /// is no error here but a [`RunEnd`].
+    pub fn kept_from_rest(
+        scene: &Scene,
+        model: &RunModel,
+        span: Span,
+        energy: bool,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        let system = scene.system(model)?;
+        let state = scene.at_rest(&system);
+        Self::kept(system, state, model, span, energy, keeper, fraction)
+    }
+
+    /// The same from any state.
+    fn kept(
+        mut system: CoupledSystem,
+        state: State,
+        model: &RunModel,
+        span: Span,
+        energy: bool,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<Self, StageError> {
+        let start_s = state.t;
+        let mut schedule = Schedule::covering(span.duration, 1.0 / span.output_hz, model.step)?;
+        let wanted = usize::try_from(schedule.intervals)
+            .unwrap_or(usize::MAX)
+            .saturating_add(1);
+        let (ratio, step) = (schedule.steps_per_interval, schedule.step());
+        let recorder = Recorder::new(&system, ratio, step, wanted)?;
+        schedule.intervals += recorder.intervals_past_the_end();
+        let (record, snapshot) = keeper.open(system.sensor_names(), system.setup().balls())?;
+        let mut stepping = Stepping {
+            fingerprint: fingerprint(&mut system, &state),
+            energy: energy.then(|| EnergyMeter::new(&system, step)).flatten(),
+            recorder,
+            record,
+            end_s: start_s + span.duration,
+            before_s: 0.0,
+            clock: Instant::now(),
+        };
+        let mut integration = match snapshot {
+            None => {
+                let observers = &mut stepping.observers();
+                Integration::begin(&mut system, model.method, schedule, state, observers)?
+            }
+            Some(snapshot) => stepping.recalled(&system, model.method, schedule, &snapshot)?,
+        };
+        let end = stepping.go(&mut system, &mut integration, schedule, keeper, fraction)?;
+        keeper.close();
+        let energy = match end {
+            RunEnd::Complete => stepping.energy.as_ref(),
+            RunEnd::BlewUp(_) => None,
+        };
+        let energy = energy.and_then(|meter| meter.balance(&mut system, integration.state()));
+        Ok(Self {
+            method: model.method,
+            schedule,
+            modes: system.modes(),
+            residual: system.has_residual(),
+            statistics: integration.statistics(),
+            start_s,
+            simulated_s: integration.state().t - start_s,
+            stepping_s: stepping.wall_s(),
+            record: stepping.record,
+            energy,
+            end,
+        })
+    }
+
+    /// Simulated time over wall time of the stepping.
+    pub fn realtime_factor(&self) -> f64 {
+        self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+
+    /// Length of a step, s; of a method with steps of its own their mean.
+    pub fn step_s(&self) -> f64 {
+        if self.method.chooses_its_steps() {
+            self.simulated_s / (self.statistics.steps.max(1) as f64)
+        } else {
+            self.schedule.step()
+        }
+    }
+
+    /// Part of a sensor's acceleration, m/s^2: a window with so many seconds before and after it as there are.
+    ///
+    /// # Errors
+    /// [`StageError::Series`] for a window that is not in the record, and what reading it returns.
+    pub fn stretch(
+        &self,
+        sensor: usize,
+        window: TimeWindow,
+        margin_s: f64,
+    ) -> Result<TimeSeries, StageError> {
+        let (rows, step) = (self.record.rows(), self.schedule.interval);
+        if rows == 0 {
+            return Err(SeriesError::Empty.into());
+        }
+        window.check_inside(self.start_s, step, rows)?;
+        let position = |t: f64| (t - self.start_s) / step;
+        // a row more at each end: bounds may miss their instants by round-off
+        let first = (position(window.from - margin_s).floor() - 1.0).max(0.0) as usize;
+        let end = (position(window.to + margin_s).ceil() + 1.0).max(0.0) as usize;
+        let mut values = Vec::new();
+        self.record
+            .read(Column::Sensor(sensor), first..end, &mut |piece| {
+                values.extend_from_slice(piece);
+                Ok(())
+            })?;
+        let start_s = self.start_s + first as f64 * step;
+        Ok(TimeSeries::new(start_s, step, UNIT, values)?)
+    }
+}
+
+/// A simulation under way.
+struct Stepping<R> {
+    fingerprint: [u64; 4],
+    recorder: Recorder,
+    energy: Option<EnergyMeter>,
+    record: R,
+    end_s: f64,
+    /// Wall time of the parts before this one, s.
+    before_s: f64,
+    clock: Instant,
+}
+
+/// All that see the steps.
+struct Observers<'a>(&'a mut Recorder, Option<&'a mut EnergyMeter>);
+
+impl Observer<CoupledSystem> for Observers<'_> {
+    fn observe(&mut self, system: &CoupledSystem, now: Now<'_>) {
+        self.0.observe(system, now);
+        if let Some(energy) = &mut self.1 {
+            energy.observe(system, now);
+        }
+    }
+}
+
+impl<R: Recording> Stepping<R> {
+    fn observers(&mut self) -> Observers<'_> {
+        Observers(&mut self.recorder, self.energy.as_mut())
+    }
+
+    fn wall_s(&self) -> f64 {
+        self.before_s + self.clock.elapsed().as_secs_f64()
+    }
+
+    /// Goes to the end, or as far as it comes.
+    fn go(
+        &mut self,
+        system: &mut CoupledSystem,
+        integration: &mut Integration<CoupledSystem>,
+        schedule: Schedule,
+        keeper: &mut impl Keeper<Record = R>,
+        fraction: impl Fn(f64),
+    ) -> Result<RunEnd, StageError> {
+        let tell_every = (schedule.intervals / TOLD).max(1);
+        let tell = |done: u64| fraction(done as f64 / schedule.intervals as f64);
+        tell(integration.intervals());
+        self.keep(integration, keeper)?;
+        while !integration.is_complete() {
+            if let Err(error) = integration.advance(system, &mut self.observers()) {
+                self.hand_on()?;
+                return match error {
+                    TransientError::BlewUp(blow_up) => Ok(RunEnd::BlewUp(blow_up)),
+                    other => Err(other.into()),
+                };
+            }
+            self.recorder.confirm();
+            if self.recorder.confirmed() >= BLOCK {
+                self.hand_on()?;
+            }
+            let done = integration.intervals();
+            if done.is_multiple_of(tell_every) {
+                tell(done);
+            }
+            match keeper.wish() {
+                Wish::GoOn => {}
+                Wish::Checkpoint => self.keep(integration, keeper)?,
+                Wish::Stop if integration.is_complete() => {}
+                Wish::Stop => {
+                    self.keep(integration, keeper)?;
+                    return Err(StageError::Interrupted {
+                        at_s: integration.state().t,
+                        end_s: self.end_s,
+                    });
+                }
+            }
+        }
+        self.keep(integration, keeper)?;
+        Ok(RunEnd::Complete)
+    }
+
+    /// Brings the rows that are good into the record.
+    fn hand_on(&mut self) -> Result<(), StageError> {
+        let rows = self.recorder.take_confirmed();
+        self.record.append(&rows)
+    }
+
+    fn keep(
+        &mut self,
+        integration: &Integration<CoupledSystem>,
+        keeper: &mut impl Keeper<Record = R>,
+    ) -> Result<(), StageError> {
+        self.hand_on()?;
+        let mut snapshot = Snapshot::default();
+        for word in self.fingerprint {
+            snapshot.count(word);
+        }
+        snapshot.number(self.wall_s());
+        self.recorder.remember(&mut snapshot);
+        snapshot.flag(self.energy.is_some());
+        if let Some(energy) = &self.energy {
+            energy.remember(&mut snapshot);
+        }
+        integration.remember(&mut snapshot);
+        keeper.keep(&self.record, integration.state().t, &snapshot)
+    }
+
+    /// Takes up what [`keep`](Self::keep) wrote.
+    fn recalled(
+        &mut self,
+        system: &CoupledSystem,
+        method: Method,
+        schedule: Schedule,
+        snapshot: &Snapshot,
+    ) -> Result<Integration<CoupledSystem>, StageError> {
+        let mut reader = snapshot.reader();
+        let mut same = true;
+        for word in self.fingerprint {
+            same &= reader.count().map_err(TransientError::from)? == word;
+        }
+        if !same {
+            return Err(UnfinishedError::Model.into());
+        }
+        self.before_s = reader.number().map_err(TransientError::from)?;
+        let recalled = self.recorder.recall(&mut reader);
+        recalled.map_err(TransientError::from)?;
+        if reader.flag().map_err(TransientError::from)? != self.energy.is_some() {
+            return Err(UnfinishedError::Model.into());
+        }
+        if let Some(energy) = &mut self.energy {
+            energy.recall(&mut reader).map_err(TransientError::from)?;
+        }
+        let integration = Integration::resume(system, method, schedule, &mut reader)?;
+        reader.end().map_err(TransientError::from)?;
+        Ok(integration)
+    }
+}

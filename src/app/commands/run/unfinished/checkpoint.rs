@@ -1,0 +1,176 @@
+//! The file of a checkpoint.
+//!
+//! ```text
+//! plummer checkpoint 2            a line
+//! {"identity": ..}                a line of JSON: what the run was begun with, how far it is, rows, words
+//! words                           64 bits each, little-endian
+//! SHA-256 of all before           32 bytes
+//! ```
+
+use super::error::UnfinishedError;
+use super::identity::RunIdentity;
+use crate::files::write_atomic;
+use crate::formats::ColumnFiles;
+use crate::numerics::ode::Snapshot;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+const MAGIC: &[u8] = b"plummer checkpoint 2\n";
+
+/// Bytes of the digest at the end.
+const DIGEST: usize = 32;
+
+/// A checkpoint that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Checkpoint {
+    pub identity: RunIdentity,
+    /// Rows of the columns that belong to it.
+    pub rows: usize,
+    /// SHA-256 of these rows, 64 hexadecimal digits.
+    pub columns_sha256: String,
+    pub snapshot: Snapshot,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Head {
+    identity: RunIdentity,
+    /// For a reader of the file.
+    time_s: f64,
+    rows: usize,
+    columns_sha256: String,
+    words: usize,
+}
+
+/// Writes a checkpoint, whole or not at all, in the place of an earlier one.
+///
+/// # Errors
+/// [`UnfinishedError::File`].
+pub(crate) fn write(
+    path: &Path,
+    identity: &RunIdentity,
+    columns: &ColumnFiles,
+    time_s: f64,
+    snapshot: &Snapshot,
+) -> Result<(), UnfinishedError> {
+    let head = Head {
+        identity: identity.clone(),
+        time_s,
+        rows: columns.rows(),
+        columns_sha256: columns.digest(),
+        words: snapshot.words().len(),
+    };
+    let mut bytes = MAGIC.to_vec();
+    let written = serde_json::to_writer(&mut bytes, &head).map_err(std::io::Error::from);
+    bytes.push(b'\n');
+    bytes.extend(snapshot.words().iter().flat_map(|word| word.to_le_bytes()));
+    let digest = Sha256::digest(&bytes);
+    bytes.extend_from_slice(&digest);
+    written
+        .and_then(|()| write_atomic(path, |file| file.write_all(&bytes)))
+        .map_err(|source| UnfinishedError::File {
+            what: "write",
+            path: path.to_owned(),
+            source,
+        })
+}
+
+impl Checkpoint {
+    /// Reads a checkpoint.
+    ///
+    /// # Errors
+    /// [`UnfinishedError::File`], [`UnfinishedError::Damaged`].
+    pub fn read(path: &Path) -> Result<Self, UnfinishedError> {
+        let bytes = fs::read(path).map_err(|source| UnfinishedError::File {
+            what: "read",
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged {
+            path: path.to_owned(),
+            what,
+        })
+    }
+
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            return Err("it does not begin as one of this version does".to_owned());
+        };
+        let content = bytes.len().saturating_sub(DIGEST);
+        if rest.len() < DIGEST || Sha256::digest(&bytes[..content])[..] != bytes[content..] {
+            return Err("its digest is not that of its content".to_owned());
+        }
+        let rest = &rest[..rest.len() - DIGEST];
+        let line = rest.iter().position(|&byte| byte == b'\n');
+        let (head, words) = rest.split_at(line.unwrap_or(rest.len()));
+        let head: Head = serde_json::from_slice(head).map_err(|error| error.to_string())?;
+        let words = words.get(1..).unwrap_or_default().chunks_exact(8);
+        let words = words.map(|chunk| {
+            let bytes = chunk.iter().rev();
+            bytes.fold(0, |word, &byte| word << 8 | u64::from(byte))
+        });
+        let words: Vec<u64> = words.collect();
+        if words.len() != head.words {
+            return Err(format!("{} words of {}", words.len(), head.words));
+        }
+        Ok(Self {
+            identity: head.identity,
+            rows: head.rows,
+            columns_sha256: head.columns_sha256,
+            snapshot: Snapshot::from_words(words),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::case::{Case, Source};
+
+    fn identity() -> RunIdentity {
+        let case = Case::from_source(Source {
+            text: "[ring]\nsections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n"
+                .to_owned(),
+            ..Source::default()
+        });
+        RunIdentity::of(&case.unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_checkpoint_comes_back_and_a_damaged_one_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("checkpoint");
+        let mut snapshot = Snapshot::default();
+        snapshot.numbers(&[f64::NAN, -0.0, 1.0 / 3.0]);
+        snapshot.count(u64::MAX - 1);
+        let columns = ColumnFiles::create(folder.path(), Vec::new(), 0).unwrap();
+        write(&path, &identity(), &columns, 0.25, &snapshot).unwrap();
+        let read = Checkpoint::read(&path).unwrap();
+        assert_eq!((read.rows, &read.snapshot), (0, &snapshot));
+        assert_eq!(read.columns_sha256, columns.digest());
+        assert_eq!(read.identity, identity());
+        let whole = fs::read(&path).unwrap();
+        for place in [
+            MAGIC.len() + 5,
+            whole.len() / 2,
+            whole.len() - 40,
+            whole.len() - 1,
+        ] {
+            let mut damaged = whole.clone();
+            damaged[place] ^= 4;
+            fs::write(&path, &damaged).unwrap();
+            let error = Checkpoint::read(&path).unwrap_err().to_string();
+            assert!(
+                error.ends_with("is no whole checkpoint: its digest is not that of its content"),
+                "{error}"
+            );
+        }
+        for length in 0..whole.len() {
+            assert!(Checkpoint::parse(&whole[..length]).is_err(), "{length}");
+        }
+        let error = Checkpoint::read(&folder.path().join("nowhere")).unwrap_err();
+        assert!(matches!(error, UnfinishedError::File { .. }));
+    }
+}

@@ -1,0 +1,210 @@
+//! A run that has not ended: its rows and its last checkpoint in a folder of their own, from which it goes on.
+//!
+//! `checkpoint` holds all that the rest of the run depends on, and how many rows of the columns beside it
+//! ([`ColumnFiles`]) belong to it. The rows reach the disk before the checkpoint that counts them takes the place of the one
+//! before: whenever the program ends, the checkpoint that is there and the rows that it counts are whole.
+
+use super::checkpoint;
+use super::checkpoint::Checkpoint;
+use super::error::UnfinishedError;
+use super::identity::RunIdentity;
+use crate::app::commands::run::{Keeper, Wish};
+use crate::app::scene::StageError;
+use crate::files;
+use crate::formats::ColumnFiles;
+use crate::numerics::ode::Snapshot;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Wall time between checkpoints unless another is asked for, s.
+pub const CHECKPOINT_S: f64 = 10.0;
+
+/// Least wall time between checkpoints in units of what the last one took: they take 4 % of the time at most.
+pub(crate) const LEAST_PAUSE: u32 = 25;
+
+/// The checkpoint in the folder.
+pub(crate) const FILE: &str = "checkpoint";
+
+/// What is asked of a run from outside, by signals.
+#[derive(Debug, Clone, Default)]
+pub struct StopRequest {
+    /// To keep a checkpoint and stop.
+    pub asked: Arc<AtomicBool>,
+    /// Whether nobody would listen: a request then ends the program at once.
+    pub deaf: Arc<AtomicBool>,
+}
+
+/// The folder of an unfinished run.
+#[derive(Debug)]
+pub struct UnfinishedRun {
+    folder: PathBuf,
+    identity: RunIdentity,
+    every: Duration,
+    stop: StopRequest,
+    /// To go on from.
+    resumed: Option<Checkpoint>,
+    last: Instant,
+    cost: Duration,
+}
+
+impl UnfinishedRun {
+    /// Whether a folder holds a checkpoint.
+    pub fn is_in(folder: &Path) -> bool {
+        folder.join(FILE).exists()
+    }
+
+    /// A run that begins: the folder is made when it comes to stepping, and an earlier run in it given up then.
+    #[must_use]
+    pub fn begin(folder: &Path, identity: RunIdentity) -> Self {
+        Self::with(folder, identity, None)
+    }
+
+    /// The run in a folder, to go on.
+    ///
+    /// # Errors
+    /// [`UnfinishedError::Nothing`], [`UnfinishedError::Changed`] if what it was begun with is not what it would go on
+    /// with, [`UnfinishedError::Damaged`].
+    pub fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
+        files::no_link(folder).map_err(|source| UnfinishedError::Folder {
+            path: folder.to_owned(),
+            source,
+        })?;
+        if !Self::is_in(folder) {
+            return Err(UnfinishedError::Nothing {
+                path: folder.to_owned(),
+            });
+        }
+        let checkpoint = Checkpoint::read(&folder.join(FILE))?;
+        let changes = checkpoint.identity.changes(&identity);
+        if !changes.is_empty() {
+            return Err(UnfinishedError::Changed {
+                path: folder.to_owned(),
+                changes,
+            });
+        }
+        Ok(Self::with(folder, identity, Some(checkpoint)))
+    }
+
+    fn with(folder: &Path, identity: RunIdentity, resumed: Option<Checkpoint>) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            identity,
+            every: Duration::from_secs_f64(CHECKPOINT_S),
+            stop: StopRequest::default(),
+            resumed,
+            last: Instant::now(),
+            cost: Duration::ZERO,
+        }
+    }
+
+    /// The run with checkpoints so far apart in wall time, if they do not take too much of it.
+    #[must_use]
+    pub fn every(mut self, pause: Duration) -> Self {
+        self.every = pause;
+        self
+    }
+
+    /// The run that stops when it is asked to.
+    #[must_use]
+    pub fn stopped_by(mut self, stop: StopRequest) -> Self {
+        self.stop = stop;
+        self
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Removes the folder: the run has ended and its results are written.
+    ///
+    /// # Errors
+    /// [`UnfinishedError::Folder`].
+    pub fn remove(self) -> Result<(), UnfinishedError> {
+        remove(&self.folder)
+    }
+}
+
+/// Removes what an unfinished run left, the checkpoint first.
+pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
+    let failed = |source| UnfinishedError::Folder {
+        path: folder.to_owned(),
+        source,
+    };
+    files::no_link(folder).map_err(failed)?;
+    if UnfinishedRun::is_in(folder) {
+        fs::remove_file(folder.join(FILE)).map_err(failed)?;
+    }
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(failed)?;
+    }
+    Ok(())
+}
+
+impl Keeper for UnfinishedRun {
+    type Record = ColumnFiles;
+
+    fn open(
+        &mut self,
+        sensors: Vec<String>,
+        balls: usize,
+    ) -> Result<(ColumnFiles, Option<Snapshot>), StageError> {
+        self.stop.deaf.store(false, Ordering::SeqCst);
+        self.last = Instant::now();
+        Ok(match self.resumed.take() {
+            None => {
+                remove(&self.folder)?;
+                fs::create_dir_all(&self.folder).map_err(|source| UnfinishedError::Folder {
+                    path: self.folder.clone(),
+                    source,
+                })?;
+                (ColumnFiles::create(&self.folder, sensors, balls)?, None)
+            }
+            Some(checkpoint) => {
+                let rows = checkpoint.rows;
+                let record = ColumnFiles::resume(&self.folder, sensors, balls, rows)?;
+                if record.digest() != checkpoint.columns_sha256 {
+                    return Err(UnfinishedError::Damaged {
+                        path: self.folder.clone(),
+                        what: "the rows in its columns are not those that the checkpoint counts"
+                            .to_owned(),
+                    }
+                    .into());
+                }
+                (record, Some(checkpoint.snapshot))
+            }
+        })
+    }
+
+    fn wish(&mut self) -> Wish {
+        if self.stop.asked.load(Ordering::Relaxed) {
+            Wish::Stop
+        } else if self.last.elapsed() >= self.every.max(LEAST_PAUSE * self.cost) {
+            Wish::Checkpoint
+        } else {
+            Wish::GoOn
+        }
+    }
+
+    fn keep(
+        &mut self,
+        record: &ColumnFiles,
+        t: f64,
+        snapshot: &Snapshot,
+    ) -> Result<(), StageError> {
+        let began = Instant::now();
+        record.sync()?;
+        let path = self.folder.join(FILE);
+        checkpoint::write(&path, &self.identity, record, t, snapshot)?;
+        self.last = Instant::now();
+        self.cost = self.last - began;
+        Ok(())
+    }
+
+    fn close(&mut self) {
+        self.stop.deaf.store(true, Ordering::SeqCst);
+    }
+}

@@ -1,0 +1,113 @@
+//! The bearing of a case.
+
+use super::bearing_defects::{Defects, defects, waves};
+use super::bearing_motion::{shaft, slip, speed};
+use super::error::StageError;
+use crate::app::case::{self, Case};
+use crate::bearing::{
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
+};
+use crate::system::{BallsInertia, BearingSetup, Formulation};
+
+/// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
+    let (Some(asked), Some(asked_shaft)) = (&case.bearing, &case.shaft) else {
+        return Ok(None);
+    };
+    let geometry = geometry(case, asked)?;
+    let stiffness = match asked.stiffness {
+        case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
+        case::ContactStiffness::Given { inner, outer } => ContactStiffness::given(inner, outer)?,
+    };
+    let Defects {
+        race_defects,
+        flats,
+    } = defects(&asked.defects, &geometry, stiffness)?;
+    Ok(Some(BearingSetup {
+        cage: Cage::new(
+            &geometry,
+            speed(case)?,
+            slip(&asked.slip)?,
+            asked.first_ball_deg.to_radians(),
+        )?,
+        geometry,
+        stiffness,
+        contact_damping: asked.contact_damping,
+        formulation: match asked.formulation {
+            case::Formulation::Consistent => Formulation::Consistent,
+            case::Formulation::Printed => Formulation::Printed,
+        },
+        balls_inertia: match asked.balls_inertia {
+            Some(case::BallsInertia::QuasiStatic) => BallsInertia::QuasiStatic,
+            // what is left to the program is chosen for a run, with the rest of its model
+            Some(case::BallsInertia::Dynamic) | None => BallsInertia::Dynamic,
+        },
+        waves: waves(&asked.waviness, &geometry)?,
+        oversizes: asked.ball_radius_differences.clone(),
+        race_defects,
+        flats,
+        gravity: asked_shaft.gravity,
+        shaft: shaft(asked_shaft),
+    }))
+}
+
+/// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, StageError> {
+    let Some(asked) = &case.bearing else {
+        return Ok(None);
+    };
+    let geometry = geometry(case, asked)?;
+    Ok(Some(hertz(case, asked, &geometry)?))
+}
+
+/// Geometry of a case's bearing; `None` without one.
+///
+/// # Errors
+/// [`StageError`] naming what is out of range.
+pub fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, StageError> {
+    let asked = case.bearing.as_ref();
+    asked.map(|asked| geometry(case, asked)).transpose()
+}
+
+fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, StageError> {
+    let geometry = BearingGeometry::new(BearingDimensions {
+        balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
+        ball_radius: asked.ball_radius,
+        // a ball material that is missing was refused with the case
+        ball_mass: case.ball_mass().unwrap_or(f64::NAN),
+        inner_race_radius: asked.inner_race_radius,
+        outer_race_radius: asked.outer_race_radius,
+        inner_groove_radius: asked.inner_groove_radius,
+        outer_groove_radius: asked.outer_groove_radius,
+    })?;
+    match asked.radial_play {
+        Some(play) => Ok(geometry.with_radial_play(play)?),
+        None => Ok(geometry),
+    }
+}
+
+fn hertz(
+    case: &Case,
+    asked: &case::Bearing,
+    geometry: &BearingGeometry,
+) -> Result<RaceContacts, StageError> {
+    let contact = |name: &str| -> Result<ContactMaterial, StageError> {
+        let material = super::housing::material(case, name)?;
+        Ok(ContactMaterial {
+            young: material.young,
+            poisson: material.poisson,
+        })
+    };
+    Ok(RaceContacts::new(
+        geometry,
+        contact(&asked.ball_material)?,
+        contact(&asked.race_material.inner)?,
+        contact(&asked.race_material.outer)?,
+    )?)
+}

@@ -1,0 +1,55 @@
+//! What drives a bearing: speed, slip and loads of a case.
+
+use super::error::StageError;
+use crate::app::case::{self, Case, Load, Slip};
+use crate::bearing::{SlipProfile, SpeedKnot, SpeedProfile};
+use crate::system::{LoadProfile, Shaft};
+
+/// Shaft speed over time; at rest where the case says nothing.
+///
+/// # Errors
+/// [`StageError::Speed`].
+pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, StageError> {
+    let Some(speed) = &case.speed else {
+        return Ok(SpeedProfile::constant(0.0)?);
+    };
+    let knots = speed.profile.iter().map(|point| SpeedKnot {
+        time: point.time,
+        frequency_hz: point.hz,
+    });
+    Ok(SpeedProfile::new(&knots.collect::<Vec<_>>())?)
+}
+
+/// Slip of the cage.
+///
+/// # Errors
+/// [`StageError::Slip`].
+pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, StageError> {
+    Ok(match asked {
+        Slip::Constant(slip) => SlipProfile::constant(*slip),
+        Slip::OverTime(points) => {
+            let points: Vec<_> = points.iter().map(|p| (p.time, p.slip)).collect();
+            SlipProfile::over_time(&points)
+        }
+        Slip::OverSpeed(points) => {
+            let points: Vec<_> = points.iter().map(|p| (p.hz, p.slip)).collect();
+            SlipProfile::over_speed(&points)
+        }
+    }?)
+}
+
+/// The shaft and its loads.
+pub(crate) fn shaft(asked: &case::Shaft) -> Shaft {
+    let load = |load: &Load| match load {
+        Load::Constant(force) => LoadProfile::constant(*force),
+        Load::Profile(points) => {
+            let points: Vec<_> = points.iter().map(|p| (p.time, p.force)).collect();
+            LoadProfile::through(&points)
+        }
+    };
+    Shaft {
+        mass: asked.mass,
+        unbalance: asked.unbalance,
+        loads: asked.loads.iter().map(load).collect(),
+    }
+}

@@ -1,0 +1,97 @@
+//! Damping of housing and ring as the case gives it.
+
+use super::error::StageError;
+use crate::app::case::{self, Case};
+use crate::fe::reduction::frf::{ModalBasis, ModalDamping, ReducedSystem};
+use crate::numerics::linalg::DenseMatrix;
+use crate::system::ModeDamping;
+
+/// The damping of a case; none without `[damping]`.
+///
+/// # Errors
+/// [`StageError::NegativeDamping`] for ratios that drive some modes.
+pub(crate) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
+    let damping = match &case.damping {
+        None => ModeDamping::Modal(0.0),
+        Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
+        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh {
+            alpha: *alpha,
+            beta: *beta,
+        },
+        Some(case::Damping::Ratios([first, second])) => ModeDamping::rayleigh_through(
+            (first.frequency_hz, first.ratio),
+            (second.frequency_hz, second.ratio),
+        ),
+    };
+    match damping {
+        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
+            Err(StageError::NegativeDamping { alpha, beta })
+        }
+        admissible => Ok(admissible),
+    }
+}
+
+/// Time integration has no structural damping; a loss factor of a part in use must not be passed over.
+///
+/// # Errors
+/// [`StageError::StructuralDamping`].
+pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
+    let parts = case
+        .meshed_housing()
+        .into_iter()
+        .flat_map(|housing| &housing.parts);
+    for part in parts {
+        let loss_factor = case
+            .material(&part.material)
+            .map_or(0.0, case::Material::loss_factor);
+        if loss_factor > 0.0 {
+            let material = part.material.clone();
+            return Err(StageError::StructuralDamping {
+                material,
+                loss_factor,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The same damping for frequency responses.
+///
+/// # Errors
+/// As [`damping`].
+pub(crate) fn modal_damping(case: &Case) -> Result<ModalDamping, StageError> {
+    Ok(match damping(case)? {
+        ModeDamping::Rayleigh { alpha, beta } => ModalDamping::Rayleigh { alpha, beta },
+        ModeDamping::Modal(ratio) => ModalDamping::Uniform(ratio),
+    })
+}
+
+/// Alpha of a case's `C = alpha M + beta K`, 1/s; zero for damping mode by mode.
+///
+/// # Errors
+/// As [`damping`].
+pub(crate) fn mass_damping(case: &Case) -> Result<f64, StageError> {
+    Ok(match damping(case)? {
+        ModeDamping::Rayleigh { alpha, .. } => alpha,
+        ModeDamping::Modal(_) => 0.0,
+    })
+}
+
+/// Viscous damping matrix [n x n] of matrices k and m with the case's damping, N s/m.
+///
+/// # Errors
+/// As [`damping`], and what the dense eigenvalue solver reports.
+pub(crate) fn viscous_matrix(
+    case: &Case,
+    k: &DenseMatrix,
+    m: &DenseMatrix,
+) -> Result<DenseMatrix, StageError> {
+    Ok(match modal_damping(case)? {
+        ModalDamping::Rayleigh { alpha, beta } => m * faer::Scale(alpha) + k * faer::Scale(beta),
+        ModalDamping::Uniform(ratio) if ratio <= 0.0 => DenseMatrix::zeros(k.nrows(), k.ncols()),
+        ratios => {
+            let system = ReducedSystem::new(k.clone(), m.clone())?;
+            ModalBasis::new(&system)?.viscous_matrix(&system, &ratios)?
+        }
+    })
+}

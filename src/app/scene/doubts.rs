@@ -1,0 +1,318 @@
+//! What of a model is accepted and may be meant otherwise, a sentence each: warnings of reports and results.
+
+use super::bearing::race_contacts;
+use super::contact_limits::contact_doubts;
+use super::error::StageError;
+use super::housing::description;
+use super::mesh_digest::read_mesh;
+use super::seat::Seat;
+use super::structure::layer;
+use super::watch::Unwatched;
+use crate::app::case::{self, Case};
+use crate::fe::mesh::Mesh;
+use crate::fe::modal::pieces_at;
+use crate::fe::model::HousingModel;
+use crate::system::{BearingSetup, Equilibrium};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Share of a ring's width beyond its bore that is told. The width is that of a rectangle in the section's place, which
+/// misses that of a grooved section by some percent.
+const OVERHANG: f64 = 0.05;
+
+/// Distance between a ring's outer face and its bore that is told, over the section's height: so far the section moves
+/// the bore by a rigid arm.
+const ARM: f64 = 0.5;
+
+/// Angle without a node of the bore that is told: three times what a coarse bore of first order has between two nodes.
+const FREE_TURN: f64 = FRAC_PI_2;
+
+/// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
+/// the faces of grooved sections.
+const APART: f64 = 0.5;
+
+/// Densities of balls, kg/m^3: those of solids, from plastics to tungsten.
+const BALL_DENSITIES: [f64; 2] = [800.0, 20_000.0];
+
+/// Bar speeds of sound of solids, `sqrt(E / rho)`, m/s: soft rubber has 30, steel 5200, diamond 18 000.
+const SPEEDS_OF_SOUND: [f64; 2] = [10.0, 20_000.0];
+
+/// Densities of solids, kg/m^3: from foams to osmium (22 590).
+const DENSITIES: [f64; 2] = [5.0, 23_000.0];
+
+/// Distance between the faces of two neighbouring sections that is told, over the lower one's height.
+const GAP: f64 = 0.5;
+
+/// Width of a section over the outer diameter of its ring that is told: rings and housings about a bearing are narrower.
+const WIDTH: f64 = 2.0;
+
+/// The doubts about a case: of its housing, of how the ring sits in it, and of the bearing under the load at rest.
+///
+/// # Errors
+/// [`StageError`] of materials and of the bearing.
+pub fn doubts(
+    case: &Case,
+    housing: Option<(&Mesh, &HousingModel)>,
+    at_rest: Option<(&BearingSetup, &Equilibrium)>,
+) -> Result<Vec<String>, StageError> {
+    let mut found = material_doubts(case);
+    if let Some((_, model)) = housing {
+        found.extend(housing_doubts(model));
+    }
+    if let Some(ring) = &case.ring {
+        found.extend(section_doubts(case, ring)?);
+        found.extend(ring_doubts(case, ring, housing)?);
+    }
+    if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
+        found.extend(race_in_ring(case)?);
+        found.extend(ball_density(setup));
+        found.extend(contact_doubts(setup, &contacts, equilibrium));
+    }
+    Ok(found)
+}
+
+/// The doubts about a case's housing and how the ring sits in it, of which nothing is computed.
+///
+/// # Errors
+/// [`StageError`] of mesh, model and ring.
+pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, StageError> {
+    let Some(housing) = case.meshed_housing() else {
+        return doubts(case, None, None);
+    };
+    let mesh = read_mesh(housing, &Unwatched)?;
+    let model = HousingModel::new(&mesh, description(case, housing)?)?;
+    doubts(case, Some((&mesh, &model)), None)
+}
+
+fn housing_doubts(model: &HousingModel) -> Vec<String> {
+    let overlaps = model.overlaps().iter().map(|overlap| {
+        format!(
+            "{}; housing.overlap allows it, mass and stiffness count twice there",
+            overlap.sentence()
+        )
+    });
+    let touching = model.touching().iter().map(|touching| {
+        let [a, b] = &touching.parts;
+        let help = match a == b {
+            true => "where they are one body, merge their nodes in gmsh (Coherence Mesh)".to_owned(),
+            false => format!(
+                "nothing holds them together there; where they are one body, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
+            ),
+        };
+        format!("{}; {help}", touching.sentence())
+    });
+    let crossings = model.crossings().iter().map(|crossing| {
+        format!(
+            "{}; mass and stiffness count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments), or move it",
+            crossing.sentence()
+        )
+    });
+    let apart = model.apart().iter().map(|apart| {
+        format!(
+            "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
+            apart.sentence()
+        )
+    });
+    let links = model.links.iter().zip(&model.common_nodes);
+    let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
+        let [a, b] = &link.between;
+        format!(
+            "the groups \"{a}\" and \"{b}\" of a link share {common} of their nodes, which move as one without it; give the faces of each body a group of its own if that is not meant"
+        )
+    });
+    let flat = model.flat_layers().map(|flat| {
+        let [x, y, z] = flat.place;
+        format!(
+            "flat layers of first order with incompatible modes stand on held faces, {} of their faces, and may be far too soft: the longest edge is {:.1} times the height of the layer at element {}, ({x:.6}, {y:.6}, {z:.6}) m; supports, stiff springs or a body at least ten times as stiff hold these faces; give shorter edges along them, elements of second order, or housing.linear = \"plain\"",
+            flat.faces, flat.flatness, flat.tag
+        )
+    });
+    let held = model.held_masses().map(|mass| {
+        format!(
+            "the mass of {} kg on the group \"{}\" is where supports hold every direction: it counts in the mass of the model and moves nothing",
+            mass.mass, mass.group
+        )
+    });
+    let tied = overlaps.chain(touching).chain(crossings).chain(apart);
+    tied.chain(shared).chain(flat).chain(held).collect()
+}
+
+/// Materials that no solid is, which a value in another unit makes.
+fn material_doubts(case: &Case) -> Vec<String> {
+    let told = case.materials.iter().filter_map(|(name, material)| {
+        let density = material.density();
+        let (least, most) = match material {
+            case::Material::Isotropic(material) => (material.young, material.young),
+            case::Material::Orthotropic(material) => {
+                let along = material.young.iter();
+                along.fold((f64::INFINITY, 0.0), |(least, most), young| {
+                    (young.min(least), young.max(most))
+                })
+            }
+        };
+        let speeds = [least, most].map(|young| (young / density).sqrt());
+        let solid = |[low, high]: [f64; 2], value: &f64| (low..=high).contains(value);
+        if solid(DENSITIES, &density) && speeds.iter().all(|speed| solid(SPEEDS_OF_SOUND, speed)) {
+            return None;
+        }
+        Some(format!(
+            "materials.{name}: young = {least:.4e} Pa and density = {density:.4e} kg/m^3 give a speed of sound of {:.3e} m/s, and no solid has these; steel has 2.1e11 Pa, 7850 kg/m^3 and 5.2e3 m/s: check the units (Pa and kg/m^3, with meshes in mm too)",
+            speeds[0]
+        ))
+    });
+    told.collect()
+}
+
+/// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.
+fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, StageError> {
+    let mut sections = Vec::new();
+    for (index, section) in ring.sections.iter().enumerate() {
+        let layer = layer(case, section)?;
+        sections.push((index, layer.radius, layer.rectangle()));
+    }
+    sections.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut found = Vec::new();
+    for (index, radius, [height, width]) in &sections {
+        if *width > WIDTH * (2.0 * radius + height) {
+            found.push(format!(
+                "ring.sections[{index}] is about {width:.3e} m wide by its area and inertia, and {height:.3e} m high at a radius of {radius:.3e} m: no ring is as wide; check area (m^2) and inertia (m^4)"
+            ));
+        }
+    }
+    for pair in sections.windows(2) {
+        let [
+            (inner, low, [inner_height, _]),
+            (outer, high, [outer_height, _]),
+        ] = pair
+        else {
+            continue;
+        };
+        let gap = (high - 0.5 * outer_height) - (low + 0.5 * inner_height);
+        if gap.abs() > GAP * inner_height.min(*outer_height) {
+            let how = match gap > 0.0 {
+                true => "lie apart by",
+                false => "reach into each other by",
+            };
+            found.push(format!(
+                "ring.sections[{inner}] and ring.sections[{outer}] {how} about {:.3e} m by their radii, areas and inertias: rings that are fitted into each other touch; check radius (m), area (m^2) and inertia (m^4)",
+                gap.abs()
+            ));
+        }
+    }
+    Ok(found)
+}
+
+/// How the ring sits in the housing.
+fn ring_doubts(
+    case: &Case,
+    ring: &case::Ring,
+    housing: Option<(&Mesh, &HousingModel)>,
+) -> Result<Vec<String>, StageError> {
+    let (Some((mesh, model)), Some(tie)) = (housing, &ring.tie) else {
+        return Ok(Vec::new());
+    };
+    let mut found = Vec::new();
+    let (mut width, mut face, mut height) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for section in &ring.sections {
+        let layer = layer(case, section)?;
+        let [radial, along] = layer.rectangle();
+        // a groove takes from the area and hardly from the second moment: the smaller of two estimates
+        let by_inertia = (12.0 * layer.out_of_plane_inertia() / layer.area).sqrt();
+        width = width.max(along.min(by_inertia));
+        if layer.radius + 0.5 * radial > face {
+            (face, height) = (layer.radius + 0.5 * radial, radial);
+        }
+    }
+    let seat = Seat::of(mesh, model, tie)?;
+    if seat.free_turn > FREE_TURN {
+        found.push(format!(
+            "the bore \"{}\" leaves {:.0} degrees of the turn free, where nothing holds the ring: check that the group has all faces of the bore",
+            tie.group,
+            seat.free_turn.to_degrees()
+        ));
+    }
+    found.extend(bore_in_pieces(mesh, model, &tie.group)?);
+    if model.dimension() == 3 {
+        let outside = seat.share_outside(width);
+        if outside > OVERHANG {
+            found.push(format!(
+                "{:.0} % of the ring's width lies outside the bore \"{}\": the ring is about {width:.3e} m wide by its sections and the bore reaches from {:.3e} to {:.3e} m along the axis, from the ring's plane; the overhang is tied as a rigid arm; check ring.tie.centre, ring.tie.axis and ring.sections",
+                100.0 * outside,
+                tie.group,
+                seat.from,
+                seat.to
+            ));
+        }
+    }
+    let outer = ring.outer_radius.unwrap_or(face);
+    if (outer - face).abs() > ARM * height {
+        found.push(format!(
+            "ring.outer_radius is {outer:.4e} m and the outer face of ring.sections lies at about {face:.4e} m: the tie bridges {:.3e} m between them as a rigid arm; check both",
+            (outer - face).abs()
+        ));
+    }
+    Ok(found)
+}
+
+/// Whether the bore is of bodies that nothing but the ring joins.
+fn bore_in_pieces(
+    mesh: &Mesh,
+    model: &HousingModel,
+    bore: &str,
+) -> Result<Option<String>, StageError> {
+    let group = model.group_on_housing(mesh, bore, "the tie")?;
+    // bodies that are too many to be looked at are told with the modes
+    let pieces = pieces_at(mesh, model, &group.nodes).unwrap_or_default();
+    if pieces.len() < 2 {
+        return Ok(None);
+    }
+    let named: Vec<String> = pieces
+        .iter()
+        .map(|parts| format!("\"{}\"", parts.join("\", \"")))
+        .collect();
+    Ok(Some(format!(
+        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add a link to housing.links",
+        pieces.len(),
+        named.join(" and ")
+    )))
+}
+
+/// Whether the outer race is in the innermost section of its ring.
+fn race_in_ring(case: &Case) -> Result<Option<String>, StageError> {
+    let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
+        return Ok(None);
+    };
+    let mut sections = ring.sections.iter();
+    let Some(first) = sections.next() else {
+        return Ok(None);
+    };
+    let innermost = sections.fold(first, |least, next| {
+        if next.radius < least.radius {
+            next
+        } else {
+            least
+        }
+    });
+    let layer = layer(case, innermost)?;
+    let [height, _] = layer.rectangle();
+    let (race, half) = (bearing.outer_race_radius, 0.5 * height);
+    let faces = [layer.radius - half, layer.radius + half];
+    let near = faces[0] - APART * height..faces[1];
+    Ok((!near.contains(&race)).then(|| {
+        format!(
+            "bearing.outer_race_radius is {race:.4e} m and the innermost of ring.sections reaches from about {:.4e} to {:.4e} m: the race is cut into that ring; check both",
+            faces[0], faces[1]
+        )
+    }))
+}
+
+/// Density of a ball of the given mass.
+fn ball_density(setup: &BearingSetup) -> Option<String> {
+    let (radius, mass) = (setup.geometry.ball_radius(), setup.geometry.ball_mass());
+    let density = mass / (4.0 / 3.0 * PI * radius.powi(3));
+    let [least, most] = BALL_DENSITIES;
+    (!(least..=most).contains(&density)).then(|| {
+        format!(
+            "a ball of {mass:.4e} kg and {radius:.4e} m radius has a density of {density:.3e} kg/m^3, which no solid ball has: check bearing.ball_mass, bearing.density and bearing.ball_radius"
+        )
+    })
+}

@@ -1,0 +1,215 @@
+//! Mesh to matrices of a housing, as the case asks for them.
+
+use super::error::StageError;
+use super::mesh_digest::read_mesh;
+use super::watch::Watch;
+use crate::app::case::{self, Case, Hold, Joint, PerNodeOrGroup};
+use crate::fe::assembly::SystemMatrices;
+use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
+use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
+use crate::fe::mesh::Mesh;
+use crate::fe::model::{
+    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
+    PlaneModel, PointMass, RingFrame, SpringStiffness, SupportShare,
+};
+use crate::numerics::linalg::LinalgError;
+
+/// A housing, assembled.
+#[derive(Debug, Clone)]
+pub struct HousingStage {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// The mesh with properties and supports.
+    pub model: HousingModel,
+    /// Stiffness and mass over all its degrees of freedom.
+    pub matrices: SystemMatrices,
+}
+
+impl HousingStage {
+    /// Reads and assembles the case's housing; `None` without one.
+    ///
+    /// # Errors
+    /// [`StageError`] of mesh, model and elements.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+        let Some(housing) = case.meshed_housing() else {
+            return Ok(None);
+        };
+        watch.stage("read");
+        let mesh = read_mesh(housing, watch)?;
+        let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
+        case.check_groups(&groups)?;
+        watch.stage("assemble");
+        let model = HousingModel::new(&mesh, description(case, housing)?)?;
+        let matrices = SystemMatrices::assemble(&model)?;
+        Ok(Some(Self {
+            mesh,
+            model,
+            matrices,
+        }))
+    }
+}
+
+impl HousingStage {
+    /// The housing of a case without a ring.
+    ///
+    /// # Errors
+    /// As [`HousingStage::build`].
+    pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+        // a case with neither ring nor housing was refused before
+        let nothing = LinalgError::TooManyModes {
+            asked: 1,
+            available: 0,
+        };
+        Self::build(case, watch)?.ok_or_else(|| nothing.into())
+    }
+}
+
+/// Everything that the case says of its housing.
+///
+/// # Errors
+/// [`StageError`] of materials and of the tie's frame.
+pub(crate) fn description(
+    case: &Case,
+    housing: &case::Housing,
+) -> Result<HousingDescription, StageError> {
+    let parts = housing.parts.iter().map(|part| {
+        Ok(HousingPart {
+            group: part.group.clone(),
+            material: elastic_material(case, &part.material)?,
+        })
+    });
+    Ok(HousingDescription {
+        parts: parts.collect::<Result<_, StageError>>()?,
+        plane: housing.plane.map(|plane| PlaneModel {
+            assumption: match plane.assumption {
+                case::PlaneAssumption::Stress => PlaneAssumption::Stress,
+                case::PlaneAssumption::Strain => PlaneAssumption::Strain,
+            },
+            thickness: plane.thickness,
+        }),
+        formulation: formulation(housing),
+        supports: housing.supports.iter().map(support).collect(),
+        masses: housing
+            .masses
+            .iter()
+            .map(|mass| PointMass {
+                group: mass.group.clone(),
+                mass: mass.mass,
+            })
+            .collect(),
+        links: housing.links.iter().map(link).collect(),
+        overlap: housing.overlap,
+        frame: frame(case)?,
+    })
+}
+
+fn formulation(housing: &case::Housing) -> Formulation {
+    Formulation {
+        integration: match housing.integration {
+            case::Integration::Full => Integration::Full,
+            case::Integration::FourPoint => Integration::FourPoint,
+        },
+        linear: match housing.linear {
+            case::LinearElements::Incompatible => LinearFormulation::Incompatible,
+            case::LinearElements::Plain => LinearFormulation::Plain,
+        },
+    }
+}
+
+/// Where the ring sits; the mesh's own frame without one.
+fn frame(case: &Case) -> Result<RingFrame, StageError> {
+    match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
+        None => Ok(RingFrame::default()),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(StageError::TieFrame),
+    }
+}
+
+/// An isotropic material of the case, checked.
+///
+/// # Errors
+/// [`StageError::Material`] for values out of range; a missing name or an orthotropic material was refused with
+/// the case.
+pub(crate) fn material(case: &Case, name: &str) -> Result<Material, StageError> {
+    let given = case.material(name).and_then(case::Material::isotropic);
+    let (young, poisson, density) = given.map_or((f64::NAN, f64::NAN, f64::NAN), |given| {
+        (given.young, given.poisson, given.density)
+    });
+    Material::new(young, poisson, density).map_err(|source| named(name, source))
+}
+
+fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, StageError> {
+    match case.material(name) {
+        Some(case::Material::Orthotropic(given)) => {
+            let case::OrthotropicMaterial {
+                young,
+                poisson,
+                shear,
+                density,
+                loss_factor,
+                x_axis,
+                y_axis,
+            } = *given;
+            OrthotropicMaterial::new(young, poisson, shear, density, x_axis, y_axis)
+                .and_then(|material| material.with_loss_factor(loss_factor))
+                .map(ElasticMaterial::Orthotropic)
+                .map_err(|source| named(name, source))
+        }
+        given => {
+            let loss_factor = given.map_or(0.0, case::Material::loss_factor);
+            material(case, name)?
+                .with_loss_factor(loss_factor)
+                .map(ElasticMaterial::from)
+                .map_err(|source| named(name, source))
+        }
+    }
+}
+
+fn named(name: &str, source: MaterialError) -> StageError {
+    let name = name.to_owned();
+    StageError::Material { name, source }
+}
+
+fn share(per: PerNodeOrGroup) -> SupportShare {
+    match per {
+        PerNodeOrGroup::Node => SupportShare::PerNode,
+        PerNodeOrGroup::Group => SupportShare::PerGroup,
+    }
+}
+
+fn along_axes(spring: case::Spring) -> SpringStiffness {
+    SpringStiffness::Global([spring.x, spring.y, spring.z])
+}
+
+fn support(support: &case::Support) -> HousingSupport {
+    let (constraint, share) = match &support.hold {
+        Hold::Fixed(axes) => {
+            let fixed =
+                [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
+            (Constraint::Fixed(fixed), SupportShare::PerNode)
+        }
+        Hold::Spring { spring, per } => (Constraint::Spring(along_axes(*spring)), share(*per)),
+        Hold::Radial { stiffness, per } => (
+            Constraint::Spring(SpringStiffness::Radial(*stiffness)),
+            share(*per),
+        ),
+    };
+    HousingSupport {
+        group: support.group.clone(),
+        constraint,
+        share,
+    }
+}
+
+fn link(link: &case::Link) -> Link {
+    let connection = match link.joint {
+        Joint::Spring { spring, per } => Connection::Spring(along_axes(spring), share(per)),
+        Joint::Radial { stiffness, per } => {
+            Connection::Spring(SpringStiffness::Radial(stiffness), share(per))
+        }
+        Joint::Tie => Connection::Tie,
+    };
+    Link {
+        between: link.between.clone(),
+        connection,
+    }
+}

@@ -1,0 +1,408 @@
+//! A superelement from a file in the housing's place.
+
+use super::error::StageError;
+use super::free_system::of_ring;
+use super::import_error::ImportError;
+use super::places::{Named, Place, PlaceBodies};
+use super::structure::ring;
+use crate::app::case::{self, Case, SensorSpot};
+use crate::fe::model::{Ring, RingFrame};
+use crate::fe::reduction::{Check, Superelement, check_matrices};
+use crate::formats::{
+    DofBody, DofLabel, SuperelementRecord, read_superelement_npz, read_superelement_op4,
+};
+use crate::numerics::linalg::DenseMatrix;
+use crate::report::significant;
+use std::path::{Path, PathBuf};
+
+/// A frequency at the end of a band lies within it, and numbers that were written and read are the same.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Farthest that a node may be from where the ring has it, relative to the ring's radius: six digits of a position that
+/// another program writes are better than this, another ring is not.
+const POSITION: f64 = 1e-3;
+
+/// Largest difference of a unit vector's component: a millionth of a radian counts as one direction.
+const AXIS: f64 = 1e-6;
+
+/// Largest ratio of a mode's frequency to the one below that is taken for two modes of an interior. Residual vectors of a flanged housing
+/// follow its last mode, at 22.8 kHz, by factors of 1.65 and 1.22: it tells them from modes narrowly.
+const CLOSE: f64 = 1.2;
+
+/// A condensed housing of which nothing but the file is known.
+#[derive(Debug, Clone)]
+pub struct ImportedHousing {
+    /// The file.
+    pub path: PathBuf,
+    /// What it has.
+    pub record: SuperelementRecord,
+    /// The same as the ring takes it.
+    pub element: Superelement,
+    /// Where the bearing sits in the file's axes; these themselves where the file does not say.
+    pub frame: RingFrame,
+    /// Checks of its matrices.
+    pub checks: Vec<Check>,
+    /// What a reader must know of it, in sentences.
+    pub notes: Vec<String>,
+}
+
+impl ImportedHousing {
+    /// Reads the file and makes the ring that fits it: in space if the interface has six motions a node.
+    ///
+    /// # Errors
+    /// [`StageError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`StageError`]
+    /// of the ring.
+    pub fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), StageError> {
+        let fault = |source: ImportError| StageError::Import {
+            path: path.to_owned(),
+            source: Box::new(source),
+        };
+        let record = record(path, asked.nodes).map_err(fault)?;
+        if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
+            && (case - file).abs() > ROUND_OFF * file
+        {
+            return Err(fault(ImportError::OuterRadius { case, file }));
+        }
+        let in_space = record.interface.len() == 6 * asked.nodes;
+        if !in_space {
+            let mut supports = asked.supports.iter();
+            if let Some(index) = supports.position(|support| support.spring.z > 0.0) {
+                return Err(fault(ImportError::SpringAcross { index }));
+            }
+        }
+        let ring = ring(case, asked, in_space)?;
+        let frame = frame(&record.interface).map_err(fault)?;
+        check_labels(&record.interface, &ring, &frame).map_err(fault)?;
+        let element = Superelement {
+            stiffness: record.stiffness.clone(),
+            mass: record.mass.clone(),
+            weight: weight(&record, &frame),
+            structural: record.structural.clone(),
+            interface_dof: record.interface.len(),
+        };
+        let imported = Self {
+            path: path.to_owned(),
+            notes: notes(case, path, &record),
+            checks: check_matrices(&element)?,
+            record,
+            element,
+            frame,
+        };
+        Ok((imported, ring))
+    }
+
+    /// Lets matrices pass that are those of a condensed housing.
+    ///
+    /// # Errors
+    /// [`ImportError::Check`] with the first check that fails.
+    pub fn accept(&self) -> Result<(), StageError> {
+        match self.checks.iter().find(|check| !check.ok()) {
+            None => Ok(()),
+            Some(check) => Err(self.fault(ImportError::Check {
+                name: check.name,
+                what: check.what.clone(),
+                value: check.value,
+                limit: check.limit,
+                bound: check.bound,
+            })),
+        }
+    }
+
+    /// Up to which frequency the file has all vectors of the housing's interior, Hz: as the file says, else the band that it was condensed for,
+    /// else the highest vector that follows the one before it closely. Residual vectors are far above the last mode, and far from each other.
+    pub fn complete_hz(&self) -> f64 {
+        let said = self.record.complete_hz.or(self.record.band_hz);
+        said.unwrap_or_else(|| last_mode_hz(&self.record.modal_hz))
+    }
+
+    /// What is to be said of results up to a frequency: nothing within the band that the file was condensed for. A file that does not
+    /// say its band is taken for good up to two thirds of its last mode, the usual rule for a fixed interface (R. R. Craig, A. J. Kurdila,
+    /// *Fundamentals of Structural Dynamics*, 2006, chapter 17).
+    pub fn doubt(&self, top_hz: f64) -> Option<String> {
+        let (end, whose) = match self.record.band_hz {
+            Some(band) => (band, "the band that it was condensed for"),
+            None if self.record.modal_hz.is_empty() => return None,
+            None => (
+                last_mode_hz(&self.record.modal_hz) / 1.5,
+                "two thirds of its last vector that is close to others",
+            ),
+        };
+        (top_hz > end * (1.0 + ROUND_OFF)).then(|| {
+            format!(
+                "The superelement of {} is good up to {} Hz, {whose}; modes or responses are asked for up to {} Hz. Above, frequencies are too high and modes are missing. Condense it with a higher accuracy.band_hz, or use the mesh.",
+                self.path.display(),
+                significant(end, 5),
+                significant(top_hz, 5)
+            )
+        })
+    }
+
+    /// What is to be said of responses. Those of a flanged housing that was condensed for their band erred by 196 % beside the mesh's. Those of a coarser
+    /// mesh of it with 2 % of damping, condensed for five times the band, erred by 6 %.
+    pub(crate) fn unknown_error(&self) -> String {
+        format!(
+            "No error of the responses from {} is known: it was condensed for frequencies. A mode whose frequency is off by 1 % errs by 1 % over its damping ratio at the resonance, and far more beside zeros. Use the mesh, of which `frf` estimates the error, or condense for several times the band and compare.",
+            self.path.display()
+        )
+    }
+
+    /// That the case's damping takes the place of the file's, where that has one.
+    pub(crate) fn unused_damping(&self) -> Option<String> {
+        unused_damping(&self.path, &self.record)
+    }
+
+    /// Refuses structural damping, which a simulation over time cannot have.
+    ///
+    /// # Errors
+    /// [`ImportError::StructuralDamping`].
+    pub fn refuse_structural_damping(&self) -> Result<(), StageError> {
+        match &self.record.structural {
+            Some(matrix) if matrix.norm_max() > 0.0 => {
+                Err(self.fault(ImportError::StructuralDamping))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Rows of the case's sensors over the coordinates, one \[order\] for each.
+    ///
+    /// # Errors
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring.
+    pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, StageError> {
+        let sensors = case.sensors.iter();
+        sensors
+            .map(|sensor| {
+                let name = Named::Sensor(&sensor.name);
+                self.row(name, &sensor.spot, sensor.direction, ring)
+            })
+            .collect()
+    }
+
+    /// The row of a place over the coordinates \[order\].
+    ///
+    /// # Errors
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring; each names `name`.
+    pub(crate) fn row(
+        &self,
+        name: Named<'_>,
+        spot: &SensorSpot,
+        direction: [f64; 3],
+        ring: &Ring,
+    ) -> Result<Vec<f64>, StageError> {
+        let bodies = PlaceBodies {
+            housing: None,
+            ring: Some(ring),
+            tie: None,
+            frame: self.frame,
+        };
+        match spot {
+            SensorSpot::Recovered(row) => self.recovered(name, row),
+            spot => {
+                let place = Place::new(bodies, name, spot, direction)?;
+                Ok(place.on_ring(self.element.order()))
+            }
+        }
+    }
+
+    fn recovered(&self, name: Named<'_>, row: &str) -> Result<Vec<f64>, StageError> {
+        let sensors = &self.record.sensors;
+        if let Some(found) = sensors.iter().find(|sensor| sensor.name == row) {
+            return Ok(found.row.clone());
+        }
+        let names: Vec<String> = sensors.iter().map(|s| format!("\"{}\"", s.name)).collect();
+        Err(self.fault(ImportError::Sensor {
+            name: name.to_string(),
+            row: row.to_owned(),
+            known: match names.is_empty() {
+                true => "of array \"sensors\", which the file lacks".to_owned(),
+                false => names.join(", "),
+            },
+        }))
+    }
+
+    fn fault(&self, source: ImportError) -> StageError {
+        StageError::Import {
+            path: self.path.clone(),
+            source: Box::new(source),
+        }
+    }
+}
+
+/// The highest of some frequencies (Hz) that lies within [`CLOSE`] of the next lower one; the lowest where none does, zero without any.
+fn last_mode_hz(modal_hz: &[f64]) -> f64 {
+    let mut sorted = modal_hz.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut pairs = sorted.windows(2).rev();
+    let last = pairs
+        .find(|pair| pair[1] <= CLOSE * pair[0])
+        .map(|pair| pair[1]);
+    last.or(sorted.first().copied()).unwrap_or(0.0)
+}
+
+/// A file's content, its interface as long as that of a ring of so many nodes.
+fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> {
+    let fits = |count: usize| count == 3 * nodes || count == 6 * nodes;
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match ending.to_str() {
+        Some("npz") => {
+            let record = read_superelement_npz(path)?;
+            let found = record.interface.len();
+            if let Some(recovery) = &record.interface_recovery {
+                return Err(ImportError::InterfaceModes {
+                    modes: found,
+                    coordinates: recovery.labels.len(),
+                });
+            }
+            match fits(found) {
+                true => Ok(record),
+                false => Err(ImportError::Count { nodes, found }),
+            }
+        }
+        Some("op4") => {
+            let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes])?;
+            match fits(record.interface.len()) {
+                true => Ok(record),
+                false => Err(ImportError::Count {
+                    nodes,
+                    found: record.order(),
+                }),
+            }
+        }
+        _ => Err(ImportError::Format),
+    }
+}
+
+/// Whether a file says what its interface coordinates are.
+fn labelled(interface: &[DofLabel]) -> bool {
+    interface
+        .iter()
+        .any(|label| label.body != DofBody::Interface)
+}
+
+/// The frame of the first node's axes about the mean of the nodes; the file's axes where it has none.
+fn frame(interface: &[DofLabel]) -> Result<RingFrame, ImportError> {
+    let known = |vector: &[f64; 3]| vector.iter().all(|part| part.is_finite());
+    let (Some(first), Some(third)) = (interface.first(), interface.get(2)) else {
+        return Ok(RingFrame::default());
+    };
+    let (x, z) = (first.axis, third.axis);
+    if !labelled(interface) || !known(&x) || !known(&z) {
+        return Ok(RingFrame::default());
+    }
+    let mut centre = [0.0; 3];
+    if interface.iter().all(|label| known(&label.position)) {
+        for label in interface {
+            for (mean, part) in centre.iter_mut().zip(label.position) {
+                *mean += part / interface.len() as f64;
+            }
+        }
+    }
+    RingFrame::new(centre, z, x).ok_or(ImportError::Frame { x, z })
+}
+
+/// Whether labels are the ring's in the ring's order; what the file does not say passes.
+fn check_labels(interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Result<(), ImportError> {
+    if !labelled(interface) {
+        return Ok(());
+    }
+    let reach = POSITION * ring.section().radius;
+    for (row, (own, label)) in of_ring(ring, frame).iter().zip(interface).enumerate() {
+        if (own.body, own.node, own.direction) != (label.body, label.node, label.direction) {
+            return Err(ImportError::Label {
+                row,
+                expected: name(own),
+                found: name(label),
+            });
+        }
+        for (what, limit, expected, found) in [
+            ("position in m", reach, own.position, label.position),
+            ("axis", AXIS, own.axis, label.axis),
+        ] {
+            // not so for what is not known
+            if (0..3).any(|k| (expected[k] - found[k]).abs() > limit) {
+                return Err(ImportError::Place {
+                    row,
+                    what,
+                    label: name(own),
+                    expected,
+                    found,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn name(label: &DofLabel) -> String {
+    let direction = label.direction.name();
+    format!("{} node {}, {direction}", label.body.name(), label.node)
+}
+
+/// The file's weight along the bearing's x and y [order x 2]; zero without one.
+fn weight(record: &SuperelementRecord, frame: &RingFrame) -> DenseMatrix {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| frame.vector_to_mesh(axis));
+    DenseMatrix::from_fn(record.order(), 2, |row, column| match &record.weight {
+        Some(weight) => (0..3).map(|k| weight[(row, k)] * axes[column][k]).sum(),
+        None => 0.0,
+    })
+}
+
+/// That the case's damping takes the place of the file's.
+fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option<String> {
+    record.damping.as_ref().map(|_| {
+        format!(
+            "The viscous damping in {} is not used: [damping] of the case counts.",
+            path.display()
+        )
+    })
+}
+
+fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
+    let file = path.display();
+    let mut notes = vec![format!(
+        "The housing is the superelement of {file}, {} interface coordinates and {} modes. What needs its mesh is left out: \
+         modes in full and what condensing costs, mass and effective masses, shares of energy, shapes and drawing of the \
+         housing.",
+        record.interface.len(),
+        record.modal_hz.len()
+    )];
+    if !labelled(&record.interface) {
+        notes.push(format!(
+            "{file} does not say what its coordinates are: the first {} are taken for the ring's in the ring's order. Only \
+             their number was checked.",
+            record.interface.len()
+        ));
+    }
+    let idle = [
+        (
+            "ring.outer_radius",
+            record.outer_radius.is_none()
+                && case
+                    .ring
+                    .as_ref()
+                    .is_some_and(|ring| ring.outer_radius.is_some()),
+        ),
+        (
+            "condense.fixed_interface_modes",
+            case.condense.fixed_interface_modes != case::FixedInterfaceModes::Auto,
+        ),
+        ("condense.enhanced", !case.condense.enhanced),
+    ];
+    for (key, _) in idle.iter().filter(|(_, given)| *given) {
+        notes.push(format!(
+            "{key} of the case does not act: {file} was condensed before, and does not say with which."
+        ));
+    }
+    if record.weight.is_none() && case.shaft.is_some() {
+        notes.push(format!(
+            "{file} has no array \"weight\": the weight of the housing does not act."
+        ));
+    }
+    notes.extend(unused_damping(path, record));
+    if record.structural.is_some() {
+        notes.push(format!(
+            "The structural damping in {file} is not used: modes are undamped."
+        ));
+    }
+    notes
+}

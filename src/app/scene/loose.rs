@@ -1,0 +1,80 @@
+//! What of a housing can still move, in the mesh's words: a condensation that cannot be made names the part.
+
+use super::condensed::{Boundary, CondensedStage};
+use super::error::StageError;
+use super::housing::HousingStage;
+use super::survey::unless_crumbs;
+use crate::fe::modal::{Mechanisms, ModalError};
+use crate::fe::model::HousingModel;
+use crate::fe::reduction::{Check, ReductionError};
+
+/// Every part of the housing hangs on the interface or on a support: otherwise `K_ii` is singular, and round-off may hide it
+/// from a factorisation.
+///
+/// # Errors
+/// [`StageError::LooseInterior`].
+pub(crate) fn check_interior(
+    housing: &HousingStage,
+    boundary: &Boundary,
+) -> Result<(), StageError> {
+    let partition = boundary.partition();
+    if partition.driven.is_empty() || partition.interior.is_empty() {
+        return Ok(()); // refused for this
+    }
+    let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
+    let found =
+        Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
+    match unless_crumbs(found)? {
+        Some(found) if found.total() > 0 => Err(StageError::LooseInterior {
+            what: found.sentences(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A reduction that failed at a degree of freedom of the housing, with the part that it belongs to.
+pub(crate) fn located(error: ReductionError, model: &HousingModel) -> StageError {
+    let dof = match error {
+        ReductionError::FloatingInterior { dof, .. } | ReductionError::SoftInterior { dof, .. } => {
+            dof
+        }
+        other => return other.into(),
+    };
+    let node = dof / model.dimension();
+    let mut elements = model.elements().iter();
+    let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
+    let part = of_node.and_then(|element| model.part_names().get(element.part));
+    match (part, model.node_tags.get(node)) {
+        (Some(part), Some(&tag)) => StageError::SoftPart {
+            part: part.clone(),
+            tag,
+            source: error,
+        },
+        _ => error.into(),
+    }
+}
+
+/// Adds what of the whole housing can move to the check that says that something can.
+///
+/// # Errors
+/// [`StageError::Modal`] for a mesh that is not the model's.
+pub(crate) fn name_mechanisms(
+    checks: &mut [Check],
+    stage: &CondensedStage,
+) -> Result<(), StageError> {
+    let Some(held) = checks
+        .iter_mut()
+        .find(|check| check.name == "held" && !check.ok())
+    else {
+        return Ok(());
+    };
+    let (mesh, model) = (&stage.housing.mesh, &stage.housing.model);
+    let found: Result<Mechanisms, ModalError> = match stage.boundary.ring() {
+        Some((ring, tie)) => Mechanisms::find_with_ring(mesh, model, tie, ring),
+        None => Mechanisms::find(mesh, model),
+    };
+    for sentence in unless_crumbs(found)?.map_or(Vec::new(), |found| found.sentences()) {
+        held.what = format!("{}; {sentence}", held.what);
+    }
+    Ok(())
+}

@@ -1,0 +1,137 @@
+//! Which mesh files a case rests on, told apart by their content.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::error::StageError;
+use super::watch::Watch;
+use crate::app::case::{Case, Housing};
+use crate::fe::mesh::{Mesh, MeshError};
+use crate::files;
+use crate::report::MeshFile;
+
+/// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeshDigest {
+    /// The file, as the case names it from where the program was called.
+    pub path: PathBuf,
+    /// 64 hexadecimal digits.
+    pub sha256: String,
+}
+
+impl MeshDigest {
+    /// The digest of a file.
+    ///
+    /// # Errors
+    /// What the system says when the file cannot be read.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        Ok(Self::of_hash(path, files::sha256(files::open(path)?)?))
+    }
+
+    /// The digest of a file's content that is at hand.
+    #[must_use]
+    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
+        let mut hasher = Sha256::new();
+        hasher.update(bytes);
+        Self::of_hash(path, hasher)
+    }
+
+    fn of_hash(path: &Path, hasher: Sha256) -> Self {
+        Self {
+            path: path.to_owned(),
+            sha256: files::hex(hasher),
+        }
+    }
+}
+
+impl From<&MeshDigest> for MeshFile {
+    fn from(digest: &MeshDigest) -> Self {
+        Self {
+            path: digest.path.display().to_string(),
+            hash: Some(format!("SHA-256 {}", digest.sha256)),
+        }
+    }
+}
+
+/// Reads the mesh of a housing and tells which content it had.
+///
+/// # Errors
+/// [`StageError::Mesh`].
+pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, StageError> {
+    let path = &housing.mesh;
+    let bytes = files::read(path).map_err(|cause| MeshError::Read {
+        path: path.clone(),
+        cause,
+    })?;
+    watch.read(&MeshDigest::of_bytes(path, &bytes));
+    Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
+}
+
+/// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a
+/// mesh.
+///
+/// # Errors
+/// [`StageError::Mesh`] for a file that cannot be read, [`StageError::Case`] for a variant that is no case.
+pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, StageError> {
+    let variants = case.variants()?;
+    let cases = std::iter::once(case).chain(variants.iter().map(|variant| &variant.case));
+    let housings = cases.filter_map(|case| case.housing.as_ref());
+    let others = case.modes.convergence.iter();
+    let others = others.flat_map(|convergence| &convergence.meshes);
+    let others = others.map(PathBuf::as_path);
+    let mut paths: Vec<&Path> = Vec::new();
+    for path in housings.map(|housing| housing.path()).chain(others) {
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    let digest = |path: &&Path| {
+        MeshDigest::of_file(path).map_err(|cause| {
+            let path = path.to_path_buf();
+            StageError::from(MeshError::Read { path, cause })
+        })
+    };
+    paths.iter().map(digest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::case::Source;
+
+    #[test]
+    fn every_mesh_is_told_once_by_its_standard_digest() {
+        let folder = tempfile::tempdir().unwrap();
+        // FIPS 180-4, examples of NIST: "abc", and the empty message
+        let (abc, empty) = (
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855",
+        );
+        std::fs::write(folder.path().join("a.msh"), "abc").unwrap();
+        std::fs::write(folder.path().join("b.msh"), "").unwrap();
+        let text = "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\n\
+            parts = [{ group = \"housing\", material = \"steel\" }]\n\
+            [modes]\nvariants = [{ what = \"softer\", set = [\"housing.parts[0].material=aluminium\"] }, \
+            { what = \"finer\", set = [\"housing.mesh=b.msh\"] }]\n";
+        let case = Case::from_source(Source {
+            path: folder.path().join("a.toml"),
+            text: text.to_owned(),
+            set: Vec::new(),
+        })
+        .unwrap();
+        let found = mesh_digests(&case).unwrap();
+        let expected = [("a.msh", abc), ("b.msh", empty)].map(|(name, sha256)| MeshDigest {
+            path: folder.path().join(name),
+            sha256: sha256.to_owned(),
+        });
+        assert_eq!(found, expected);
+        let file = MeshFile::from(&found[0]);
+        assert_eq!(file.hash, Some(format!("SHA-256 {abc}")));
+        std::fs::remove_file(folder.path().join("b.msh")).unwrap();
+        let error = mesh_digests(&case).unwrap_err().to_string();
+        assert!(error.contains("b.msh"), "{error}");
+    }
+}

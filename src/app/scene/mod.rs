@@ -1,0 +1,53 @@
+//! A checked case as domain objects: bearing, housing, ring, structure, modes.
+
+pub(crate) mod at_rest;
+pub(crate) mod bearing;
+pub(crate) mod bearing_defects;
+pub(crate) mod bearing_motion;
+pub(crate) mod condensed;
+pub(crate) mod contact_limits;
+pub(crate) mod damping;
+pub(crate) mod doubts;
+pub(crate) mod error;
+pub(crate) mod free_system;
+#[cfg(test)]
+mod free_system_tests;
+pub(crate) mod housing;
+pub(crate) mod import_error;
+pub(crate) mod imported;
+#[cfg(test)]
+mod imported_tests;
+pub(crate) mod kinematics;
+pub(crate) mod loaded_pass;
+pub(crate) mod loose;
+pub(crate) mod mesh_digest;
+pub(crate) mod modal_system;
+pub(crate) mod mode_set;
+pub(crate) mod places;
+pub(crate) mod reduced_interface;
+pub(crate) mod run_model;
+pub(crate) mod seat;
+pub(crate) mod statics;
+pub(crate) mod structure;
+pub(crate) mod survey;
+pub mod tie_price;
+pub(crate) mod watch;
+
+pub use at_rest::Scene;
+pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
+pub use condensed::{Boundary, CondensedStage};
+pub use doubts::{doubts, doubts_of_case};
+pub use error::StageError;
+pub use free_system::FreeSystem;
+pub use housing::HousingStage;
+pub use import_error::ImportError;
+pub use imported::ImportedHousing;
+pub use kinematics::Kinematics;
+pub use loaded_pass::{LoadedPass, LoadedPoint};
+pub use mesh_digest::{MeshDigest, mesh_digests};
+pub use reduced_interface::ReducedInterface;
+pub use run_model::RunModel;
+pub use statics::{PassPoint, Statics};
+pub use structure::StructureStage;
+pub use survey::{ModalSurvey, RingShapes};
+pub use watch::{Unwatched, Watch};

@@ -1,0 +1,135 @@
+//! Modes at points: those that were computed, and those of a file, for a comparison.
+
+use super::error::StageError;
+use super::survey::RingShapes;
+use crate::fe::mesh::Mesh;
+use crate::fe::modal::{ModalComparison, ModeSet};
+use crate::fe::model::HousingModel;
+use crate::formats::ModeShapes;
+use crate::numerics::linalg::DenseMatrix;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OwnModes<'a> {
+    /// Frequencies, Hz.
+    pub frequencies_hz: &'a [f64],
+    /// The housing with its displacements in the mesh's axes [dof x modes].
+    pub housing: Option<(&'a Mesh, &'a HousingModel, &'a DenseMatrix)>,
+    /// The ring.
+    pub ring: Option<&'a RingShapes>,
+}
+
+impl OwnModes<'_> {
+    /// Points and displacements in one list; labelled by the mesh's tags where no node of a ring is among them.
+    pub fn set(&self) -> ModeSet {
+        let mut points = Vec::new();
+        if let Some((mesh, ..)) = self.housing {
+            points.extend_from_slice(&mesh.nodes);
+        }
+        let nodes = points.len();
+        points.extend(self.ring.iter().flat_map(|ring| &ring.points));
+        let shapes =
+            DenseMatrix::from_fn(3 * points.len(), self.frequencies_hz.len(), |row, mode| {
+                let (point, axis) = (row / 3, row % 3);
+                match (self.housing, self.ring) {
+                    (Some((_, model, shapes)), _) if point < nodes => {
+                        let d = model.dimension();
+                        if axis < d {
+                            shapes[(d * point + axis, mode)]
+                        } else {
+                            0.0
+                        }
+                    }
+                    (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
+                    _ => 0.0,
+                }
+            });
+        let tags = match (self.housing, self.ring) {
+            (Some((mesh, ..)), None) => Some(mesh.node_tags.clone()),
+            _ => None,
+        };
+        ModeSet {
+            frequencies_hz: self.frequencies_hz.to_vec(),
+            points,
+            node_tags: tags,
+            shapes,
+        }
+    }
+}
+
+/// A mode that belongs to another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Partner {
+    /// Its frequency, Hz.
+    pub hz: f64,
+    /// Squared cosine of the largest angle between the two, or between the groups of repeated modes that they are in.
+    pub mac: f64,
+}
+
+/// What of `other` belongs to each mode of `own`: by shape, and repeated ones in their order within their group.
+pub(crate) fn partners(
+    own: &ModeSet,
+    other: &ModeSet,
+    found: &ModalComparison,
+) -> Vec<Option<Partner>> {
+    let mut partners = vec![None; own.frequencies_hz.len()];
+    for pair in &found.pairs {
+        // a group that the end of the list cuts off has its lowest modes here
+        let cut = pair.here.len() < pair.there.len() && pair.here.contains(&(partners.len() - 1));
+        if pair.here.len() != pair.there.len() && !cut {
+            continue;
+        }
+        let ascending = |modes: &[usize], hz: &[f64]| {
+            let mut modes = modes.to_vec();
+            modes.sort_by(|&a, &b| hz[a].total_cmp(&hz[b]));
+            modes
+        };
+        let here = ascending(&pair.here, &own.frequencies_hz);
+        let there = ascending(&pair.there, &other.frequencies_hz);
+        for (here, there) in here.into_iter().zip(there) {
+            partners[here] = Some(Partner {
+                hz: other.frequencies_hz[there],
+                mac: pair.mac,
+            });
+        }
+    }
+    partners
+}
+
+/// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
+///
+/// # Errors
+/// [`StageError::PointsUnknown`] if neither gives their places.
+pub(crate) fn placed(
+    file: &Path,
+    modes: &ModeShapes,
+    mesh: Option<&Mesh>,
+) -> Result<ModeSet, StageError> {
+    let unknown = |found| StageError::PointsUnknown {
+        file: file.to_owned(),
+        found,
+    };
+    // index in the file of each point, and where it is
+    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh)
+    {
+        (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),
+        (None, Some(tags), Some(mesh)) => {
+            let places: HashMap<u64, usize> = mesh.node_tags.iter().copied().zip(0..).collect();
+            let known = |(row, tag): (usize, &u64)| Some((row, mesh.nodes[*places.get(tag)?]));
+            tags.iter().enumerate().filter_map(known).unzip()
+        }
+        (None, Some(_), None) => return Err(unknown("node labels, and the case has no mesh")),
+        (None, None, _) => return Err(unknown("neither points nor node labels")),
+    };
+    let tags = modes.node_tags.as_ref();
+    Ok(ModeSet {
+        frequencies_hz: modes.frequencies_hz.clone(),
+        node_tags: tags.map(|tags| rows.iter().map(|&row| tags[row]).collect()),
+        shapes: DenseMatrix::from_fn(3 * rows.len(), modes.count_modes(), |row, mode| {
+            modes.shapes[mode][3 * rows[row / 3] + row % 3]
+        }),
+        points,
+    })
+}

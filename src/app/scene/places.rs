@@ -1,0 +1,341 @@
+//! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
+
+use super::condensed::{Boundary, CondensedStage};
+use super::error::StageError;
+use super::housing::HousingStage;
+use crate::app::case::{self, SensorSpot};
+use crate::fe::assembly::CoupledMatrices;
+use crate::fe::mesh::BoundingBox;
+use crate::fe::model::{Ring, RingFrame, RingTie};
+use crate::fe::reduction::CraigBampton;
+use std::fmt;
+
+/// Farthest that a node may be from a point, relative to the housing's size.
+const TOLERANCE: f64 = 0.02;
+
+/// Share of a direction that is round-off.
+const NOTHING: f64 = 1e-12;
+
+/// Part of a unit vector across a plane that numbers with six digits may leave.
+const ACROSS: f64 = 1e-6;
+
+/// What stands at a place, as messages call it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Named<'a> {
+    /// A sensor.
+    Sensor(&'a str),
+    /// A force.
+    Force(&'a str),
+}
+
+impl<'a> Named<'a> {
+    /// The name alone.
+    pub fn name(self) -> &'a str {
+        match self {
+            Self::Sensor(name) | Self::Force(name) => name,
+        }
+    }
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sensor(name) => write!(f, "sensor \"{name}\""),
+            Self::Force(name) => write!(f, "force \"{name}\""),
+        }
+    }
+}
+
+/// A displacement component at a place: pairs (degree of freedom, factor).
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Place {
+    /// Over the housing, in the displacements that the partition uses.
+    Housing(Vec<(usize, f64)>),
+    /// Over the ring.
+    Ring(Vec<(usize, f64)>),
+}
+
+/// The bodies of a case that a place may be on.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaceBodies<'a> {
+    pub housing: Option<&'a HousingStage>,
+    pub ring: Option<&'a Ring>,
+    pub tie: Option<&'a RingTie>,
+    /// Where the bearing sits in the axes that directions are given in.
+    pub frame: RingFrame,
+}
+
+impl<'a> PlaceBodies<'a> {
+    /// Those of a condensed housing.
+    pub fn of(stage: &'a CondensedStage) -> Self {
+        let ring = stage.boundary.ring();
+        Self {
+            housing: Some(&stage.housing),
+            ring: ring.map(|(ring, _)| ring),
+            tie: ring.map(|(_, tie)| tie),
+            frame: *stage.housing.model.frame(),
+        }
+    }
+}
+
+impl Place {
+    /// Where a sensor of a condensed housing is.
+    ///
+    /// # Errors
+    /// As [`Place::new`].
+    pub fn of_sensor(stage: &CondensedStage, sensor: &case::Sensor) -> Result<Self, StageError> {
+        let bodies = PlaceBodies::of(stage);
+        let name = Named::Sensor(&sensor.name);
+        Self::new(bodies, name, &sensor.spot, sensor.direction)
+    }
+
+    /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
+    ///
+    /// # Errors
+    /// [`StageError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names `name`.
+    pub fn new(
+        bodies: PlaceBodies<'_>,
+        name: Named<'_>,
+        spot: &SensorSpot,
+        direction: [f64; 3],
+    ) -> Result<Self, StageError> {
+        let needs_housing = |place: String| StageError::SensorNeedsHousing {
+            name: name.to_string(),
+            place,
+        };
+        let (nodes, housing) = match (spot, bodies.housing) {
+            (SensorSpot::RingDeg(degrees), _) => {
+                let ring = bodies.ring.ok_or_else(|| StageError::SensorNeedsRing {
+                    name: name.to_string(),
+                })?;
+                let direction = unit(bodies.frame.vector(direction));
+                if !ring.is_in_space() {
+                    in_plane(name, direction)?;
+                }
+                return Ok(Self::Ring(
+                    ring.displacement_row(degrees.to_radians(), direction),
+                ));
+            }
+            (SensorSpot::Recovered(row), _) => {
+                return Err(needs_housing(format!("row \"{row}\" of a superelement")));
+            }
+            (spot, Some(housing)) => (nodes_at(housing, name, spot)?, housing),
+            (SensorSpot::Group(group), None) => {
+                return Err(needs_housing(format!("group \"{group}\"")));
+            }
+            (SensorSpot::Point(_), None) => {
+                return Err(needs_housing("a point of the mesh".to_owned()));
+            }
+            (SensorSpot::Node(tag), None) => {
+                return Err(needs_housing(format!("node {tag} of the mesh")));
+            }
+        };
+        let direction = match housing.model.dimension() {
+            2 => in_plane(name, unit(direction))?,
+            _ => unit(direction),
+        };
+        let share = 1.0 / nodes.len() as f64;
+        let entries = nodes
+            .iter()
+            .flat_map(|&node| match bodies.tie {
+                Some(tie) => tie.displacement_row(&housing.model, node, direction),
+                None => housing.model.displacement_row(node, direction),
+            })
+            .map(|(dof, factor)| (dof, share * factor));
+        let entries: Vec<(usize, f64)> = entries.collect();
+        check_moves(housing, name, &entries)?;
+        Ok(Self::Housing(entries))
+    }
+
+    /// The row over the coordinates of a condensed housing \[order\], of which the interface is the ring if there is
+    /// one.
+    pub fn reduced(&self, condensed: &CraigBampton) -> Vec<f64> {
+        match self {
+            Self::Ring(_) => self.on_ring(condensed.superelement.order()),
+            Self::Housing(entries) => {
+                let mut row = vec![0.0; condensed.superelement.order()];
+                for &(dof, factor) in entries {
+                    // a fixed degree of freedom does not move: no row
+                    let parts = condensed.recovery_row(dof).into_iter().flatten();
+                    for (place, part) in parts.enumerate() {
+                        row[place] += factor * part;
+                    }
+                }
+                row
+            }
+        }
+    }
+
+    /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
+    pub fn on_housing(&self, dof: usize) -> Vec<f64> {
+        let mut row = vec![0.0; dof];
+        if let Self::Housing(entries) = self {
+            for &(at, factor) in entries {
+                row[at] += factor;
+            }
+        }
+        row
+    }
+
+    /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
+    pub fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
+        let mut row = vec![0.0; matrices.mass.rows()];
+        let ring = boundary.ring();
+        let first = row.len() - ring.map_or(0, |(ring, _)| ring.dof());
+        match self {
+            Self::Ring(entries) => {
+                for &(dof, factor) in entries {
+                    row[first + dof] += factor;
+                }
+            }
+            Self::Housing(entries) => {
+                let partition = boundary.partition();
+                for &(dof, factor) in entries {
+                    let driven = partition.driven.iter().position(|&at| at == dof);
+                    match (ring, driven) {
+                        (Some(_), Some(place)) => {
+                            for (column, entries) in partition.tie.outer_iterator().enumerate() {
+                                let share = entries.get(place).copied().unwrap_or(0.0);
+                                row[first + column] += factor * share;
+                            }
+                        }
+                        _ => row[dof] += factor,
+                    }
+                }
+            }
+        }
+        row
+    }
+
+    /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
+    pub fn on_ring(&self, order: usize) -> Vec<f64> {
+        let mut row = vec![0.0; order];
+        if let Self::Ring(entries) = self {
+            for &(dof, factor) in entries {
+                row[dof] += factor;
+            }
+        }
+        row
+    }
+}
+
+fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let length = (x * x + y * y + z * z).sqrt();
+    [x / length, y / length, z / length]
+}
+
+/// A unit vector that lies in the plane.
+fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], StageError> {
+    let [x, y, across] = direction;
+    if across.abs() > ACROSS {
+        return Err(StageError::SensorDirection {
+            name: name.to_string(),
+            across: (across * 1e6).round() / 1e6,
+        });
+    }
+    Ok([x, y, 0.0])
+}
+
+/// Something in a place's row can move.
+fn check_moves(
+    housing: &HousingStage,
+    name: Named<'_>,
+    entries: &[(usize, f64)],
+) -> Result<(), StageError> {
+    let model = &housing.model;
+    let d = model.dimension();
+    let mut holder = None;
+    for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
+        match model.fixed[dof / d][dof % d] {
+            Some(support) => holder = Some(&model.supports[support].group),
+            None => return Ok(()),
+        }
+    }
+    match holder {
+        None => Ok(()),
+        Some(support) => Err(StageError::SensorHeld {
+            name: name.to_string(),
+            support: support.clone(),
+        }),
+    }
+}
+
+/// Nodes of the mesh at a place; none at one on the ring.
+///
+/// # Errors
+/// [`StageError`] for a place that is not there.
+pub(crate) fn nodes_at(
+    housing: &HousingStage,
+    name: Named<'_>,
+    spot: &SensorSpot,
+) -> Result<Vec<usize>, StageError> {
+    match spot {
+        SensorSpot::Group(group) => of_group(housing, group),
+        SensorSpot::Point(point) => Ok(vec![nearest_node(housing, name, point)?]),
+        SensorSpot::Node(tag) => Ok(vec![tagged_node(housing, name, *tag)?]),
+        SensorSpot::RingDeg(_) | SensorSpot::Recovered(_) => Ok(Vec::new()),
+    }
+}
+
+fn of_group(housing: &HousingStage, group: &str) -> Result<Vec<usize>, StageError> {
+    let group = housing
+        .model
+        .group_on_housing(&housing.mesh, group, "the sensor")?;
+    let used = |node: &usize| housing.model.is_used(*node);
+    Ok(group.nodes.iter().copied().filter(used).collect())
+}
+
+fn tagged_node(housing: &HousingStage, name: Named<'_>, tag: u64) -> Result<usize, StageError> {
+    let place = housing
+        .model
+        .node_tags
+        .iter()
+        .position(|&found| found == tag);
+    place
+        .filter(|&node| housing.model.is_used(node))
+        .ok_or_else(|| StageError::SensorNode {
+            name: name.to_string(),
+            tag,
+            in_mesh: place.is_some(),
+        })
+}
+
+fn nearest_node(
+    housing: &HousingStage,
+    name: Named<'_>,
+    point: &[f64; 3],
+) -> Result<usize, StageError> {
+    let across = housing.model.dimension() == 3;
+    let distance = |node: &[f64; 3]| {
+        let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
+        if across {
+            plane.hypot(node[2] - point[2])
+        } else {
+            plane
+        }
+    };
+    let bounds = BoundingBox::of(housing.mesh.nodes.iter().copied()).extent();
+    let nodes = housing.mesh.nodes.iter().enumerate();
+    let mut found: Option<(usize, f64)> = None;
+    for (index, node) in nodes.filter(|(index, _)| housing.model.is_used(*index)) {
+        let nearer = |away: f64| found.is_none_or(|(_, least)| away < least);
+        // what is too far along x alone need not be measured
+        if nearer((node[0] - point[0]).abs()) {
+            let away = distance(node);
+            if nearer(away) {
+                found = Some((index, away));
+            }
+        }
+    }
+    let missed = |distance| StageError::SensorPlace {
+        name: name.to_string(),
+        point: *point,
+        distance,
+    };
+    let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;
+    if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
+        Ok(index)
+    } else {
+        Err(missed(away))
+    }
+}

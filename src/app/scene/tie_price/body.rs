@@ -1,0 +1,224 @@
+//! The ring of a case as a body of elements that stands for the beams: its section, its material, its elements.
+
+use super::reason::{NoTiePrice, Stop};
+use crate::app::case::{self, Case};
+use crate::app::scene::seat::Seat;
+use crate::app::scene::structure::layer;
+use crate::app::scene::{HousingStage, StageError};
+use crate::fe::element::continuum::PlaneAssumption;
+use crate::fe::material::{Material, RingLayer};
+use crate::fe::model::{PlaneModel, SolidRing};
+
+/// Gap between the rectangle's outer face and the bore that the joint may bridge, over the rectangle's height. A
+/// larger one is closed by moving the section.
+const LARGEST_GAP: f64 = 0.1;
+
+/// Farthest that the section is moved, over the radius of its centroid line: bending stiffness goes with the cube.
+const LARGEST_SHIFT: f64 = 0.1;
+
+/// Elements round the ring, least and most. With 64 Hex20 round a ring of the same proportions frequencies are within
+/// 1e-3 of three-dimensional elasticity (`rings_of_solids` among the verification cases).
+const AROUND: [usize; 2] = [64, 720];
+
+/// Elements round the ring over sqrt(R/h), least: curved quadratic elements of length l lock by about `(l^2 / (R h))^2 / 20`,
+/// which measured 1.7e-3 for 64 round a ring of R/h = 19.5 and is 1e-4 with this.
+const SHORT: f64 = 30.0;
+
+/// How much denser than the bore's the nodes of the ring's face are, so that it is the ring's that follow.
+const DENSER: f64 = 1.1;
+
+/// A solid ring in place of a ring of beams.
+#[derive(Debug, Clone)]
+pub(crate) struct RingBody {
+    /// Its mesh, to be.
+    pub ring: SolidRing,
+    /// What it is made of.
+    pub material: Material,
+    /// What the reader must know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl RingBody {
+    /// The rectangle with the section's area and second moment, with its outer face at the bore.
+    ///
+    /// # Errors
+    /// [`NoTiePrice`] for a ring that one rectangle cannot stand for; [`StageError`] of its material.
+    pub fn of(
+        case: &Case,
+        asked: &case::Ring,
+        tie: &case::Tie,
+        housing: &HousingStage,
+    ) -> Result<Self, Stop> {
+        let [section] = asked.sections.as_slice() else {
+            return Err(NoTiePrice::SeveralSections {
+                count: asked.sections.len(),
+            }
+            .into());
+        };
+        let layer = layer(case, section)?;
+        let [height, width] = layer.rectangle();
+        let bore = asked.outer_radius.unwrap_or(f64::NAN);
+        let mut notes = Vec::new();
+        let radius = placed(&layer, height, bore, &mut notes)?;
+        if layer_is_not_rectangular(&layer) && housing.model.dimension() == 3 {
+            notes.push(format!(
+                "The case gives the ring a second moment about its radial axis of {:.4e} m^4 and a torsion constant of {:.4e} m^4; the rectangle has {:.4e} and {:.4e} m^4.",
+                layer.out_of_plane_inertia(),
+                layer.torsion_constant(),
+                rectangular(&layer).out_of_plane_inertia(),
+                rectangular(&layer).torsion_constant(),
+            ));
+        }
+        if !asked.shear || !asked.rotary_inertia {
+            notes.push(
+                "The beams leave out shear or rotary inertia, which a body has: see the ring alone."
+                    .to_owned(),
+            );
+        }
+        let seat = Seat::of(&housing.mesh, &housing.model, tie)?;
+        if housing.model.dimension() == 3 && seat.share_outside(width) > 1e-6 {
+            notes.push(format!(
+                "The ring, {:.4e} m wide, reaches beyond the bore, whose nodes lie from {:.4e} to {:.4e} m along its axis.",
+                width, seat.from, seat.to
+            ));
+        }
+        let mut ring = SolidRing {
+            radius,
+            height,
+            width,
+            around: ((SHORT * (radius / height).sqrt()).ceil() as usize)
+                .clamp(AROUND[0], AROUND[1]),
+            across: even(height / width, 4),
+            along: even(width / height, 12),
+        };
+        seat.refine(&mut ring, housing.model.dimension());
+        if !asked.supports.is_empty() {
+            // a section at each node, for its spring
+            ring.around = ring.around.next_multiple_of(asked.nodes);
+        }
+        Ok(Self {
+            ring,
+            material: layer.material,
+            notes,
+        })
+    }
+
+    /// The material with which elements of the housing's plane model are those of a ring as wide as its section under
+    /// plane stress, as the beams are; in space the material itself.
+    ///
+    /// Stiffness and mass of a plane element go with E t and rho t, and with `E (1 + 2 nu) / (1 + nu)^2` and
+    /// `nu / (1 + nu)` plane strain is plane stress with E and nu (Timoshenko and Goodier, Theory of Elasticity, 3rd
+    /// ed., section 16).
+    ///
+    /// # Errors
+    /// [`StageError::Material`].
+    pub fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, StageError> {
+        let Some(plane) = plane else {
+            return Ok(self.material);
+        };
+        let Material {
+            young,
+            poisson,
+            density,
+            ..
+        } = self.material;
+        let (young, poisson) = match plane.assumption {
+            PlaneAssumption::Stress => (young, poisson),
+            PlaneAssumption::Strain => {
+                let more = 1.0 + poisson;
+                (young * (more + poisson) / more.powi(2), poisson / more)
+            }
+        };
+        let part = self.ring.width / plane.thickness;
+        Material::new(part * young, poisson, part * density).map_err(|source| {
+            StageError::Material {
+                name: "the solid ring's".to_owned(),
+                source,
+            }
+        })
+    }
+}
+
+/// An even number of elements for a side so many times as long as the other, `most` at most.
+fn even(sides: f64, most: usize) -> usize {
+    2 * ((sides / 2.0).ceil() as usize).clamp(1, most / 2)
+}
+
+/// Radius of the section's centroid line: its own, or one that brings the outer face to the bore.
+fn placed(
+    layer: &RingLayer,
+    height: f64,
+    bore: f64,
+    notes: &mut Vec<String>,
+) -> Result<f64, NoTiePrice> {
+    let gap = bore - (layer.radius + 0.5 * height);
+    let refused = NoTiePrice::Rectangle {
+        height_m: height,
+        outside_m: layer.radius + 0.5 * height,
+        bore_m: bore,
+    };
+    if gap.abs() <= LARGEST_GAP * height {
+        if gap.abs() > 1e-6 * bore {
+            let side = if gap > 0.0 { "inside" } else { "outside" };
+            notes.push(format!(
+                "The outer face of the rectangle lies {:.3e} m {side} the bore's radius; the joint bridges that as a rigid arm, as the beams' tie does.",
+                gap.abs()
+            ));
+        }
+        // also false for sizes that are no numbers
+        let hollow = layer.radius > 0.5 * height;
+        return if hollow {
+            Ok(layer.radius)
+        } else {
+            Err(refused)
+        };
+    }
+    let moved = layer.radius + gap;
+    let fits = gap.abs() <= LARGEST_SHIFT * layer.radius && moved > 0.5 * height;
+    if !fits {
+        return Err(refused);
+    }
+    let share = gap / layer.radius;
+    notes.push(format!(
+        "To bring the outer face of the rectangle to the bore, the solid ring's centroid line was moved by {gap:+.3e} m ({:+.2} %): EA and EI are the beams', EI/R^3 is {:+.2} % off.",
+        100.0 * share,
+        100.0 * ((1.0 + share).powi(-3) - 1.0),
+    ));
+    Ok(moved)
+}
+
+fn rectangular(layer: &RingLayer) -> RingLayer {
+    RingLayer {
+        axial_inertia: None,
+        torsion: None,
+        ..*layer
+    }
+}
+
+/// Whether what was given beyond area and second moment differs from the rectangle's by more than a thousandth.
+fn layer_is_not_rectangular(layer: &RingLayer) -> bool {
+    let own = rectangular(layer);
+    let differs = |a: f64, b: f64| (a / b - 1.0).abs() > 1e-3;
+    differs(layer.out_of_plane_inertia(), own.out_of_plane_inertia())
+        || differs(layer.torsion_constant(), own.torsion_constant())
+}
+
+impl Seat {
+    /// Makes the ring's face finer than the bore's, if it is not: the nodes of the finer one follow.
+    fn refine(&self, ring: &mut SolidRing, dimension: usize) {
+        let round = |sides: f64| (sides.ceil() as usize).clamp(AROUND[0], AROUND[1]);
+        if dimension != 3 {
+            // two nodes an edge
+            ring.around = ring.around.max(round(0.5 * DENSER * self.nodes as f64));
+            return;
+        }
+        // a face of Quad8 has three nodes to itself
+        let share = ring.width / (self.to - self.from).max(ring.width);
+        let needed = DENSER * self.nodes as f64 * share / 3.0;
+        let finer = (needed / (ring.around * ring.along) as f64).sqrt();
+        if finer > 1.0 {
+            ring.around = round(finer * ring.around as f64);
+            ring.along = 2 * (0.5 * finer * ring.along as f64).ceil() as usize;
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! The price of the tie: how much a rigid section in the bore raises the frequencies.
+//!
+//! The tie makes every point of the bore move with the ring's section at its angle, over the whole width of the bore. Here
+//! the ring is meshed as a body of the same section and material, joined to the bore over its own width, and both
+//! models are solved in full. The same ring alone, free, as beams and as a body, tells what part of the difference is
+//! the beams'.
+
+use super::body::RingBody;
+use super::points::{Points, beam_shapes, section_nodes};
+use super::reason::NoTiePrice;
+use super::reason::Stop;
+use crate::app::case::{self, Case};
+use crate::app::scene::housing::description;
+use crate::app::scene::modal_system::FullModes;
+use crate::app::scene::mode_set::{Partner, partners};
+use crate::app::scene::structure::{ring, ring_and_tie};
+use crate::app::scene::{HousingStage, StageError, Watch};
+use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
+use crate::fe::mesh::Mesh;
+use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
+use crate::fe::model::{
+    Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
+    PlaneModel, Ring, SpringStiffness, SupportShare,
+};
+use crate::numerics::linalg::DenseMatrix;
+use serde::Serialize;
+
+/// Elastic modes whose price is computed where nothing is said.
+pub const TIE_PRICE_MODES: usize = 10;
+
+/// Free degrees of freedom up to which a solid ring is affordable: a solid of 236 739 took 2.9 GiB (docs/performance.md).
+pub(crate) const LARGEST: usize = 250_000;
+
+/// Modes without strain that a ring in a free housing may have: six, and two if it slides.
+pub(crate) const RIGID: usize = 8;
+
+/// Modes sought beyond those asked for, least and as a part: their order may differ.
+pub(crate) const MORE: [usize; 2] = [4, 4];
+
+/// Stiffness of the radial springs of a sliding joint, in those of the ring's own height: E/h an area.
+pub(crate) const SLIDING: f64 = 1e3;
+
+/// The price of a tie, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TiePrice {
+    /// It was computed.
+    Computed(Box<TieComparison>),
+    /// It was not.
+    NotComputed(NoTiePrice),
+}
+
+/// A ring of beams that is tied to the bore against the same ring as a body that is joined to it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TieComparison {
+    /// The lowest elastic modes of housing and ring.
+    pub modes: Vec<BeamAndSolid>,
+    /// Modes without strain of both together, with the ring of beams and with the solid one.
+    pub rigid_modes: [usize; 2],
+    /// The lowest elastic modes of the ring alone, free: what differs here is the beams', not the tie's.
+    pub ring_alone: Vec<BeamAndSolid>,
+    /// Radius of the solid ring's centroid line, m.
+    pub radius_m: f64,
+    /// Radial side of its section, m.
+    pub height_m: f64,
+    /// Side of its section along the axis, m.
+    pub width_m: f64,
+    /// Its elements.
+    pub elements: usize,
+    /// Degrees of freedom that the modes were computed over, with the ring of beams and with the solid one.
+    pub free_dof: [usize; 2],
+    /// What the reader must know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A mode with the ring as beams and with the ring as a body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BeamAndSolid {
+    /// Index from 0 among the modes with beams, rigid ones included.
+    pub mode: usize,
+    /// Frequency with beams, Hz.
+    pub beams_hz: f64,
+    /// Frequency with the body, Hz; `None`: no mode there has this shape.
+    pub solid_hz: Option<f64>,
+    /// (beams - solid) / solid: positive if the beams and their tie are stiffer.
+    pub relative_difference: Option<f64>,
+    /// MAC of the shapes on the housing's own nodes and at the corners of the solid ring's sections, which the beams move
+    /// as rigid ones (of the ring alone: there alone); repeated modes as spaces.
+    pub mac: Option<f64>,
+}
+
+impl TieComparison {
+    /// Largest magnitude of the relative differences of housing and ring; `None` if no mode was recognised.
+    pub fn largest_difference(&self) -> Option<f64> {
+        largest(&self.modes)
+    }
+
+    /// The same of the ring alone: differences of this size say nothing of the tie.
+    pub fn floor(&self) -> Option<f64> {
+        largest(&self.ring_alone)
+    }
+}
+
+pub(crate) fn largest(modes: &[BeamAndSolid]) -> Option<f64> {
+    let differences = modes.iter().filter_map(|mode| mode.relative_difference);
+    differences.map(f64::abs).reduce(f64::max)
+}
+
+/// Computes the price of the tie of a case for its lowest `count` elastic modes.
+///
+/// # Errors
+/// [`StageError`] of the ring, the tie and the eigenvalue computations.
+pub fn tie_price(
+    case: &Case,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<TiePrice, StageError> {
+    match compared(case, housing, count, watch) {
+        Ok(comparison) => Ok(TiePrice::Computed(Box::new(comparison))),
+        Err(Stop::Reason(reason)) => Ok(TiePrice::NotComputed(reason)),
+        Err(Stop::Failed(error)) => Err(*error),
+    }
+}
+
+pub(crate) fn compared(
+    case: &Case,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<TieComparison, Stop> {
+    let both = case.ring.as_ref().zip(case.meshed_housing());
+    let Some((asked, asked_housing)) = both else {
+        return Err(NoTiePrice::NoTie.into());
+    };
+    let (ring, tie) = ring_and_tie(case, asked, Some(housing))?;
+    let (Some(tie), Some(asked_tie)) = (tie, &asked.tie) else {
+        return Err(NoTiePrice::NoTie.into());
+    };
+    watch.stage("solid ring");
+    let body = RingBody::of(case, asked, asked_tie, housing)?;
+    let description = description(case, asked_housing)?;
+    let plane = description.plane;
+    let (with_body, meshed) = joined(description, asked_tie, housing, &body, &ring)?;
+    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
+    let matrices = CoupledMatrices::new(&housing.matrices, &tie, &ring);
+    let mut beams = FullModes::lowest(matrices, sought, watch)?;
+    beams.sharpen(|motions, all| {
+        let of_ring = ring.strain_products(&motions.ring(all));
+        let of_housing = strain_products(&housing.model, &motions.housing(&housing.model, all))?;
+        Ok(of_housing + of_ring.beams + of_ring.springs)
+    })?;
+    let solid = modes_of(&with_body, sought, watch)?;
+    // the housing's own nodes come first in both, and the ring's after them
+    let of_housing = beams
+        .motions
+        .housing(&housing.model, &beams.over_all_rows());
+    let of_ring = beams.motions.ring(&beams.over_all_rows());
+    let of_solid = solid.motions.housing(&with_body, &solid.over_all_rows());
+    let nodes = housing.mesh.nodes.len();
+    let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
+    let frame = housing.model.frame();
+    let dimension = housing.model.dimension();
+    let carried = beam_shapes(&ring, frame, &of_ring, &points.places[nodes..]);
+    let of_beams =
+        DenseMatrix::from_fn(
+            3 * points.nodes.len(),
+            of_ring.ncols(),
+            |row, mode| match row.checked_sub(3 * nodes) {
+                Some(row) => carried[(row, mode)],
+                None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
+                None => 0.0,
+            },
+        );
+    let sets = [
+        points.set(&beams, of_beams),
+        points.set(&solid, points.shapes(&of_solid, dimension)),
+    ];
+    let mut notes = body.notes.clone();
+    notes.extend(note_of_fit(asked_tie.fit));
+    if ring.has_springs() {
+        notes.push(
+            "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes."
+                .to_owned(),
+        );
+    }
+    Ok(TieComparison {
+        modes: side_by_side(&sets, beams.basis.rigid_modes, count)?,
+        rigid_modes: [beams.basis.rigid_modes, solid.basis.rigid_modes],
+        ring_alone: ring_alone(case, asked, &body, plane, housing, count, watch)?,
+        radius_m: body.ring.radius,
+        height_m: body.ring.height,
+        width_m: body.ring.width,
+        elements: body.ring.elements(housing.model.dimension()),
+        free_dof: [beams.free_dof(), solid.free_dof()],
+        notes,
+    })
+}
+
+pub(crate) fn note_of_fit(fit: case::Fit) -> Option<String> {
+    (fit == case::Fit::Sliding).then(|| {
+        format!("The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height.")
+    })
+}
+
+/// The housing with the solid ring in its bore.
+pub(crate) fn joined(
+    description: HousingDescription,
+    tie: &case::Tie,
+    housing: &HousingStage,
+    body: &RingBody,
+    ring: &Ring,
+) -> Result<(HousingModel, MeshedRing), Stop> {
+    let HousingStage { mesh, model, .. } = housing;
+    let dimension = model.dimension();
+    let meshed = body.ring.added_to(mesh, model.frame(), dimension);
+    let mut description = description;
+    description.parts.push(HousingPart {
+        group: meshed.body.clone(),
+        material: body.material_in(description.plane)?.into(),
+    });
+    let outside = body.ring.radius + 0.5 * body.ring.height;
+    let area = std::f64::consts::TAU * outside * body.ring.width;
+    let connection = match tie.fit {
+        case::Fit::Bonded => Connection::Tie,
+        case::Fit::Sliding => {
+            let stiffness = SLIDING * body.material.young / body.ring.height * area;
+            Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
+        }
+    };
+    // the rectangle may reach into the housing by a small part of its height
+    description.overlap = OverlapRule::Allow;
+    description.links.push(Link {
+        between: [meshed.outer_face.clone(), tie.group.clone()],
+        connection,
+    });
+    let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(Stop::of_joint)?;
+    with_body
+        .attach_ring_springs(&meshed, ring)
+        .map_err(Stop::of_joint)?;
+    affordable(with_body.free_dofs().len())?;
+    Ok((with_body, meshed))
+}
+
+pub(crate) fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
+    match free_dof <= LARGEST {
+        true => Ok(()),
+        false => Err(NoTiePrice::TooLarge {
+            free_dof,
+            limit: LARGEST,
+        }),
+    }
+}
+
+/// The lowest modes of a model of continuum elements.
+pub(crate) fn modes_of(
+    model: &HousingModel,
+    sought: usize,
+    watch: &impl Watch,
+) -> Result<FullModes, StageError> {
+    let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
+    let mut modes = FullModes::lowest(matrices, sought, watch)?;
+    modes.sharpen(|motions: &CoupledMotions, all: &DenseMatrix| {
+        Ok(strain_products(model, &motions.housing(model, all))?)
+    })?;
+    Ok(modes)
+}
+
+/// The ring alone and free, as beams and as a body.
+pub(crate) fn ring_alone(
+    case: &Case,
+    asked: &case::Ring,
+    body: &RingBody,
+    plane: Option<PlaneModel>,
+    housing: &HousingStage,
+    count: usize,
+    watch: &impl Watch,
+) -> Result<Vec<BeamAndSolid>, StageError> {
+    let in_space = plane.is_none();
+    let free = case::Ring {
+        supports: Vec::new(),
+        ..asked.clone()
+    };
+    let beams = ring(case, &free, in_space)?;
+    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
+    let mut of_beams = FullModes::lowest(CoupledMatrices::of_ring(&beams), sought, watch)?;
+    of_beams.sharpen(|_, all| {
+        let strain = beams.strain_products(all);
+        Ok(strain.beams + strain.springs)
+    })?;
+    let dimension = if in_space { 3 } else { 2 };
+    let frame = housing.model.frame();
+    let nothing = Mesh {
+        nodes: Vec::new(),
+        node_tags: Vec::new(),
+        blocks: Vec::new(),
+        groups: Vec::new(),
+        format: housing.mesh.format,
+        source: "solid ring".into(),
+    };
+    let meshed = body.ring.added_to(&nothing, frame, dimension);
+    let model = HousingModel::new(
+        &meshed.mesh,
+        HousingDescription {
+            parts: vec![HousingPart {
+                group: meshed.body.clone(),
+                material: body.material_in(plane)?.into(),
+            }],
+            plane,
+            frame: *frame,
+            ..HousingDescription::default()
+        },
+    )?;
+    let solid = modes_of(&model, sought, watch)?;
+    let moved = solid.motions.housing(&model, &solid.over_all_rows());
+    let points = Points::new(&meshed, section_nodes(&meshed));
+    let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
+    let sets = [
+        points.set(&of_beams, on_beams),
+        points.set(&solid, points.shapes(&moved, dimension)),
+    ];
+    side_by_side(&sets, of_beams.basis.rigid_modes, count)
+}
+
+/// The first `count` elastic modes of the first set with what belongs to them in the second.
+pub(crate) fn side_by_side(
+    [beams, solid]: &[ModeSet; 2],
+    rigid: usize,
+    count: usize,
+) -> Result<Vec<BeamAndSolid>, StageError> {
+    let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
+    let partners = partners(beams, solid, &found);
+    let elastic = partners.iter().enumerate().skip(rigid).take(count);
+    let row = |(mode, &partner): (usize, &Option<Partner>)| {
+        let beams_hz = beams.frequencies_hz[mode];
+        BeamAndSolid {
+            mode,
+            beams_hz,
+            solid_hz: partner.map(|partner| partner.hz),
+            relative_difference: partner.map(|partner| beams_hz / partner.hz - 1.0),
+            mac: partner.map(|partner| partner.mac),
+        }
+    };
+    Ok(elastic.map(row).collect())
+}

@@ -1,0 +1,22 @@
+//! Where a computation tells how far it is.
+
+use super::mesh_digest::MeshDigest;
+
+/// Where a computation tells how far it is.
+pub trait Watch {
+    /// A stage begins.
+    fn stage(&self, name: &str);
+    /// Part of the stage that is done, 0 to 1; the first is where it begins.
+    fn fraction(&self, done: f64);
+    /// A mesh was read, and this was its content.
+    fn read(&self, _file: &MeshDigest) {}
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn stage(&self, _name: &str) {}
+    fn fraction(&self, _done: f64) {}
+}
