@@ -1,18 +1,18 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
+use super::boundary::Boundary;
+use super::dof_labels::{of_housing, of_ring};
 use super::error::StageError;
-use super::free_system::{of_housing, of_ring};
 use super::housing::HousingStage;
 use super::loose::{check_interior, located};
-use super::structure::ring_and_tie;
+use super::places::{Named, Place, PlaceBodies};
+use super::ring::ring_and_tie;
 use super::watch::Watch;
-use crate::app::case::{Case, FixedInterfaceModes, Interface};
+use crate::app::case::{Case, FixedInterfaceModes, Interface, Sensor};
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{rigid_motions, ring_motions};
-use crate::fe::model::{HousingPartition, NodeInterface, Ring, RingTie};
-use crate::fe::reduction::{
-    Attached, BasisChoice, BasisSize, CraigBampton, RigidMotions, craig_bampton,
-};
+use crate::fe::model::NodeInterface;
+use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, RigidMotions, craig_bampton};
 use crate::formats::DofLabel;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
 use std::borrow::Cow;
@@ -35,15 +35,6 @@ pub struct CondensedStage {
     pub choice: BasisChoice,
     /// The condensed housing.
     pub condensed: CraigBampton,
-}
-
-/// What a housing is attached by.
-#[derive(Debug, Clone)]
-pub enum Boundary {
-    /// A ring through its tie.
-    Ring(Box<(Ring, RingTie)>),
-    /// Nodes of the mesh themselves.
-    Nodes(NodeInterface),
 }
 
 impl CondensedStage {
@@ -154,6 +145,26 @@ impl CondensedStage {
         Ok(self.with_structural())
     }
 
+    /// The bodies that a place may be on.
+    pub(crate) fn bodies(&self) -> PlaceBodies<'_> {
+        let ring = self.boundary.ring();
+        PlaceBodies {
+            housing: Some(&self.housing),
+            ring: ring.map(|(ring, _)| ring),
+            tie: ring.map(|(_, tie)| tie),
+            frame: *self.housing.model.frame(),
+        }
+    }
+
+    /// Where a sensor is.
+    ///
+    /// # Errors
+    /// As [`Place::new`].
+    pub(crate) fn place_of(&self, sensor: &Sensor) -> Result<Place, StageError> {
+        let name = Named::Sensor(&sensor.name);
+        Place::new(self.bodies(), name, &sensor.spot, sensor.direction)
+    }
+
     /// Labels of the interface coordinates, in the axes that they are measured in.
     pub fn interface_labels(&self) -> Vec<DofLabel> {
         match &self.boundary {
@@ -206,44 +217,6 @@ impl CondensedStage {
         match self.boundary.ring() {
             Some((ring, tie)) => CoupledMatrices::new(matrices, tie, ring),
             None => CoupledMatrices::of_housing(matrices.clone(), model),
-        }
-    }
-}
-
-impl Boundary {
-    /// How the housing's degrees of freedom are split.
-    pub fn partition(&self) -> &HousingPartition {
-        match self {
-            Self::Ring(bodies) => bodies.1.partition(),
-            Self::Nodes(nodes) => &nodes.partition,
-        }
-    }
-
-    fn matrices<'h>(&self, housing: &'h HousingStage) -> Cow<'h, SystemMatrices> {
-        match self.ring() {
-            Some((_, tie)) if tie.rotation().is_some() => {
-                Cow::Owned(housing.matrices.clone().for_tie(tie))
-            }
-            _ => Cow::Borrowed(&housing.matrices),
-        }
-    }
-
-    /// What sits on the interface.
-    pub fn attached(&self) -> Option<Attached<'_>> {
-        match self {
-            Self::Ring(bodies) => Some(Attached {
-                stiffness: bodies.0.stiffness(),
-                mass: bodies.0.mass(),
-            }),
-            Self::Nodes(_) => None,
-        }
-    }
-
-    /// Ring and tie, if that is what it is.
-    pub fn ring(&self) -> Option<(&Ring, &RingTie)> {
-        match self {
-            Self::Ring(bodies) => Some((&bodies.0, &bodies.1)),
-            Self::Nodes(_) => None,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! A superelement from a file in the housing's place.
 
+use super::dof_labels::of_ring;
 use super::error::StageError;
-use super::free_system::of_ring;
 use super::import_error::ImportError;
 use super::places::{Named, Place, PlaceBodies};
-use super::structure::ring;
+use super::ring::ring;
 use crate::app::case::{self, Case, SensorSpot};
 use crate::fe::model::{Ring, RingFrame};
 use crate::fe::reduction::{Check, Superelement, check_matrices};

@@ -1,9 +1,8 @@
 //! What of a housing can still move, in the mesh's words: a condensation that cannot be made names the part.
 
-use super::condensed::{Boundary, CondensedStage};
+use super::boundary::Boundary;
 use super::error::StageError;
 use super::housing::HousingStage;
-use super::survey::unless_crumbs;
 use crate::fe::modal::{Mechanisms, ModalError};
 use crate::fe::model::HousingModel;
 use crate::fe::reduction::{Check, ReductionError};
@@ -24,7 +23,7 @@ pub(crate) fn check_interior(
     let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
     let found =
         Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
-    match unless_crumbs(found)? {
+    match unless_too_many_bodies(found)? {
         Some(found) if found.total() > 0 => Err(StageError::LooseInterior {
             what: found.sentences(),
         }),
@@ -60,7 +59,8 @@ pub(crate) fn located(error: ReductionError, model: &HousingModel) -> StageError
 /// [`StageError::Modal`] for a mesh that is not the model's.
 pub(crate) fn name_mechanisms(
     checks: &mut [Check],
-    stage: &CondensedStage,
+    housing: &HousingStage,
+    boundary: &Boundary,
 ) -> Result<(), StageError> {
     let Some(held) = checks
         .iter_mut()
@@ -68,13 +68,24 @@ pub(crate) fn name_mechanisms(
     else {
         return Ok(());
     };
-    let (mesh, model) = (&stage.housing.mesh, &stage.housing.model);
-    let found: Result<Mechanisms, ModalError> = match stage.boundary.ring() {
+    let (mesh, model) = (&housing.mesh, &housing.model);
+    let found: Result<Mechanisms, ModalError> = match boundary.ring() {
         Some((ring, tie)) => Mechanisms::find_with_ring(mesh, model, tie, ring),
         None => Mechanisms::find(mesh, model),
     };
-    for sentence in unless_crumbs(found)?.map_or(Vec::new(), |found| found.sentences()) {
+    for sentence in unless_too_many_bodies(found)?.map_or(Vec::new(), |found| found.sentences()) {
         held.what = format!("{}; {sentence}", held.what);
     }
     Ok(())
+}
+
+/// A mesh in too many bodies is worth no error where only reasons were asked for.
+pub(crate) fn unless_too_many_bodies(
+    found: Result<Mechanisms, ModalError>,
+) -> Result<Option<Mechanisms>, ModalError> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(ModalError::TooManyBodies { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
 }

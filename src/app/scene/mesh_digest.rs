@@ -3,24 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::error::StageError;
-use super::watch::Watch;
+use super::watch::{MeshDigest, Watch};
 use crate::app::case::{Case, Housing};
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::files;
 use crate::report::MeshFile;
-
-/// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MeshDigest {
-    /// The file, as the case names it from where the program was called.
-    pub path: PathBuf,
-    /// 64 hexadecimal digits.
-    pub sha256: String,
-}
 
 impl MeshDigest {
     /// The digest of a file.

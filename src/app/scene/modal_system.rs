@@ -2,11 +2,9 @@
 
 use super::error::StageError;
 use super::housing::HousingStage;
-use super::mode_set::OwnModes;
-use super::structure::StructureStage;
-use super::structure::ring_and_tie;
-use super::survey::RingShapes;
-use super::watch::{Unwatched, Watch};
+use super::mode_set::{OwnModes, RingShapes};
+use super::ring::ring_and_tie;
+use super::watch::Watch;
 use crate::app::case::{Case, ModeExtent};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions};
 use crate::fe::mesh::Mesh;
@@ -207,42 +205,6 @@ impl FullModes {
     pub fn over_all_rows(&self) -> DenseMatrix {
         scattered_rows(&self.basis.shapes, &self.free, self.rows)
     }
-}
-
-/// Frequencies of a ring, in a housing if the case has one, in full: nothing condensed, nothing analysed.
-///
-/// # Errors
-/// [`StageError`] of eigenvalue computation.
-pub(crate) fn unloaded_modes(
-    stage: &StructureStage,
-    extent: ModeExtent,
-) -> Result<UnloadedModes, StageError> {
-    let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
-    Ok(UnloadedModes {
-        frequencies_hz: basis.frequencies_hz,
-        rigid: basis.rigid_modes,
-    })
-}
-
-/// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
-pub(crate) fn matrices_of(stage: &StructureStage) -> CoupledMatrices {
-    let structure = &stage.structure;
-    let ring = structure.ring();
-    match (&stage.housing, &stage.tie) {
-        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
-        _ if stage.imported.is_some() => {
-            CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
-        }
-        _ => CoupledMatrices::of_ring(ring),
-    }
-}
-
-/// Frequencies of a model in full.
-pub(crate) struct UnloadedModes {
-    /// Ascending, Hz.
-    pub frequencies_hz: Vec<f64>,
-    /// How many of the first ones are rigid.
-    pub rigid: usize,
 }
 
 fn range(extent: ModeExtent, free_dof: usize) -> ModeRange {

@@ -1,10 +1,9 @@
 //! Modes at points: those that were computed, and those of a file, for a comparison.
 
 use super::error::StageError;
-use super::survey::RingShapes;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ModalComparison, ModeSet};
-use crate::fe::model::HousingModel;
+use crate::fe::model::{HousingModel, Ring, RingFrame};
 use crate::formats::ModeShapes;
 use crate::numerics::linalg::DenseMatrix;
 use std::collections::HashMap;
@@ -132,4 +131,31 @@ pub(crate) fn placed(
         }),
         points,
     })
+}
+
+/// Displacements of a ring's nodes in the mesh's axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RingShapes {
+    /// The nodes, m.
+    pub points: Vec<[f64; 3]>,
+    /// Displacements, by mode and node.
+    pub displacements: Vec<Vec<[f64; 3]>>,
+}
+
+impl RingShapes {
+    pub(crate) fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
+        let points = (0..ring.nodes()).map(|node| frame.point_to_mesh(ring.node_position(node)));
+        let displacements = (0..shapes.ncols())
+            .map(|mode| {
+                let shape = shapes.col_as_slice(mode);
+                (0..ring.nodes())
+                    .map(|node| frame.vector_to_mesh(ring.node_displacement(node, shape)))
+                    .collect()
+            })
+            .collect();
+        Self {
+            points: points.collect(),
+            displacements,
+        }
+    }
 }

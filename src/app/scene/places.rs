@@ -1,9 +1,9 @@
 //! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
 
-use super::condensed::{Boundary, CondensedStage};
+use super::boundary::Boundary;
 use super::error::StageError;
 use super::housing::HousingStage;
-use crate::app::case::{self, SensorSpot};
+use crate::app::case::SensorSpot;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::BoundingBox;
 use crate::fe::model::{Ring, RingFrame, RingTie};
@@ -65,30 +65,7 @@ pub(crate) struct PlaceBodies<'a> {
     pub frame: RingFrame,
 }
 
-impl<'a> PlaceBodies<'a> {
-    /// Those of a condensed housing.
-    pub fn of(stage: &'a CondensedStage) -> Self {
-        let ring = stage.boundary.ring();
-        Self {
-            housing: Some(&stage.housing),
-            ring: ring.map(|(ring, _)| ring),
-            tie: ring.map(|(_, tie)| tie),
-            frame: *stage.housing.model.frame(),
-        }
-    }
-}
-
 impl Place {
-    /// Where a sensor of a condensed housing is.
-    ///
-    /// # Errors
-    /// As [`Place::new`].
-    pub fn of_sensor(stage: &CondensedStage, sensor: &case::Sensor) -> Result<Self, StageError> {
-        let bodies = PlaceBodies::of(stage);
-        let name = Named::Sensor(&sensor.name);
-        Self::new(bodies, name, &sensor.spot, sensor.direction)
-    }
-
     /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
     ///
     /// # Errors

@@ -1,16 +1,15 @@
 //! Ring and condensed housing of a case in one structure, with its sensors and modes.
 
-use super::condensed::{Boundary, CondensedStage, basis_choice};
+use super::boundary::Boundary;
+use super::condensed::{CondensedStage, basis_choice};
 use super::error::StageError;
 use super::housing::HousingStage;
-use super::housing::material;
 use super::imported::ImportedHousing;
 use super::places::{Named, Place, PlaceBodies};
+use super::ring::ring;
 use super::watch::Watch;
 use crate::app::case::{self, Case, Interface, ModesKept};
-use crate::fe::element::curved_beam::RingInterpolation;
-use crate::fe::material::{BeamSection, Bond, RadiusRule, RingLayer};
-use crate::fe::model::{Fit, Ring, RingFrame, RingSupport, RingTie, SpringShare};
+use crate::fe::model::{RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
 use crate::system::{Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
@@ -127,7 +126,7 @@ impl StructureStage {
         };
         let mut rows = Vec::with_capacity(case.sensors.len());
         for sensor in &case.sensors {
-            rows.push(Place::of_sensor(&stage, sensor)?.reduced(&stage.condensed));
+            rows.push(stage.place_of(sensor)?.reduced(&stage.condensed));
         }
         let complete_hz = stage.condensed.basis.complete_below().sqrt() / TAU;
         let CondensedStage {
@@ -228,86 +227,4 @@ fn add_sensors(
         })?;
     }
     Ok(())
-}
-
-/// The ring of a case, and how it sits in its housing if it does.
-///
-/// # Errors
-/// [`StageError`] of the ring and of the tie.
-pub(crate) fn ring_and_tie(
-    case: &Case,
-    asked: &case::Ring,
-    housing: Option<&HousingStage>,
-) -> Result<(Ring, Option<RingTie>), StageError> {
-    let in_space = housing.is_some_and(|housing| housing.model.dimension() == 3);
-    let ring = ring(case, asked, in_space)?;
-    let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
-        return Ok((ring, None));
-    };
-    let fit = match tie.fit {
-        case::Fit::Bonded => Fit::Bonded,
-        case::Fit::Sliding => Fit::Sliding,
-    };
-    // a tie without an outer radius was refused with the case
-    let outer = asked.outer_radius.unwrap_or(f64::NAN);
-    let tie = RingTie::new(&housing.mesh, &housing.model, &tie.group, &ring, outer, fit)?;
-    Ok((ring, Some(tie)))
-}
-
-/// A section of a ring as it is asked for.
-///
-/// # Errors
-/// [`StageError::Material`].
-pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, StageError> {
-    Ok(RingLayer {
-        material: material(case, &section.material)?,
-        area: section.area,
-        inertia: section.inertia,
-        axial_inertia: section.axial_inertia,
-        torsion: section.torsion,
-        radius: section.radius,
-        shear_coefficient: section.shear_coefficient,
-    })
-}
-
-/// The ring of a case with its supports; in space for a solid housing.
-pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, StageError> {
-    let layers = asked.sections.iter().map(|section| layer(case, section));
-    let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
-    let bond = match (asked.bond, asked.radius_rule) {
-        (case::Bond::Composite, _) => Bond::Composite,
-        (case::Bond::Slip, case::RadiusRule::Own) => Bond::Slip(RadiusRule::Own),
-        (case::Bond::Slip, case::RadiusRule::CommonCentroid) => {
-            Bond::Slip(RadiusRule::CommonCentroid)
-        }
-    };
-    let mut section = BeamSection::combine(&layers, bond)?;
-    if !asked.shear {
-        section = section.without_shear();
-    }
-    if !asked.rotary_inertia {
-        section = section.without_rotary_inertia();
-    }
-    let interpolation = match asked.element {
-        case::RingElement::ExactArc => RingInterpolation::ExactArc,
-        case::RingElement::Raveendranath => RingInterpolation::Raveendranath,
-    };
-    let mut ring = if in_space {
-        Ring::in_space(asked.nodes, section, interpolation)?
-    } else {
-        Ring::new(asked.nodes, section, interpolation)?
-    };
-    for support in &asked.supports {
-        ring.add_support(&RingSupport {
-            from: support.from_deg.to_radians(),
-            to: support.to_deg.to_radians(),
-            spring: [support.spring.x, support.spring.y, support.spring.z],
-            share: match support.per {
-                case::PerNodeOrTotal::Node => SpringShare::PerNode,
-                case::PerNodeOrTotal::Total => SpringShare::Total,
-            },
-            offset: support.offset,
-        })?;
-    }
-    Ok(ring)
 }

@@ -2,14 +2,16 @@
 
 use super::error::StageError;
 use super::housing::HousingStage;
-use super::modal_system::{FullModes, matrices_of};
+use super::loose::unless_too_many_bodies;
+use super::modal_system::FullModes;
+use super::mode_set::RingShapes;
 use super::structure::StructureStage;
-use super::watch::Watch;
+use super::watch::{Unwatched, Watch};
 use crate::app::case::ModeExtent;
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, Participation, rigid_motions,
+    EnergyShares, MassProperties, Mechanisms, ModalBasis, Participation, rigid_motions,
     ring_motions, strain_products,
 };
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
@@ -38,15 +40,6 @@ pub struct ModalSurvey {
     pub housing: Option<DenseMatrix>,
     /// How the ring moves.
     pub ring: Option<RingShapes>,
-}
-
-/// Displacements of a ring's nodes in the mesh's axes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RingShapes {
-    /// The nodes, m.
-    pub points: Vec<[f64; 3]>,
-    /// Displacements, by mode and node.
-    pub displacements: Vec<Vec<[f64; 3]>>,
 }
 
 impl ModalSurvey {
@@ -78,7 +71,7 @@ impl ModalSurvey {
         let shares = several
             .then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes))
             .transpose()?;
-        let mechanisms = unless_crumbs(Mechanisms::find(mesh, model))?;
+        let mechanisms = unless_too_many_bodies(Mechanisms::find(mesh, model))?;
         Ok(Self {
             dof: model.dof(),
             free_dof: modes.free_dof(),
@@ -166,7 +159,8 @@ impl ModalSurvey {
         let of_ring = modes.motions.ring(&all);
         let rigid_modes = modes.basis.rigid_modes;
         let shares = EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, rigid_modes)?;
-        let mechanisms = unless_crumbs(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
+        let mechanisms =
+            unless_too_many_bodies(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
         Ok(Self {
             dof: model.dof() + ring.dof(),
             free_dof: modes.free_dof(),
@@ -210,35 +204,42 @@ impl ModalSurvey {
     }
 }
 
-/// A mesh in too many bodies is worth no error where only reasons were asked for.
-pub(crate) fn unless_crumbs(
-    found: Result<Mechanisms, ModalError>,
-) -> Result<Option<Mechanisms>, ModalError> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(ModalError::TooManyBodies { .. }) => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
-impl RingShapes {
-    pub(crate) fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
-        let points = (0..ring.nodes()).map(|node| frame.point_to_mesh(ring.node_position(node)));
-        let displacements = (0..shapes.ncols())
-            .map(|mode| {
-                let shape = shapes.col_as_slice(mode);
-                (0..ring.nodes())
-                    .map(|node| frame.vector_to_mesh(ring.node_displacement(node, shape)))
-                    .collect()
-            })
-            .collect();
-        Self {
-            points: points.collect(),
-            displacements,
-        }
-    }
-}
-
 fn centroid(mass: &MassProperties) -> [f64; 3] {
     mass.centroid().map(|component| component.unwrap_or(0.0))
+}
+
+/// Frequencies of a ring, in a housing if the case has one, in full: nothing condensed, nothing analysed.
+///
+/// # Errors
+/// [`StageError`] of eigenvalue computation.
+pub(crate) fn unloaded_modes(
+    stage: &StructureStage,
+    extent: ModeExtent,
+) -> Result<UnloadedModes, StageError> {
+    let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
+    Ok(UnloadedModes {
+        frequencies_hz: basis.frequencies_hz,
+        rigid: basis.rigid_modes,
+    })
+}
+
+/// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
+pub(crate) fn matrices_of(stage: &StructureStage) -> CoupledMatrices {
+    let structure = &stage.structure;
+    let ring = structure.ring();
+    match (&stage.housing, &stage.tie) {
+        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
+        _ if stage.imported.is_some() => {
+            CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
+        }
+        _ => CoupledMatrices::of_ring(ring),
+    }
+}
+
+/// Frequencies of a model in full.
+pub(crate) struct UnloadedModes {
+    /// Ascending, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// How many of the first ones are rigid.
+    pub rigid: usize,
 }

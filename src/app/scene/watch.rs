@@ -1,6 +1,8 @@
 //! Where a computation tells how far it is.
 
-use super::mesh_digest::MeshDigest;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
 
 /// Where a computation tells how far it is.
 pub trait Watch {
@@ -19,4 +21,13 @@ pub struct Unwatched;
 impl Watch for Unwatched {
     fn stage(&self, _name: &str) {}
     fn fraction(&self, _done: f64) {}
+}
+
+/// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeshDigest {
+    /// The file, as the case names it from where the program was called.
+    pub path: PathBuf,
+    /// 64 hexadecimal digits.
+    pub sha256: String,
 }

@@ -112,7 +112,7 @@ pub fn compute_condense(
         }
         None => check_craig_bampton(&stage.condensed, &matrices, &rigid, band_hz)?,
     };
-    name_mechanisms(&mut checks, &stage)?;
+    name_mechanisms(&mut checks, &stage.housing, &stage.boundary)?;
     checks.push(estimated_error(&estimate, case.target()));
     let (mut full, mut price) = (None, None);
     if comparison == Comparison::Full {

@@ -81,7 +81,7 @@ impl Coordinates<'_> {
             .sensors
             .iter()
             .map(|sensor| {
-                let place = Place::of_sensor(stage, sensor)?;
+                let place = stage.place_of(sensor)?;
                 Ok(SensorRow {
                     name: sensor.name.clone(),
                     row: self.row(&place),

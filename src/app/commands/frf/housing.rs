@@ -2,7 +2,7 @@
 
 use crate::app::case::{self, Case};
 use crate::app::scene::CondensedStage;
-use crate::app::scene::places::{Named, Place, PlaceBodies};
+use crate::app::scene::places::{Named, Place};
 use crate::app::scene::{ImportedHousing, StageError};
 use crate::fe::model::Ring;
 use crate::fe::reduction::{Attached, Superelement};
@@ -81,7 +81,7 @@ pub(crate) fn places<'c>(
     stage: &CondensedStage,
     spots: impl Iterator<Item = Spot<'c>>,
 ) -> Result<Vec<Place>, StageError> {
-    let bodies = PlaceBodies::of(stage);
+    let bodies = stage.bodies();
     spots
         .map(|(name, spot, direction)| Place::new(bodies, name, spot, direction))
         .collect()

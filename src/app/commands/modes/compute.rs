@@ -9,7 +9,7 @@ use crate::app::case::{Case, Expected, Linearise, ModeExtent};
 use crate::app::scene::LoadedPass;
 use crate::app::scene::Statics;
 use crate::app::scene::contact_limits::accept_contacts;
-use crate::app::scene::modal_system::{UnloadedModes, unloaded_modes};
+use crate::app::scene::survey::{UnloadedModes, unloaded_modes};
 use crate::app::scene::{
     HousingStage, ModalSurvey, StageError, StructureStage, Unwatched, Watch, bearing_setup, doubts,
     race_contacts,

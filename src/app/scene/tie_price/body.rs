@@ -2,8 +2,8 @@
 
 use super::reason::{NoTiePrice, Stop};
 use crate::app::case::{self, Case};
+use crate::app::scene::ring::layer;
 use crate::app::scene::seat::Seat;
-use crate::app::scene::structure::layer;
 use crate::app::scene::{HousingStage, StageError};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};

@@ -13,7 +13,7 @@ use crate::app::case::{self, Case};
 use crate::app::scene::housing::description;
 use crate::app::scene::modal_system::FullModes;
 use crate::app::scene::mode_set::{Partner, partners};
-use crate::app::scene::structure::{ring, ring_and_tie};
+use crate::app::scene::ring::{ring, ring_and_tie};
 use crate::app::scene::{HousingStage, StageError, Watch};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
