@@ -3,7 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use plummer::app::case::Case;
-use plummer::app::scene::{StructureStage, Unwatched, bearing_setup};
+use plummer::app::scene::{CoupledStructure, Unwatched, bearing_setup};
 use plummer::numerics::ode::{Instant, Observer, SecondOrderSystem};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
@@ -44,7 +44,7 @@ fn evaluation(criterion: &mut Criterion) {
             format!("bearing.contact_damping={damping}"),
         ];
         let case = Case::load(CASE, &set).expect("an example of the repository");
-        let stage = StructureStage::build(&case, &Unwatched);
+        let stage = CoupledStructure::build(&case, &Unwatched);
         let stage = stage.expect("meshed").expect("with a ring");
         let setup = bearing_setup(&case)
             .expect("valid")

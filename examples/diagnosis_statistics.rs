@@ -16,7 +16,7 @@ use plummer::app::case::Case;
 use plummer::app::commands::analyze::{AnalysisSettings, AskedBand, analyse};
 use plummer::app::commands::run::choice::ModelChoice;
 use plummer::app::commands::run::{Simulation, Span};
-use plummer::app::scene::{Kinematics, Scene, StructureStage, Unwatched};
+use plummer::app::scene::{CoupledStructure, Kinematics, Scene, Unwatched};
 use plummer::bearing::kinematics::BallRow;
 use plummer::bearing::{SpeedKnot, SpeedProfile};
 use plummer::numerics::series::{TimeSeries, TimeWindow};
@@ -117,7 +117,7 @@ fn table(housing: &str, runs: u32) -> Result<(), Failure> {
         "{}/examples/housings/{housing}.toml",
         env!("CARGO_MANIFEST_DIR")
     );
-    let structure = StructureStage::build(&Case::load(&path, &[])?, &Unwatched)?;
+    let structure = CoupledStructure::build(&Case::load(&path, &[])?, &Unwatched)?;
     let structure = structure.ok_or("the case has no ring")?;
     let jobs: Vec<(usize, u32)> = (0..STATES.len())
         .flat_map(|state| (0..runs).map(move |run| (state, run)))
@@ -171,7 +171,7 @@ fn table(housing: &str, runs: u32) -> Result<(), Failure> {
 /// The parts that are named in each condition.
 fn judge_run(
     path: &str,
-    structure: &StructureStage,
+    structure: &CoupledStructure,
     state: usize,
     run: u32,
 ) -> Result<Vec<Vec<&'static str>>, Failure> {
@@ -188,7 +188,7 @@ fn judge_run(
 /// Signal at the first sensor, and balls, ball diameter and pitch diameter of the bearing.
 fn simulate(
     path: &str,
-    structure: &StructureStage,
+    structure: &CoupledStructure,
     state: usize,
     run: u32,
     slip: bool,

@@ -3,6 +3,7 @@
 //! In come a TOML file and arguments; out go result files, figures and one HTML page.
 //!
 //! - [`case`]: the case file, read and checked;
+//! - [`error`]: what can go wrong on the way to a result;
 //! - [`scene`]: a checked case as domain objects;
 //! - [`commands`]: what each command computes, as a value, and its report;
 //! - [`verification`]: the built-in checks of `plummer verify`;
@@ -14,6 +15,7 @@
 pub mod case;
 pub mod cli;
 pub mod commands;
+pub mod error;
 pub mod scene;
 pub mod shell_word;
 pub mod studies;

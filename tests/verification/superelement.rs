@@ -12,7 +12,7 @@
 
 use crate::reference_frequencies::data;
 use plummer::app::case::{Case, Source};
-use plummer::app::scene::{CondensedStage, HousingStage, Unwatched};
+use plummer::app::scene::{AssembledHousing, CondensedHousing, Unwatched};
 use plummer::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure,
     choose_basis,
@@ -61,7 +61,7 @@ fn case(text: &str, set: &[String]) -> Case {
 
 /// The nodes nearest to points of the bore at steps of five degrees, each once.
 fn interface_nodes() -> Vec<u64> {
-    let housing = HousingStage::build(&case(ANNULUS, &[]), &Unwatched);
+    let housing = AssembledHousing::build(&case(ANNULUS, &[]), &Unwatched);
     let housing = housing.unwrap().unwrap();
     let mut nodes: Vec<u64> = Vec::new();
     for step in 0..72 {
@@ -88,7 +88,7 @@ fn numbers(value: &serde_json::Value) -> Vec<f64> {
 fn reduced_hz(
     substructure: &Substructure,
     basis: InteriorBasis,
-    weight: &CondensedStage,
+    weight: &CondensedHousing,
 ) -> Vec<f64> {
     let weight = &weight.housing.matrices.weight;
     let element = CraigBampton::new(substructure.clone(), basis, weight).superelement;
@@ -108,7 +108,7 @@ fn reduced_frequencies_of_the_reference() {
         format!("condense.interface={{nodes={:?}}}", interface_nodes()),
         "condense.fixed_interface_modes=0".to_owned(),
     ];
-    let stage = CondensedStage::build(&case(ANNULUS, &set), &Unwatched)
+    let stage = CondensedHousing::build(&case(ANNULUS, &set), &Unwatched)
         .unwrap()
         .unwrap();
     let substructure = &stage.condensed.substructure;
@@ -179,7 +179,7 @@ fn effectivity(
 #[test]
 fn residual_vectors_on_the_tied_pedestal() {
     let case = case(PEDESTAL, &[]);
-    let stage = CondensedStage::build(&case, &Unwatched).unwrap().unwrap();
+    let stage = CondensedHousing::build(&case, &Unwatched).unwrap().unwrap();
     let substructure = &stage.condensed.substructure;
     let attached = stage.boundary.attached();
     let matrices = stage.full_matrices();

@@ -5,7 +5,8 @@ use super::results::{common, warnings};
 use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::scene::{RunModel, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::RunModel;
 use crate::app::studies::chart::{
     Chart, ComparedFigure, Condition, Effort, Estimate, Failure, GrowthError, Point, PointError,
     StartReference, chart_report, compute_chart, compute_stability, parameter_of,
@@ -50,7 +51,9 @@ pub(super) fn chart(
     };
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
-    let svg = work_precision(&result).to_svg().map_err(StageError::from)?;
+    let svg = work_precision(&result)
+        .to_svg()
+        .map_err(ComputeError::from)?;
     let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
     let mut report = chart_report(case, &result, &command);
     if let Some(stability) = &stability {

@@ -8,7 +8,8 @@ use crate::app::commands::condense::{
     Comparison, CondenseResult, compute_condense, condense_report, imported_report,
     reduced_superelement_record, superelement_record,
 };
-use crate::app::scene::{Boundary, ImportedHousing, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
 use serde_json::Value;
@@ -50,7 +51,7 @@ pub fn condense(
         Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
         None => superelement_record(case, &result.stage)?,
     };
-    write_superelement_npz(&element, &record).map_err(StageError::from)?;
+    write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("condense", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), serde_json::json!(files.tables));

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::output::printable;
 use super::{AnalyzeError, ExportError, InitError, RecordError, ResultsError};
 use crate::app::case::CaseError;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::app::studies::chart::ChartError;
 use crate::app::studies::sweep::SweepError;
 use crate::app::verification::VerificationError;
@@ -117,7 +117,7 @@ pub enum CliError {
     },
     /// A stage of the computation failed, by its input or by itself.
     #[error(transparent)]
-    Stage(Box<StageError>),
+    Stage(Box<ComputeError>),
     /// Something was not exported.
     #[error(transparent)]
     Export(Box<ExportError>),
@@ -171,8 +171,8 @@ impl From<ExportError> for CliError {
     }
 }
 
-impl From<StageError> for CliError {
-    fn from(error: StageError) -> Self {
+impl From<ComputeError> for CliError {
+    fn from(error: ComputeError) -> Self {
         Self::Stage(Box::new(error))
     }
 }
@@ -275,8 +275,8 @@ mod tests {
         SweepError, VerificationError,
     };
     use crate::app::case::Case;
-    use crate::app::commands::run::unfinished::UnfinishedError;
-    use crate::app::scene::StageError;
+    use crate::app::error::ComputeError;
+    use crate::app::error::UnfinishedError;
     use crate::formats::DofTableError;
 
     fn every() -> Vec<(CliError, u8, &'static str)> {
@@ -351,19 +351,23 @@ mod tests {
                 "error: cannot catch interrupts: full\n",
             ),
             (
-                CliError::from(StageError::from(UnfinishedError::InTheWay { path: path() })),
+                CliError::from(ComputeError::from(UnfinishedError::InTheWay {
+                    path: path(),
+                })),
                 2,
                 "error: out/a holds an unfinished run\n\
                  help: go on with --resume, or give it up and begin anew with --force\n",
             ),
             (
-                CliError::from(StageError::from(UnfinishedError::Nothing { path: path() })),
+                CliError::from(ComputeError::from(UnfinishedError::Nothing {
+                    path: path(),
+                })),
                 2,
                 "error: out/a has no checkpoint: there is no unfinished run to go on with\n\
                  help: leave --resume out to begin a run\n",
             ),
             (
-                CliError::from(StageError::from(UnfinishedError::Changed {
+                CliError::from(ComputeError::from(UnfinishedError::Changed {
                     path: path(),
                     changes: vec![
                         "no --set, now --set a=1".to_owned(),
@@ -375,7 +379,7 @@ mod tests {
                  help: go on with what it was begun with, or begin anew with --force\n",
             ),
             (
-                CliError::from(StageError::TieFrame),
+                CliError::from(ComputeError::TieFrame),
                 2,
                 "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
             ),

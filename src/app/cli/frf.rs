@@ -5,7 +5,7 @@ use super::results::{common, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
 use serde_json::{Value, json};
@@ -23,7 +23,8 @@ pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     let report = frf_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "frf", case, report, progress)?;
     let uff = folder.path().join("frf.uff");
-    write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(StageError::from)?;
+    write_responses_uff(&uff, &case.title, &responses(case, &result)?)
+        .map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
     let mut map = common("frf", case, progress, wall_s, &files.meshes);
     map.insert("tables".to_owned(), json!(files.tables));
@@ -204,7 +205,7 @@ fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 /// The receptances as other programs read them.
-fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, StageError> {
+fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, ComputeError> {
     let direction = |name: &str| {
         let pushes = case.frf.iter().flat_map(|frf| &frf.from);
         let push = pushes

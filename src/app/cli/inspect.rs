@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
 use crate::app::commands::Inspection;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::numerics::units::LengthUnit;
 use crate::report::significant;
 
@@ -25,7 +25,7 @@ pub fn inspect(
     options: &Options,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let found = Inspection::of_file(path, unit).map_err(StageError::from)?;
+    let found = Inspection::of_file(path, unit).map_err(ComputeError::from)?;
     let mut result = json!({
         "plummer": env!("CARGO_PKG_VERSION"),
         "command": "inspect",

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::{CliError, OutputFolder, Progress};
 use crate::app::case::Case;
-use crate::app::scene::{MeshDigest, StageError, mesh_digests};
+use crate::app::error::ComputeError;
+use crate::app::scene::{MeshDigest, mesh_digests};
 use crate::report::{Document, MeshFile, Report};
 
 /// Folders of the tables and of the figures, in that of the results.
@@ -62,7 +63,7 @@ impl ReportFiles {
     ) -> Result<Self, CliError> {
         let page = folder.report_name(command);
         let report = report.tables_in(TABLES, command);
-        let record = report.to_record().map_err(StageError::from)?;
+        let record = report.to_record().map_err(ComputeError::from)?;
         folder.write(&record_of(&page), &record)?;
         Self::draw(folder, &page, command, &report)
     }
@@ -77,8 +78,8 @@ impl ReportFiles {
         command: &str,
         report: &Report,
     ) -> Result<Self, CliError> {
-        let html = report.to_html().map_err(StageError::from)?;
-        let figures = report.svg_files(command).map_err(StageError::from)?;
+        let html = report.to_html().map_err(ComputeError::from)?;
+        let figures = report.svg_files(command).map_err(ComputeError::from)?;
         let tables = report.csv_files();
         let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
         let figures = figures
@@ -126,14 +127,14 @@ pub(super) fn page_of(record: &str) -> Option<String> {
 /// Checks that the meshes are still those that were read: the report names their content.
 ///
 /// # Errors
-/// [`StageError::MeshChanged`].
-fn unchanged(now: &[MeshDigest], read: &[MeshDigest]) -> Result<(), StageError> {
+/// [`ComputeError::MeshChanged`].
+fn unchanged(now: &[MeshDigest], read: &[MeshDigest]) -> Result<(), ComputeError> {
     let other = |file: &&MeshDigest| {
         let same_path = now.iter().find(|now| now.path == file.path);
         same_path.is_some_and(|now| now.sha256 != file.sha256)
     };
     match read.iter().find(other) {
-        Some(file) => Err(StageError::MeshChanged {
+        Some(file) => Err(ComputeError::MeshChanged {
             path: file.path.clone(),
         }),
         None => Ok(()),
@@ -172,7 +173,8 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{MeshDigest, StageError, is_of_report, page_of, record_of, unchanged};
+    use super::{MeshDigest, is_of_report, page_of, record_of, unchanged};
+    use crate::app::error::ComputeError;
 
     #[test]
     fn a_page_and_its_content_know_each_other() {
@@ -195,7 +197,7 @@ mod tests {
         let now = [file("a.msh", b"1"), file("b.msh", b"2")];
         assert!(unchanged(&now, &now[..1]).is_ok());
         let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();
-        assert!(matches!(&error, StageError::MeshChanged { path } if path.ends_with("b.msh")));
+        assert!(matches!(&error, ComputeError::MeshChanged { path } if path.ends_with("b.msh")));
         assert!(!error.is_input());
     }
 

@@ -9,8 +9,9 @@ use crate::app::commands::condense::CondenseResult;
 use crate::app::commands::modes::{ModesResult, Reading};
 use crate::app::commands::run::choice::{ChosenPart, ModelChoice};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, SensorScalogram};
+use crate::app::error::ComputeError;
 use crate::app::scene::{
-    ImportedHousing, LoadedPoint, MeshDigest, ReducedInterface, StageError, StructureStage,
+    CoupledStructure, ImportedHousing, LoadedPoint, MeshDigest, ReducedInterface,
 };
 use crate::fe::reduction::{Bound, Check, SizeErrors};
 use crate::formats::{NpzWriter, write_modes_npz};
@@ -396,7 +397,7 @@ fn checks_json(checks: &[Check]) -> Vec<Value> {
 }
 
 /// What a result says of a superelement from a file.
-fn imported(stage: &StructureStage) -> Option<Value> {
+fn imported(stage: &CoupledStructure) -> Option<Value> {
     let imported = stage.imported.as_ref()?;
     Some(json!({
         "path": imported.path,
@@ -422,7 +423,7 @@ pub(super) fn write_modes(
     result: &ModesResult,
 ) -> Result<PathBuf, CliError> {
     let path = folder.path().join("modes.npz");
-    write_modes_npz(&path, &result.mode_shapes()).map_err(StageError::from)?;
+    write_modes_npz(&path, &result.mode_shapes()).map_err(ComputeError::from)?;
     Ok(path)
 }
 
@@ -475,7 +476,7 @@ pub(super) fn write_signals<R: Recording>(
     let path = folder.path().join("signals.npz");
     let record = &result.simulation.record;
     let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
-    let write = || -> Result<(), StageError> {
+    let write = || -> Result<(), ComputeError> {
         let mut npz = NpzWriter::create(&path)?;
         for column in Column::all(sensors.len()) {
             let name = match column {
@@ -517,7 +518,7 @@ pub(super) fn write_scalograms(
     };
     let path = folder.path().join("scalogram.npz");
     let (rows, columns) = (axes.frequency_hz.len(), axes.time_s.len());
-    let write = || -> Result<(), StageError> {
+    let write = || -> Result<(), ComputeError> {
         let mut npz = NpzWriter::create(&path)?;
         npz.array("time_s", &axes.time_s)?;
         npz.array("frequency_hz", &axes.frequency_hz)?;

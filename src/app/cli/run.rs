@@ -6,13 +6,12 @@ use super::results::{choice_json, run_json, warnings, write_scalograms, write_si
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
-use crate::app::commands::run::unfinished::{
-    CHECKPOINT_S, RunIdentity, UnfinishedError, UnfinishedRun,
-};
+use crate::app::commands::run::unfinished::{CHECKPOINT_S, RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{
     Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report,
 };
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
+use crate::app::error::UnfinishedError;
 use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
@@ -65,7 +64,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     let mut unfinished = unfinished(case, arguments, &folder)?;
     let result = compute_kept_run(case, progress, &mut unfinished);
     let result = result.map_err(|error| match error {
-        StageError::Interrupted { .. } => CliError::Interrupted {
+        ComputeError::Interrupted { .. } => CliError::Interrupted {
             what: error.to_string(),
             kept: "the signals so far and a checkpoint are",
             folder: unfinished.folder().to_owned(),
@@ -89,7 +88,7 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     json[ARRAYS] = digests(&arrays)?;
     let text = format!("{json:#}\n");
     let json_path = folder.write("run.json", text.as_bytes())?;
-    unfinished.remove().map_err(StageError::from)?;
+    unfinished.remove().map_err(ComputeError::from)?;
     Ok(Outcome {
         summary: summary(&result, started.elapsed().as_secs_f64()),
         result: json,
@@ -115,11 +114,11 @@ fn unfinished(
     };
     let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
     if in_the_way {
-        return Err(StageError::from(UnfinishedError::InTheWay { path: partial }).into());
+        return Err(ComputeError::from(UnfinishedError::InTheWay { path: partial }).into());
     }
     let identity = RunIdentity::of(case)?;
     let run = if resume {
-        UnfinishedRun::resume(&partial, identity).map_err(StageError::from)?
+        UnfinishedRun::resume(&partial, identity).map_err(ComputeError::from)?
     } else {
         UnfinishedRun::begin(&partial, identity)
     };

@@ -4,7 +4,8 @@ use super::report_files::ReportFiles;
 use super::results::common;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
-use crate::app::scene::{Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::Scene;
 use crate::app::studies::chart::{
     Condition, Effort, Stability, compute_stability, resonance_plot, stability_map,
     stability_record, stability_report,
@@ -55,9 +56,9 @@ pub(super) fn write_stability(
 ) -> Result<(Value, Vec<PathBuf>), CliError> {
     let map = stability_map(stability)
         .to_svg()
-        .map_err(StageError::from)?;
+        .map_err(ComputeError::from)?;
     let map = folder.write("stability.svg", map.as_bytes())?;
-    let resonance = resonance_plot().to_svg().map_err(StageError::from)?;
+    let resonance = resonance_plot().to_svg().map_err(ComputeError::from)?;
     let resonance = folder.write("resonance.svg", resonance.as_bytes())?;
     let mut all = head;
     if let Value::Object(fields) = stability_record(stability) {

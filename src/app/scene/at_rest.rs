@@ -4,11 +4,11 @@ use super::bearing::{bearing_setup, race_contacts};
 use super::contact_limits::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
-use super::error::StageError;
 use super::run_model::RunModel;
-use super::structure::StructureStage;
+use super::structure::CoupledStructure;
 use super::watch::Watch;
 use crate::app::case::Case;
+use crate::app::error::ComputeError;
 use crate::bearing::{Race, RaceContacts};
 use crate::numerics::ode::State;
 use crate::system::{
@@ -19,7 +19,7 @@ use crate::system::{
 #[derive(Debug)]
 pub struct Scene {
     /// The linear model with all its modes.
-    pub stage: StructureStage,
+    pub stage: CoupledStructure,
     /// The bearing.
     pub setup: BearingSetup,
     /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
@@ -38,27 +38,27 @@ impl Scene {
     /// Builds the scene of a case.
     ///
     /// # Errors
-    /// [`StageError`] of the stages that it goes through.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+    /// [`ComputeError`] of the stages that it goes through.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         refuse_structural_damping(case)?;
-        Self::built(StructureStage::build(case, watch)?, case, watch)
+        Self::built(CoupledStructure::build(case, watch)?, case, watch)
     }
 
     /// The scene of a case with all modes of its structure, however many.
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn with_all_modes(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+    pub fn with_all_modes(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         refuse_structural_damping(case)?;
-        let stage = StructureStage::with_modes(case, usize::MAX, watch)?;
+        let stage = CoupledStructure::with_modes(case, usize::MAX, watch)?;
         Self::built(stage, case, watch)
     }
 
     fn built(
-        stage: Option<StructureStage>,
+        stage: Option<CoupledStructure>,
         case: &Case,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         // a run without ring, bearing, shaft or transient was refused with the case
         let stage = stage.ok_or(SystemError::NotSupported)?;
         watch.stage("equilibrium");
@@ -70,7 +70,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn around(stage: StructureStage, case: &Case) -> Result<Self, StageError> {
+    pub fn around(stage: CoupledStructure, case: &Case) -> Result<Self, ComputeError> {
         let bearing = (bearing_setup(case)?, race_contacts(case)?);
         let ((Some(setup), Some(contacts)), Some(asked)) = (bearing, case.transient.as_ref())
         else {
@@ -98,8 +98,8 @@ impl Scene {
     /// The scene in a model's coordinates.
     ///
     /// # Errors
-    /// [`StageError::System`] for a model that does not fit it.
-    pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, StageError> {
+    /// [`ComputeError::System`] for a model that does not fit it.
+    pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, ComputeError> {
         let setup = BearingSetup {
             balls_inertia: model.balls_inertia,
             ..self.setup.clone()

@@ -2,8 +2,8 @@
 
 use super::bearing_defects::{Defects, defects, waves};
 use super::bearing_motion::{shaft, slip, speed};
-use super::error::StageError;
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
 };
@@ -12,8 +12,8 @@ use crate::system::{BallsInertia, BearingSetup, Formulation};
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
 ///
 /// # Errors
-/// [`StageError`] naming what is out of range.
-pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
+/// [`ComputeError`] naming what is out of range.
+pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> {
     let (Some(asked), Some(asked_shaft)) = (&case.bearing, &case.shaft) else {
         return Ok(None);
     };
@@ -57,8 +57,8 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
 /// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.
 ///
 /// # Errors
-/// [`StageError`] naming what is out of range.
-pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, StageError> {
+/// [`ComputeError`] naming what is out of range.
+pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, ComputeError> {
     let Some(asked) = &case.bearing else {
         return Ok(None);
     };
@@ -69,13 +69,13 @@ pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, StageError> {
 /// Geometry of a case's bearing; `None` without one.
 ///
 /// # Errors
-/// [`StageError`] naming what is out of range.
-pub fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, StageError> {
+/// [`ComputeError`] naming what is out of range.
+pub fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, ComputeError> {
     let asked = case.bearing.as_ref();
     asked.map(|asked| geometry(case, asked)).transpose()
 }
 
-fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, StageError> {
+fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, ComputeError> {
     let geometry = BearingGeometry::new(BearingDimensions {
         balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
         ball_radius: asked.ball_radius,
@@ -96,8 +96,8 @@ fn hertz(
     case: &Case,
     asked: &case::Bearing,
     geometry: &BearingGeometry,
-) -> Result<RaceContacts, StageError> {
-    let contact = |name: &str| -> Result<ContactMaterial, StageError> {
+) -> Result<RaceContacts, ComputeError> {
+    let contact = |name: &str| -> Result<ContactMaterial, ComputeError> {
         let material = super::housing::material(case, name)?;
         Ok(ContactMaterial {
             young: material.young,

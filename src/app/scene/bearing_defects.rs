@@ -1,7 +1,7 @@
 //! What of a case's bearing is not a perfect circle.
 
-use super::error::StageError;
 use crate::app::case::{self, Defect, DefectCurvature, DentProfile, RaceName};
+use crate::app::error::ComputeError;
 use crate::bearing::defect::{
     BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect,
     SurfaceDent, reduced,
@@ -19,16 +19,16 @@ pub(crate) struct Defects {
 /// Solves every defect of the case; reads the profiles that are in files.
 ///
 /// # Errors
-/// [`StageError`] naming the defect.
+/// [`ComputeError`] naming the defect.
 pub(crate) fn defects(
     asked: &[Defect],
     geometry: &BearingGeometry,
     stiffness: ContactStiffness,
-) -> Result<Defects, StageError> {
+) -> Result<Defects, ComputeError> {
     let mut race_defects: Vec<(usize, RaceDefect)> = Vec::new();
     let mut flats = Vec::new();
     for (index, defect) in asked.iter().enumerate() {
-        let refused = |source| StageError::Defect { index, source };
+        let refused = |source| ComputeError::Defect { index, source };
         match defect {
             Defect::Dent(dent) => {
                 let shape = DentShape {
@@ -86,11 +86,11 @@ pub(crate) fn defects(
 /// Waves of the races.
 ///
 /// # Errors
-/// [`StageError::Wave`] naming the wave.
+/// [`ComputeError::Wave`] naming the wave.
 pub(crate) fn waves(
     asked: &[case::Wave],
     geometry: &BearingGeometry,
-) -> Result<Vec<Wave>, StageError> {
+) -> Result<Vec<Wave>, ComputeError> {
     let wave = |(index, wave): (usize, &case::Wave)| {
         let wave = Wave {
             race: race(wave.on),
@@ -99,7 +99,7 @@ pub(crate) fn waves(
             phase: wave.phase_deg.to_radians(),
         };
         let checked = wave.checked(geometry);
-        checked.map_err(|source| StageError::Wave { index, source })
+        checked.map_err(|source| ComputeError::Wave { index, source })
     };
     asked.iter().enumerate().map(wave).collect()
 }
@@ -119,13 +119,13 @@ fn reading(curvature: DefectCurvature) -> CurvatureReading {
 }
 
 /// Two defects must not share a part of a race: a contact belongs to one of them.
-fn check_apart(defects: &[(usize, RaceDefect)]) -> Result<(), StageError> {
+fn check_apart(defects: &[(usize, RaceDefect)]) -> Result<(), ComputeError> {
     for (place, (second, b)) in defects.iter().enumerate() {
         for (first, a) in &defects[..place] {
             let apart = reduced(a.angle() - b.angle()).abs();
             let needed = a.contact_half_angle() + b.contact_half_angle();
             if a.race() == b.race() && apart < needed {
-                return Err(StageError::DefectsOverlap {
+                return Err(ComputeError::DefectsOverlap {
                     first: *first,
                     second: *second,
                     apart_deg: apart.to_degrees(),
@@ -142,8 +142,8 @@ const COLUMNS: [&str; 2] = ["arc_length_m", "depth_m"];
 
 /// Arc length and depth (m) in the rows of a CSV file with the header `arc_length_m,depth_m`; lines that begin with # are
 /// left out.
-fn read_profile(index: usize, path: &Path) -> Result<Vec<(f64, f64)>, StageError> {
-    let refused = |line: Option<u64>, what: String| StageError::ProfileFile {
+fn read_profile(index: usize, path: &Path) -> Result<Vec<(f64, f64)>, ComputeError> {
+    let refused = |line: Option<u64>, what: String| ComputeError::ProfileFile {
         index,
         path: path.to_owned(),
         line: line.map_or_else(String::new, |line| format!(":{line}")),

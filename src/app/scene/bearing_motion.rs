@@ -1,15 +1,15 @@
 //! What drives a bearing: speed, slip and loads of a case.
 
-use super::error::StageError;
 use crate::app::case::{self, Case, Load, Slip};
+use crate::app::error::ComputeError;
 use crate::bearing::{SlipProfile, SpeedKnot, SpeedProfile};
 use crate::system::{LoadProfile, Shaft};
 
 /// Shaft speed over time; at rest where the case says nothing.
 ///
 /// # Errors
-/// [`StageError::Speed`].
-pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, StageError> {
+/// [`ComputeError::Speed`].
+pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
     let Some(speed) = &case.speed else {
         return Ok(SpeedProfile::constant(0.0)?);
     };
@@ -23,8 +23,8 @@ pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, StageError> {
 /// Slip of the cage.
 ///
 /// # Errors
-/// [`StageError::Slip`].
-pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, StageError> {
+/// [`ComputeError::Slip`].
+pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
     Ok(match asked {
         Slip::Constant(slip) => SlipProfile::constant(*slip),
         Slip::OverTime(points) => {

@@ -1,6 +1,6 @@
 //! What a housing is attached by when it is condensed.
 
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::{HousingPartition, NodeInterface, Ring, RingTie};
 use crate::fe::reduction::Attached;
@@ -24,7 +24,7 @@ impl Boundary {
         }
     }
 
-    pub(crate) fn matrices<'h>(&self, housing: &'h HousingStage) -> Cow<'h, SystemMatrices> {
+    pub(crate) fn matrices<'h>(&self, housing: &'h AssembledHousing) -> Cow<'h, SystemMatrices> {
         match self.ring() {
             Some((_, tie)) if tie.rotation().is_some() => {
                 Cow::Owned(housing.matrices.clone().for_tie(tie))

@@ -2,13 +2,13 @@
 
 use super::boundary::Boundary;
 use super::dof_labels::{of_housing, of_ring};
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
 use super::loose::{check_interior, located};
 use super::places::{Named, Place, PlaceBodies};
 use super::ring::ring_and_tie;
 use super::watch::Watch;
 use crate::app::case::{Case, FixedInterfaceModes, Interface, Sensor};
+use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{rigid_motions, ring_motions};
 use crate::fe::model::NodeInterface;
@@ -23,9 +23,9 @@ const DEFAULT_BAND_HZ: f64 = 40e3;
 
 /// A condensed housing and what it was condensed from.
 #[derive(Debug, Clone)]
-pub struct CondensedStage {
+pub struct CondensedHousing {
     /// The housing.
-    pub housing: HousingStage,
+    pub housing: AssembledHousing,
     /// What the housing is attached by.
     pub boundary: Boundary,
     /// Imaginary part of the stiffness of lossy parts over the housing's degrees of freedom, in the displacements that the
@@ -37,26 +37,26 @@ pub struct CondensedStage {
     pub condensed: CraigBampton,
 }
 
-impl CondensedStage {
+impl CondensedHousing {
     /// Builds and condenses the housing of a case; `None` without a housing, or if neither a ring is tied to it nor
     /// another interface asked for.
     ///
     /// # Errors
-    /// [`StageError`] of mesh, model, ring, tie and reduction.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+    /// [`ComputeError`] of mesh, model, ring, tie and reduction.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         Self::with_basis(case, basis_choice(case), watch)
     }
 
     /// The same with another basis than the case asks for.
     ///
     /// # Errors
-    /// As [`CondensedStage::build`].
+    /// As [`CondensedHousing::build`].
     pub(crate) fn with_basis(
         case: &Case,
         choice: BasisChoice,
         watch: &impl Watch,
-    ) -> Result<Option<Self>, StageError> {
-        match HousingStage::build(case, watch)? {
+    ) -> Result<Option<Self>, ComputeError> {
+        match AssembledHousing::build(case, watch)? {
             Some(housing) => Self::of(case, housing, choice, watch),
             None => Ok(None),
         }
@@ -64,10 +64,10 @@ impl CondensedStage {
 
     fn of(
         case: &Case,
-        housing: HousingStage,
+        housing: AssembledHousing,
         choice: BasisChoice,
         watch: &impl Watch,
-    ) -> Result<Option<Self>, StageError> {
+    ) -> Result<Option<Self>, ComputeError> {
         let boundary = match (&case.condense.interface, &case.ring) {
             (Interface::Ring, Some(asked)) => match ring_and_tie(case, asked, Some(&housing))? {
                 (ring, Some(tie)) => Boundary::Ring(Box::new((ring, tie))),
@@ -91,7 +91,7 @@ impl CondensedStage {
         if let Boundary::Nodes(nodes) = &boundary
             && nodes.coordinates.is_empty()
         {
-            return Err(StageError::interface_held(nodes, &housing.model));
+            return Err(ComputeError::interface_held(nodes, &housing.model));
         }
         check_interior(&housing, &boundary)?;
         watch.stage("condense");
@@ -128,8 +128,8 @@ impl CondensedStage {
     /// displacements that the partition uses.
     ///
     /// # Errors
-    /// [`StageError::Reduction`].
-    pub(crate) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, StageError> {
+    /// [`ComputeError::Reduction`].
+    pub(crate) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, ComputeError> {
         let weight = self.matrices().weight.clone();
         self.condensed = self.condensed.with_loads(loads, &weight)?;
         Ok(self.with_structural())
@@ -138,8 +138,8 @@ impl CondensedStage {
     /// The same with the static response to forces on the interior [interior x k] in the basis.
     ///
     /// # Errors
-    /// [`StageError::Reduction`].
-    pub(crate) fn with_forces(mut self, forces: DenseMatrix) -> Result<Self, StageError> {
+    /// [`ComputeError::Reduction`].
+    pub(crate) fn with_forces(mut self, forces: DenseMatrix) -> Result<Self, ComputeError> {
         let weight = self.matrices().weight.clone();
         self.condensed = self.condensed.with_forces(forces, &weight)?;
         Ok(self.with_structural())
@@ -160,7 +160,7 @@ impl CondensedStage {
     ///
     /// # Errors
     /// As [`Place::new`].
-    pub(crate) fn place_of(&self, sensor: &Sensor) -> Result<Place, StageError> {
+    pub(crate) fn place_of(&self, sensor: &Sensor) -> Result<Place, ComputeError> {
         let name = Named::Sensor(&sensor.name);
         Place::new(self.bodies(), name, &sensor.spot, sensor.direction)
     }
@@ -211,7 +211,7 @@ impl CondensedStage {
 
     /// Matrices of the whole, nothing condensed.
     pub fn full_matrices(&self) -> CoupledMatrices {
-        let HousingStage {
+        let AssembledHousing {
             model, matrices, ..
         } = &self.housing;
         match self.boundary.ring() {
@@ -222,7 +222,7 @@ impl CondensedStage {
 }
 
 /// Indices of the nodes with these tags.
-fn nodes_of(housing: &HousingStage, tags: &[u64]) -> Result<Vec<usize>, StageError> {
+fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, ComputeError> {
     let model = &housing.model;
     let place: HashMap<u64, usize> = model
         .node_tags
@@ -232,7 +232,7 @@ fn nodes_of(housing: &HousingStage, tags: &[u64]) -> Result<Vec<usize>, StageErr
         .collect();
     let found = |(index, tag): (usize, &u64)| match place.get(tag) {
         Some(&node) if model.is_used(node) => Ok(node),
-        other => Err(StageError::InterfaceNode {
+        other => Err(ComputeError::InterfaceNode {
             index,
             tag: *tag,
             in_mesh: other.is_some(),

@@ -1,6 +1,6 @@
 //! Contacts of balls and races under the load at rest, against what Hertz theory and bearing steel allow.
 
-use super::error::StageError;
+use crate::app::error::ComputeError;
 use crate::bearing::hertz::{ContactPatch, HertzStiffness};
 use crate::bearing::{Race, RaceContacts};
 use crate::system::{BallLoad, BearingSetup, Equilibrium};
@@ -67,12 +67,12 @@ fn contacts<'c>(
 /// stiffness is given, grooves and materials do not act, and nothing is refused.
 ///
 /// # Errors
-/// [`StageError::WidePatch`], [`StageError::Pressure`].
+/// [`ComputeError::WidePatch`], [`ComputeError::Pressure`].
 pub(crate) fn accept_contacts(
     setup: &BearingSetup,
     hertz: &RaceContacts,
     equilibrium: &Equilibrium,
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     if setup.stiffness != hertz.stiffness() {
         return Ok(());
     }
@@ -82,7 +82,7 @@ pub(crate) fn accept_contacts(
             race, force, patch, ..
         } = contact;
         if patch.longer >= ball_radius {
-            return Err(StageError::WidePatch {
+            return Err(ComputeError::WidePatch {
                 race,
                 groove: contact.groove,
                 ball_radius,
@@ -92,7 +92,7 @@ pub(crate) fn accept_contacts(
         }
         let limit = STRENGTH * contact.hertz.effective_modulus;
         if patch.peak_pressure > limit {
-            return Err(StageError::Pressure {
+            return Err(ComputeError::Pressure {
                 race,
                 force,
                 pressure: patch.peak_pressure,

@@ -1,7 +1,7 @@
 //! Damping of housing and ring as the case gives it.
 
-use super::error::StageError;
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::{ModalBasis, ModalDamping, ReducedSystem};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::ModeDamping;
@@ -9,8 +9,8 @@ use crate::system::ModeDamping;
 /// The damping of a case; none without `[damping]`.
 ///
 /// # Errors
-/// [`StageError::NegativeDamping`] for ratios that drive some modes.
-pub(crate) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
+/// [`ComputeError::NegativeDamping`] for ratios that drive some modes.
+pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
     let damping = match &case.damping {
         None => ModeDamping::Modal(0.0),
         Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
@@ -25,7 +25,7 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
     };
     match damping {
         ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
-            Err(StageError::NegativeDamping { alpha, beta })
+            Err(ComputeError::NegativeDamping { alpha, beta })
         }
         admissible => Ok(admissible),
     }
@@ -34,8 +34,8 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, StageError> {
 /// Time integration has no structural damping; a loss factor of a part in use must not be passed over.
 ///
 /// # Errors
-/// [`StageError::StructuralDamping`].
-pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
+/// [`ComputeError::StructuralDamping`].
+pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), ComputeError> {
     let parts = case
         .meshed_housing()
         .into_iter()
@@ -46,7 +46,7 @@ pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
             .map_or(0.0, case::Material::loss_factor);
         if loss_factor > 0.0 {
             let material = part.material.clone();
-            return Err(StageError::StructuralDamping {
+            return Err(ComputeError::StructuralDamping {
                 material,
                 loss_factor,
             });
@@ -59,7 +59,7 @@ pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), StageError> {
 ///
 /// # Errors
 /// As [`damping`].
-pub(crate) fn modal_damping(case: &Case) -> Result<ModalDamping, StageError> {
+pub(crate) fn modal_damping(case: &Case) -> Result<ModalDamping, ComputeError> {
     Ok(match damping(case)? {
         ModeDamping::Rayleigh { alpha, beta } => ModalDamping::Rayleigh { alpha, beta },
         ModeDamping::Modal(ratio) => ModalDamping::Uniform(ratio),
@@ -70,7 +70,7 @@ pub(crate) fn modal_damping(case: &Case) -> Result<ModalDamping, StageError> {
 ///
 /// # Errors
 /// As [`damping`].
-pub(crate) fn mass_damping(case: &Case) -> Result<f64, StageError> {
+pub(crate) fn mass_damping(case: &Case) -> Result<f64, ComputeError> {
     Ok(match damping(case)? {
         ModeDamping::Rayleigh { alpha, .. } => alpha,
         ModeDamping::Modal(_) => 0.0,
@@ -85,7 +85,7 @@ pub(crate) fn viscous_matrix(
     case: &Case,
     k: &DenseMatrix,
     m: &DenseMatrix,
-) -> Result<DenseMatrix, StageError> {
+) -> Result<DenseMatrix, ComputeError> {
     Ok(match modal_damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => m * faer::Scale(alpha) + k * faer::Scale(beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => DenseMatrix::zeros(k.nrows(), k.ncols()),

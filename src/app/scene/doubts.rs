@@ -2,13 +2,13 @@
 
 use super::bearing::race_contacts;
 use super::contact_limits::contact_doubts;
-use super::error::StageError;
 use super::housing::description;
 use super::mesh_digest::read_mesh;
 use super::ring::layer;
 use super::seat::Seat;
 use super::watch::Unwatched;
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::pieces_at;
 use crate::fe::model::HousingModel;
@@ -48,12 +48,12 @@ const WIDTH: f64 = 2.0;
 /// The doubts about a case: of its housing, of how the ring sits in it, and of the bearing under the load at rest.
 ///
 /// # Errors
-/// [`StageError`] of materials and of the bearing.
+/// [`ComputeError`] of materials and of the bearing.
 pub fn doubts(
     case: &Case,
     housing: Option<(&Mesh, &HousingModel)>,
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
-) -> Result<Vec<String>, StageError> {
+) -> Result<Vec<String>, ComputeError> {
     let mut found = material_doubts(case);
     if let Some((_, model)) = housing {
         found.extend(housing_doubts(model));
@@ -73,8 +73,8 @@ pub fn doubts(
 /// The doubts about a case's housing and how the ring sits in it, of which nothing is computed.
 ///
 /// # Errors
-/// [`StageError`] of mesh, model and ring.
-pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, StageError> {
+/// [`ComputeError`] of mesh, model and ring.
+pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
     let Some(housing) = case.meshed_housing() else {
         return doubts(case, None, None);
     };
@@ -163,7 +163,7 @@ fn material_doubts(case: &Case) -> Vec<String> {
 }
 
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.
-fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, StageError> {
+fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, ComputeError> {
     let mut sections = Vec::new();
     for (index, section) in ring.sections.iter().enumerate() {
         let layer = layer(case, section)?;
@@ -206,7 +206,7 @@ fn ring_doubts(
     case: &Case,
     ring: &case::Ring,
     housing: Option<(&Mesh, &HousingModel)>,
-) -> Result<Vec<String>, StageError> {
+) -> Result<Vec<String>, ComputeError> {
     let (Some((mesh, model)), Some(tie)) = (housing, &ring.tie) else {
         return Ok(Vec::new());
     };
@@ -258,7 +258,7 @@ fn bore_in_pieces(
     mesh: &Mesh,
     model: &HousingModel,
     bore: &str,
-) -> Result<Option<String>, StageError> {
+) -> Result<Option<String>, ComputeError> {
     let group = model.group_on_housing(mesh, bore, "the tie")?;
     // bodies that are too many to be looked at are told with the modes
     let pieces = pieces_at(mesh, model, &group.nodes).unwrap_or_default();
@@ -277,7 +277,7 @@ fn bore_in_pieces(
 }
 
 /// Whether the outer race is in the innermost section of its ring.
-fn race_in_ring(case: &Case) -> Result<Option<String>, StageError> {
+fn race_in_ring(case: &Case) -> Result<Option<String>, ComputeError> {
     let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
         return Ok(None);
     };

@@ -1,11 +1,11 @@
 //! Stiffness and mass of a case over its free degrees of freedom, each with its name.
 
 use super::dof_labels::{of_housing, of_ring};
-use super::error::StageError;
 use super::imported::ImportedHousing;
 use super::modal_system::Bodies;
 use super::watch::Watch;
 use crate::app::case::Case;
+use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::formats::DofLabel;
 use crate::numerics::linalg::{SparseMatrix, submatrix};
@@ -29,8 +29,8 @@ impl FreeSystem {
     /// Assembles the matrices of a case; nothing is factorised.
     ///
     /// # Errors
-    /// [`StageError`] of mesh, model, elements, ring and tie.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+    /// [`ComputeError`] of mesh, model, elements, ring and tie.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         if let Some(path) = case.superelement()
             && let Some(asked) = &case.ring
         {

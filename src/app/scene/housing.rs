@@ -1,9 +1,9 @@
 //! Mesh to matrices of a housing, as the case asks for them.
 
-use super::error::StageError;
 use super::mesh_digest::read_mesh;
 use super::watch::Watch;
 use crate::app::case::{self, Case, Hold, Joint, PerNodeOrGroup};
+use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
@@ -16,7 +16,7 @@ use crate::numerics::linalg::LinalgError;
 
 /// A housing, assembled.
 #[derive(Debug, Clone)]
-pub struct HousingStage {
+pub struct AssembledHousing {
     /// The mesh.
     pub mesh: Mesh,
     /// The mesh with properties and supports.
@@ -25,12 +25,12 @@ pub struct HousingStage {
     pub matrices: SystemMatrices,
 }
 
-impl HousingStage {
+impl AssembledHousing {
     /// Reads and assembles the case's housing; `None` without one.
     ///
     /// # Errors
-    /// [`StageError`] of mesh, model and elements.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+    /// [`ComputeError`] of mesh, model and elements.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         let Some(housing) = case.meshed_housing() else {
             return Ok(None);
         };
@@ -49,12 +49,12 @@ impl HousingStage {
     }
 }
 
-impl HousingStage {
+impl AssembledHousing {
     /// The housing of a case without a ring.
     ///
     /// # Errors
-    /// As [`HousingStage::build`].
-    pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, StageError> {
+    /// As [`AssembledHousing::build`].
+    pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         // a case with neither ring nor housing was refused before
         let nothing = LinalgError::TooManyModes {
             asked: 1,
@@ -67,11 +67,11 @@ impl HousingStage {
 /// Everything that the case says of its housing.
 ///
 /// # Errors
-/// [`StageError`] of materials and of the tie's frame.
+/// [`ComputeError`] of materials and of the tie's frame.
 pub(crate) fn description(
     case: &Case,
     housing: &case::Housing,
-) -> Result<HousingDescription, StageError> {
+) -> Result<HousingDescription, ComputeError> {
     let parts = housing.parts.iter().map(|part| {
         Ok(HousingPart {
             group: part.group.clone(),
@@ -79,7 +79,7 @@ pub(crate) fn description(
         })
     });
     Ok(HousingDescription {
-        parts: parts.collect::<Result<_, StageError>>()?,
+        parts: parts.collect::<Result<_, ComputeError>>()?,
         plane: housing.plane.map(|plane| PlaneModel {
             assumption: match plane.assumption {
                 case::PlaneAssumption::Stress => PlaneAssumption::Stress,
@@ -117,19 +117,21 @@ fn formulation(housing: &case::Housing) -> Formulation {
 }
 
 /// Where the ring sits; the mesh's own frame without one.
-fn frame(case: &Case) -> Result<RingFrame, StageError> {
+fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
     match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         None => Ok(RingFrame::default()),
-        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(StageError::TieFrame),
+        Some(tie) => {
+            RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(ComputeError::TieFrame)
+        }
     }
 }
 
 /// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`StageError::Material`] for values out of range; a missing name or an orthotropic material was refused with
+/// [`ComputeError::Material`] for values out of range; a missing name or an orthotropic material was refused with
 /// the case.
-pub(crate) fn material(case: &Case, name: &str) -> Result<Material, StageError> {
+pub(crate) fn material(case: &Case, name: &str) -> Result<Material, ComputeError> {
     let given = case.material(name).and_then(case::Material::isotropic);
     let (young, poisson, density) = given.map_or((f64::NAN, f64::NAN, f64::NAN), |given| {
         (given.young, given.poisson, given.density)
@@ -137,7 +139,7 @@ pub(crate) fn material(case: &Case, name: &str) -> Result<Material, StageError> 
     Material::new(young, poisson, density).map_err(|source| named(name, source))
 }
 
-fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, StageError> {
+fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
     match case.material(name) {
         Some(case::Material::Orthotropic(given)) => {
             let case::OrthotropicMaterial {
@@ -164,9 +166,9 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, StageErr
     }
 }
 
-fn named(name: &str, source: MaterialError) -> StageError {
+fn named(name: &str, source: MaterialError) -> ComputeError {
     let name = name.to_owned();
-    StageError::Material { name, source }
+    ComputeError::Material { name, source }
 }
 
 fn share(per: PerNodeOrGroup) -> SupportShare {

@@ -1,11 +1,11 @@
 //! A superelement from a file in the housing's place.
 
 use super::dof_labels::of_ring;
-use super::error::StageError;
-use super::import_error::ImportError;
 use super::places::{Named, Place, PlaceBodies};
 use super::ring::ring;
 use crate::app::case::{self, Case, SensorSpot};
+use crate::app::error::ComputeError;
+use crate::app::error::ImportError;
 use crate::fe::model::{Ring, RingFrame};
 use crate::fe::reduction::{Check, Superelement, check_matrices};
 use crate::formats::{
@@ -50,10 +50,14 @@ impl ImportedHousing {
     /// Reads the file and makes the ring that fits it: in space if the interface has six motions a node.
     ///
     /// # Errors
-    /// [`StageError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`StageError`]
+    /// [`ComputeError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`ComputeError`]
     /// of the ring.
-    pub fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), StageError> {
-        let fault = |source: ImportError| StageError::Import {
+    pub fn read(
+        case: &Case,
+        asked: &case::Ring,
+        path: &Path,
+    ) -> Result<(Self, Ring), ComputeError> {
+        let fault = |source: ImportError| ComputeError::Import {
             path: path.to_owned(),
             source: Box::new(source),
         };
@@ -95,7 +99,7 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::Check`] with the first check that fails.
-    pub fn accept(&self) -> Result<(), StageError> {
+    pub fn accept(&self) -> Result<(), ComputeError> {
         match self.checks.iter().find(|check| !check.ok()) {
             None => Ok(()),
             Some(check) => Err(self.fault(ImportError::Check {
@@ -155,7 +159,7 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::StructuralDamping`].
-    pub fn refuse_structural_damping(&self) -> Result<(), StageError> {
+    pub fn refuse_structural_damping(&self) -> Result<(), ComputeError> {
         match &self.record.structural {
             Some(matrix) if matrix.norm_max() > 0.0 => {
                 Err(self.fault(ImportError::StructuralDamping))
@@ -167,8 +171,8 @@ impl ImportedHousing {
     /// Rows of the case's sensors over the coordinates, one \[order\] for each.
     ///
     /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring.
-    pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, StageError> {
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring.
+    pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, ComputeError> {
         let sensors = case.sensors.iter();
         sensors
             .map(|sensor| {
@@ -181,14 +185,14 @@ impl ImportedHousing {
     /// The row of a place over the coordinates \[order\].
     ///
     /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`StageError`] of places on the ring; each names `name`.
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring; each names `name`.
     pub(crate) fn row(
         &self,
         name: Named<'_>,
         spot: &SensorSpot,
         direction: [f64; 3],
         ring: &Ring,
-    ) -> Result<Vec<f64>, StageError> {
+    ) -> Result<Vec<f64>, ComputeError> {
         let bodies = PlaceBodies {
             housing: None,
             ring: Some(ring),
@@ -204,7 +208,7 @@ impl ImportedHousing {
         }
     }
 
-    fn recovered(&self, name: Named<'_>, row: &str) -> Result<Vec<f64>, StageError> {
+    fn recovered(&self, name: Named<'_>, row: &str) -> Result<Vec<f64>, ComputeError> {
         let sensors = &self.record.sensors;
         if let Some(found) = sensors.iter().find(|sensor| sensor.name == row) {
             return Ok(found.row.clone());
@@ -220,8 +224,8 @@ impl ImportedHousing {
         }))
     }
 
-    fn fault(&self, source: ImportError) -> StageError {
-        StageError::Import {
+    fn fault(&self, source: ImportError) -> ComputeError {
+        ComputeError::Import {
             path: self.path.clone(),
             source: Box::new(source),
         }

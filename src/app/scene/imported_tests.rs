@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::at_rest::Scene;
-use super::condensed::CondensedStage;
+use super::condensed::CondensedHousing;
 use super::imported::ImportedHousing;
-use super::structure::StructureStage;
+use super::structure::CoupledStructure;
 use super::watch::Unwatched;
 use crate::app::case::{Case, Source};
 use crate::app::commands::condense::superelement_record;
@@ -73,12 +73,12 @@ fn imported(path: &Path, nodes: usize, rest: &str, sensors: &str) -> Case {
 }
 
 fn record_of(case: &Case) -> SuperelementRecord {
-    let stage = CondensedStage::build(case, &Unwatched).unwrap().unwrap();
+    let stage = CondensedHousing::build(case, &Unwatched).unwrap().unwrap();
     superelement_record(case, &stage).unwrap()
 }
 
-fn structure(case: &Case) -> StructureStage {
-    StructureStage::build(case, &Unwatched).unwrap().unwrap()
+fn structure(case: &Case) -> CoupledStructure {
+    CoupledStructure::build(case, &Unwatched).unwrap().unwrap()
 }
 
 /// A small plane housing on 8 nodes of a ring, in a folder.
@@ -95,7 +95,7 @@ fn small() -> (tempfile::TempDir, PathBuf, SuperelementRecord) {
 fn refusal(path: &Path, record: &SuperelementRecord, sensors: &str) -> String {
     write_superelement_npz(path, record).unwrap();
     let case = imported(path, 8, "", sensors);
-    let error = StructureStage::build(&case, &Unwatched).unwrap_err();
+    let error = CoupledStructure::build(&case, &Unwatched).unwrap_err();
     assert!(error.is_input(), "{error}");
     let start = format!("housing.superelement: {}: ", path.display());
     error.to_string().replace(&start, "")
@@ -211,7 +211,7 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
     }
     let record = record_of(&original(PLANE, 8, ""));
     write_superelement_op4(&path, &record, Op4Format::Binary).unwrap();
-    let error = StructureStage::build(&imported(&path, 40, "", ""), &Unwatched).unwrap_err();
+    let error = CoupledStructure::build(&imported(&path, 40, "", ""), &Unwatched).unwrap_err();
     assert_eq!(
         error.to_string(),
         format!(
@@ -228,7 +228,7 @@ fn an_interface_that_is_not_the_ring_s_is_named() {
     let (_folder, path, whole) = small();
     let case = imported(&path, 9, "", "");
     write_superelement_npz(&path, &whole).unwrap();
-    let error = StructureStage::build(&case, &Unwatched).unwrap_err();
+    let error = CoupledStructure::build(&case, &Unwatched).unwrap_err();
     assert!(error.to_string().ends_with(
         "expected 27 interface coordinates for ring.nodes = 9 (x, y, about_z of each) or 54 (in a solid housing then z, \
          about_x, about_y of each), found 24"
@@ -319,13 +319,13 @@ fn matrices_are_checked_at_the_door() {
     let spring = "supports = [{ from_deg = 0, to_deg = 90, spring = { z = 1e5 } }]\n";
     write_superelement_npz(&path, &whole).unwrap();
     let case = imported(&path, 8, spring, "");
-    let error = StructureStage::build(&case, &Unwatched).unwrap_err();
+    let error = CoupledStructure::build(&case, &Unwatched).unwrap_err();
     assert!(error.to_string().ends_with(
         "ring.supports[0].spring has a component z, expected x and y only: the superelement is plane, three motions a node"
     ));
     let other = path.with_extension("mat");
     fs::copy(&path, &other).unwrap();
-    let error = StructureStage::build(&imported(&other, 8, "", ""), &Unwatched).unwrap_err();
+    let error = CoupledStructure::build(&imported(&other, 8, "", ""), &Unwatched).unwrap_err();
     assert!(
         error
             .to_string()
@@ -349,7 +349,7 @@ fn matrices_are_checked_at_the_door() {
 #[test]
 fn the_field_of_a_record_moves_the_nodes() {
     let case = original(PLANE, 24, "");
-    let stage = CondensedStage::build(&case, &Unwatched).unwrap().unwrap();
+    let stage = CondensedHousing::build(&case, &Unwatched).unwrap().unwrap();
     let record = superelement_record(&case, &stage).unwrap();
     let field = record.field.unwrap();
     // 160 nodes, a small file: all of them

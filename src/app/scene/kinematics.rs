@@ -1,6 +1,6 @@
 //! How shaft and balls move: what orders and speeds of an analysis come from.
 
-use super::error::StageError;
+use crate::app::error::ComputeError;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::{Cage, SpeedProfile};
 use crate::numerics::series::TimeWindow;
@@ -80,8 +80,8 @@ impl<'a> Kinematics<'a> {
     /// ball's own spin is not prescribed; its order stays that of pure rolling.
     ///
     /// # Errors
-    /// [`StageError::Diagnosis`] for orders that are none.
-    pub fn orders(&self, window: TimeWindow) -> Result<FaultOrders, StageError> {
+    /// [`ComputeError::Diagnosis`] for orders that are none.
+    pub fn orders(&self, window: TimeWindow) -> Result<FaultOrders, ComputeError> {
         match self {
             Self::Cage {
                 cage,

@@ -1,8 +1,8 @@
 //! Loaded eigenfrequencies as the balls go round, and under more or less load.
 
-use super::error::StageError;
-use super::structure::StructureStage;
+use super::structure::CoupledStructure;
 use super::watch::Watch;
+use crate::app::error::ComputeError;
 use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Section};
 use crate::system::{BearingSetup, Equilibrium, LoadedModes, StaticCondition, SystemError};
 use rayon::prelude::*;
@@ -38,13 +38,13 @@ impl LoadedPass {
     /// Linearises at the equilibrium of every angle and load, from cage and loads as they are at `time` (s).
     ///
     /// # Errors
-    /// [`StageError::System`] for what is no missing equilibrium.
+    /// [`ComputeError::System`] for what is no missing equilibrium.
     pub fn compute(
-        stage: &StructureStage,
+        stage: &CoupledStructure,
         setup: &BearingSetup,
         time: f64,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         watch.stage("ball pass");
         let condition = StaticCondition::at(setup, time);
         let point = |at: f64, condition: StaticCondition| {
@@ -69,7 +69,7 @@ impl LoadedPass {
             point(factor, condition.loaded(factor))
         };
         let all =
-            |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, StageError> + Sync)| {
+            |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, ComputeError> + Sync)| {
                 (0..points)
                     .into_par_iter()
                     .map(at)

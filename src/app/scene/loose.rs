@@ -1,8 +1,8 @@
 //! What of a housing can still move, in the mesh's words: a condensation that cannot be made names the part.
 
 use super::boundary::Boundary;
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
+use crate::app::error::ComputeError;
 use crate::fe::modal::{Mechanisms, ModalError};
 use crate::fe::model::HousingModel;
 use crate::fe::reduction::{Check, ReductionError};
@@ -11,11 +11,11 @@ use crate::fe::reduction::{Check, ReductionError};
 /// from a factorisation.
 ///
 /// # Errors
-/// [`StageError::LooseInterior`].
+/// [`ComputeError::LooseInterior`].
 pub(crate) fn check_interior(
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     boundary: &Boundary,
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     let partition = boundary.partition();
     if partition.driven.is_empty() || partition.interior.is_empty() {
         return Ok(()); // refused for this
@@ -24,7 +24,7 @@ pub(crate) fn check_interior(
     let found =
         Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
     match unless_too_many_bodies(found)? {
-        Some(found) if found.total() > 0 => Err(StageError::LooseInterior {
+        Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior {
             what: found.sentences(),
         }),
         _ => Ok(()),
@@ -32,7 +32,7 @@ pub(crate) fn check_interior(
 }
 
 /// A reduction that failed at a degree of freedom of the housing, with the part that it belongs to.
-pub(crate) fn located(error: ReductionError, model: &HousingModel) -> StageError {
+pub(crate) fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
     let dof = match error {
         ReductionError::FloatingInterior { dof, .. } | ReductionError::SoftInterior { dof, .. } => {
             dof
@@ -44,7 +44,7 @@ pub(crate) fn located(error: ReductionError, model: &HousingModel) -> StageError
     let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
     let part = of_node.and_then(|element| model.part_names().get(element.part));
     match (part, model.node_tags.get(node)) {
-        (Some(part), Some(&tag)) => StageError::SoftPart {
+        (Some(part), Some(&tag)) => ComputeError::SoftPart {
             part: part.clone(),
             tag,
             source: error,
@@ -56,12 +56,12 @@ pub(crate) fn located(error: ReductionError, model: &HousingModel) -> StageError
 /// Adds what of the whole housing can move to the check that says that something can.
 ///
 /// # Errors
-/// [`StageError::Modal`] for a mesh that is not the model's.
+/// [`ComputeError::Modal`] for a mesh that is not the model's.
 pub(crate) fn name_mechanisms(
     checks: &mut [Check],
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     boundary: &Boundary,
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     let Some(held) = checks
         .iter_mut()
         .find(|check| check.name == "held" && !check.ok())

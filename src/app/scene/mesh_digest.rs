@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::error::StageError;
 use super::watch::{MeshDigest, Watch};
 use crate::app::case::{Case, Housing};
+use crate::app::error::ComputeError;
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::files;
 use crate::report::MeshFile;
@@ -49,8 +49,8 @@ impl From<&MeshDigest> for MeshFile {
 /// Reads the mesh of a housing and tells which content it had.
 ///
 /// # Errors
-/// [`StageError::Mesh`].
-pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, StageError> {
+/// [`ComputeError::Mesh`].
+pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
     let path = &housing.mesh;
     let bytes = files::read(path).map_err(|cause| MeshError::Read {
         path: path.clone(),
@@ -64,8 +64,8 @@ pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, S
 /// mesh.
 ///
 /// # Errors
-/// [`StageError::Mesh`] for a file that cannot be read, [`StageError::Case`] for a variant that is no case.
-pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, StageError> {
+/// [`ComputeError::Mesh`] for a file that cannot be read, [`ComputeError::Case`] for a variant that is no case.
+pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, ComputeError> {
     let variants = case.variants()?;
     let cases = std::iter::once(case).chain(variants.iter().map(|variant| &variant.case));
     let housings = cases.filter_map(|case| case.housing.as_ref());
@@ -81,7 +81,7 @@ pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, StageError> {
     let digest = |path: &&Path| {
         MeshDigest::of_file(path).map_err(|cause| {
             let path = path.to_path_buf();
-            StageError::from(MeshError::Read { path, cause })
+            ComputeError::from(MeshError::Read { path, cause })
         })
     };
     paths.iter().map(digest).collect()

@@ -1,11 +1,11 @@
 //! Matrices of a case's housing, ring, or both in full, and their modes.
 
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
 use super::mode_set::{OwnModes, RingShapes};
 use super::ring::ring_and_tie;
 use super::watch::Watch;
 use crate::app::case::{Case, ModeExtent};
+use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ModalBasis, ModeRange, ModeSet, Participation};
@@ -23,13 +23,13 @@ impl Bodies {
     /// The bodies and the matrices of all together; those of the housing alone are gone.
     ///
     /// # Errors
-    /// [`StageError`] of mesh, model, elements, ring and tie.
+    /// [`ComputeError`] of mesh, model, elements, ring and tie.
     pub fn assemble(
         case: &Case,
         watch: &impl Watch,
-    ) -> Result<(Self, CoupledMatrices), StageError> {
+    ) -> Result<(Self, CoupledMatrices), ComputeError> {
         let Some(asked) = &case.ring else {
-            let housing = HousingStage::of(case, watch)?;
+            let housing = AssembledHousing::of(case, watch)?;
             let matrices = CoupledMatrices::of_housing(housing.matrices, &housing.model);
             let bodies = Self {
                 housing: Some((housing.mesh, housing.model)),
@@ -38,7 +38,7 @@ impl Bodies {
             };
             return Ok((bodies, matrices));
         };
-        let housing = HousingStage::build(case, watch)?;
+        let housing = AssembledHousing::build(case, watch)?;
         let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
         watch.stage("couple");
         let matrices = match (&housing, &tie) {
@@ -92,12 +92,12 @@ impl FullModes {
     /// Modes over the free rows, at least one. The matrices are gone before they are factorised.
     ///
     /// # Errors
-    /// [`StageError::Linalg`], [`StageError::NoModes`].
+    /// [`ComputeError::Linalg`], [`ComputeError::NoModes`].
     pub fn of(
         matrices: CoupledMatrices,
         extent: ModeExtent,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let solve = |problem: &EigenProblem, range, _: &CoupledMotions, _: &[usize], _| {
             Ok(ModalBasis::of(problem, range)?)
         };
@@ -115,9 +115,9 @@ impl FullModes {
             &CoupledMotions,
             &[usize],
             usize,
-        ) -> Result<ModalBasis, StageError>,
+        ) -> Result<ModalBasis, ComputeError>,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let CoupledMatrices {
             stiffness,
             mass,
@@ -131,7 +131,7 @@ impl FullModes {
         watch.stage("eigen");
         let basis = solve(&problem, range(extent, free.len()), &motions, &free, rows)?;
         if basis.count() == 0 {
-            return Err(StageError::NoModes { extent });
+            return Err(ComputeError::NoModes { extent });
         }
         Ok(Self {
             basis,
@@ -145,14 +145,14 @@ impl FullModes {
     /// the unit motions `rigid`. `products` gives `Phi^T K Phi` of shapes over all rows, element by element.
     ///
     /// # Errors
-    /// [`StageError::Linalg`], and what `products` reports.
+    /// [`ComputeError::Linalg`], and what `products` reports.
     pub fn analysed(
         matrices: CoupledMatrices,
         extent: ModeExtent,
         rigid: &DenseMatrix,
-        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, StageError>,
+        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ComputeError>,
         watch: &impl Watch,
-    ) -> Result<(Self, DenseMatrix, Participation), StageError> {
+    ) -> Result<(Self, DenseMatrix, Participation), ComputeError> {
         let moved = sparse_times_dense(&matrices.mass, rigid);
         let solve =
             |problem: &EigenProblem, range, motions: &CoupledMotions, free: &[usize], rows| {
@@ -169,12 +169,12 @@ impl FullModes {
     /// The lowest `count` modes, or all if there are fewer.
     ///
     /// # Errors
-    /// [`StageError::Linalg`].
+    /// [`ComputeError::Linalg`].
     pub fn lowest(
         matrices: CoupledMatrices,
         count: usize,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let count = count.min(matrices.free_dofs.len()).max(1);
         Self::of(matrices, ModeExtent::Count(count), watch)
     }
@@ -182,11 +182,11 @@ impl FullModes {
     /// Computes the modes near zero again by the energies of elements: `products` as above.
     ///
     /// # Errors
-    /// What `products` reports, and [`StageError::Linalg`].
+    /// What `products` reports, and [`ComputeError::Linalg`].
     pub fn sharpen(
         &mut self,
-        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, StageError>,
-    ) -> Result<(), StageError> {
+        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ComputeError>,
+    ) -> Result<(), ComputeError> {
         let Self {
             basis,
             motions,

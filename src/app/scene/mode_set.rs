@@ -1,6 +1,6 @@
 //! Modes at points: those that were computed, and those of a file, for a comparison.
 
-use super::error::StageError;
+use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ModalComparison, ModeSet};
 use crate::fe::model::{HousingModel, Ring, RingFrame};
@@ -100,13 +100,13 @@ pub(crate) fn partners(
 /// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
 ///
 /// # Errors
-/// [`StageError::PointsUnknown`] if neither gives their places.
+/// [`ComputeError::PointsUnknown`] if neither gives their places.
 pub(crate) fn placed(
     file: &Path,
     modes: &ModeShapes,
     mesh: Option<&Mesh>,
-) -> Result<ModeSet, StageError> {
-    let unknown = |found| StageError::PointsUnknown {
+) -> Result<ModeSet, ComputeError> {
+    let unknown = |found| ComputeError::PointsUnknown {
         file: file.to_owned(),
         found,
     };

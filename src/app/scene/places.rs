@@ -1,9 +1,9 @@
 //! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
 
 use super::boundary::Boundary;
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
 use crate::app::case::SensorSpot;
+use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::BoundingBox;
 use crate::fe::model::{Ring, RingFrame, RingTie};
@@ -58,7 +58,7 @@ pub(crate) enum Place {
 /// The bodies of a case that a place may be on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlaceBodies<'a> {
-    pub housing: Option<&'a HousingStage>,
+    pub housing: Option<&'a AssembledHousing>,
     pub ring: Option<&'a Ring>,
     pub tie: Option<&'a RingTie>,
     /// Where the bearing sits in the axes that directions are given in.
@@ -69,20 +69,20 @@ impl Place {
     /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
     ///
     /// # Errors
-    /// [`StageError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names `name`.
+    /// [`ComputeError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names `name`.
     pub fn new(
         bodies: PlaceBodies<'_>,
         name: Named<'_>,
         spot: &SensorSpot,
         direction: [f64; 3],
-    ) -> Result<Self, StageError> {
-        let needs_housing = |place: String| StageError::SensorNeedsHousing {
+    ) -> Result<Self, ComputeError> {
+        let needs_housing = |place: String| ComputeError::SensorNeedsHousing {
             name: name.to_string(),
             place,
         };
         let (nodes, housing) = match (spot, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
-                let ring = bodies.ring.ok_or_else(|| StageError::SensorNeedsRing {
+                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing {
                     name: name.to_string(),
                 })?;
                 let direction = unit(bodies.frame.vector(direction));
@@ -202,10 +202,10 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// A unit vector that lies in the plane.
-fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], StageError> {
+fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], ComputeError> {
     let [x, y, across] = direction;
     if across.abs() > ACROSS {
-        return Err(StageError::SensorDirection {
+        return Err(ComputeError::SensorDirection {
             name: name.to_string(),
             across: (across * 1e6).round() / 1e6,
         });
@@ -215,10 +215,10 @@ fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], StageError
 
 /// Something in a place's row can move.
 fn check_moves(
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     name: Named<'_>,
     entries: &[(usize, f64)],
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     let model = &housing.model;
     let d = model.dimension();
     let mut holder = None;
@@ -230,7 +230,7 @@ fn check_moves(
     }
     match holder {
         None => Ok(()),
-        Some(support) => Err(StageError::SensorHeld {
+        Some(support) => Err(ComputeError::SensorHeld {
             name: name.to_string(),
             support: support.clone(),
         }),
@@ -240,12 +240,12 @@ fn check_moves(
 /// Nodes of the mesh at a place; none at one on the ring.
 ///
 /// # Errors
-/// [`StageError`] for a place that is not there.
+/// [`ComputeError`] for a place that is not there.
 pub(crate) fn nodes_at(
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     name: Named<'_>,
     spot: &SensorSpot,
-) -> Result<Vec<usize>, StageError> {
+) -> Result<Vec<usize>, ComputeError> {
     match spot {
         SensorSpot::Group(group) => of_group(housing, group),
         SensorSpot::Point(point) => Ok(vec![nearest_node(housing, name, point)?]),
@@ -254,7 +254,7 @@ pub(crate) fn nodes_at(
     }
 }
 
-fn of_group(housing: &HousingStage, group: &str) -> Result<Vec<usize>, StageError> {
+fn of_group(housing: &AssembledHousing, group: &str) -> Result<Vec<usize>, ComputeError> {
     let group = housing
         .model
         .group_on_housing(&housing.mesh, group, "the sensor")?;
@@ -262,7 +262,11 @@ fn of_group(housing: &HousingStage, group: &str) -> Result<Vec<usize>, StageErro
     Ok(group.nodes.iter().copied().filter(used).collect())
 }
 
-fn tagged_node(housing: &HousingStage, name: Named<'_>, tag: u64) -> Result<usize, StageError> {
+fn tagged_node(
+    housing: &AssembledHousing,
+    name: Named<'_>,
+    tag: u64,
+) -> Result<usize, ComputeError> {
     let place = housing
         .model
         .node_tags
@@ -270,7 +274,7 @@ fn tagged_node(housing: &HousingStage, name: Named<'_>, tag: u64) -> Result<usiz
         .position(|&found| found == tag);
     place
         .filter(|&node| housing.model.is_used(node))
-        .ok_or_else(|| StageError::SensorNode {
+        .ok_or_else(|| ComputeError::SensorNode {
             name: name.to_string(),
             tag,
             in_mesh: place.is_some(),
@@ -278,10 +282,10 @@ fn tagged_node(housing: &HousingStage, name: Named<'_>, tag: u64) -> Result<usiz
 }
 
 fn nearest_node(
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     name: Named<'_>,
     point: &[f64; 3],
-) -> Result<usize, StageError> {
+) -> Result<usize, ComputeError> {
     let across = housing.model.dimension() == 3;
     let distance = |node: &[f64; 3]| {
         let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
@@ -304,7 +308,7 @@ fn nearest_node(
             }
         }
     }
-    let missed = |distance| StageError::SensorPlace {
+    let missed = |distance| ComputeError::SensorPlace {
         name: name.to_string(),
         point: *point,
         distance,

@@ -1,8 +1,8 @@
 //! The interface of a condensed housing on characteristic constraint modes, as a case asks for it.
 
-use super::condensed::CondensedStage;
-use super::error::StageError;
+use super::condensed::CondensedHousing;
 use crate::app::case::{Case, InterfaceModes};
+use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::reduction::{
     CharacteristicModes, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility,
@@ -29,13 +29,13 @@ impl ReducedInterface {
     /// none. `estimate` is that of the whole interface.
     ///
     /// # Errors
-    /// [`StageError::Reduction`] for too few modes, and of the dense eigenvalue solver.
+    /// [`ComputeError::Reduction`] for too few modes, and of the dense eigenvalue solver.
     pub(crate) fn of(
         case: &Case,
-        stage: &CondensedStage,
+        stage: &CondensedHousing,
         modes: &CharacteristicModes,
         estimate: &ErrorEstimate,
-    ) -> Result<Option<(Self, ErrorEstimate)>, StageError> {
+    ) -> Result<Option<(Self, ErrorEstimate)>, ComputeError> {
         let size = match case.condense.interface_modes {
             InterfaceModes::None => return Ok(None),
             InterfaceModes::Count(count) => InterfaceSize::Count(count),
@@ -57,11 +57,11 @@ impl ReducedInterface {
 /// All modes of the interface of a condensed housing with what is attached to it.
 ///
 /// # Errors
-/// [`StageError::Reduction`] of the dense eigenvalue solver.
+/// [`ComputeError::Reduction`] of the dense eigenvalue solver.
 pub(crate) fn characteristic_modes(
-    stage: &CondensedStage,
+    stage: &CondensedHousing,
     matrices: &SystemMatrices,
-) -> Result<CharacteristicModes, StageError> {
+) -> Result<CharacteristicModes, ComputeError> {
     let rigid = stage
         .rigid_motions()
         .free_interface(&stage.condensed, matrices)?;

@@ -1,8 +1,8 @@
 //! The ring of a case: its section, supports and tie to the bore.
 
-use super::error::StageError;
-use super::housing::{HousingStage, material};
+use super::housing::{AssembledHousing, material};
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, RadiusRule, RingLayer};
 use crate::fe::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
@@ -10,12 +10,12 @@ use crate::fe::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
 /// The ring of a case, and how it sits in its housing if it does.
 ///
 /// # Errors
-/// [`StageError`] of the ring and of the tie.
+/// [`ComputeError`] of the ring and of the tie.
 pub(crate) fn ring_and_tie(
     case: &Case,
     asked: &case::Ring,
-    housing: Option<&HousingStage>,
-) -> Result<(Ring, Option<RingTie>), StageError> {
+    housing: Option<&AssembledHousing>,
+) -> Result<(Ring, Option<RingTie>), ComputeError> {
     let in_space = housing.is_some_and(|housing| housing.model.dimension() == 3);
     let ring = ring(case, asked, in_space)?;
     let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
@@ -34,8 +34,8 @@ pub(crate) fn ring_and_tie(
 /// A section of a ring as it is asked for.
 ///
 /// # Errors
-/// [`StageError::Material`].
-pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, StageError> {
+/// [`ComputeError::Material`].
+pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, ComputeError> {
     Ok(RingLayer {
         material: material(case, &section.material)?,
         area: section.area,
@@ -48,9 +48,9 @@ pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, S
 }
 
 /// The ring of a case with its supports; in space for a solid housing.
-pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, StageError> {
+pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, ComputeError> {
     let layers = asked.sections.iter().map(|section| layer(case, section));
-    let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
+    let layers = layers.collect::<Result<Vec<_>, ComputeError>>()?;
     let bond = match (asked.bond, asked.radius_rule) {
         (case::Bond::Composite, _) => Bond::Composite,
         (case::Bond::Slip, case::RadiusRule::Own) => Bond::Slip(RadiusRule::Own),

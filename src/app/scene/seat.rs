@@ -1,7 +1,7 @@
 //! The bore that a ring is tied to, along the ring's axis.
 
-use super::error::StageError;
 use crate::app::case;
+use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::fe::model::HousingModel;
 use std::f64::consts::TAU;
@@ -23,8 +23,8 @@ impl Seat {
     /// The bore of a tie.
     ///
     /// # Errors
-    /// [`StageError::Model`] if the mesh lacks it.
-    pub fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, StageError> {
+    /// [`ComputeError::Model`] if the mesh lacks it.
+    pub fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
         let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
         let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
         let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();

@@ -1,7 +1,7 @@
 //! A bearing at rest: its equilibria, and what changes while the cage turns.
 
-use super::error::StageError;
-use super::structure::StructureStage;
+use super::structure::CoupledStructure;
+use crate::app::error::ComputeError;
 use crate::system::{BearingSetup, Equilibrium, StaticCondition};
 use rayon::prelude::*;
 
@@ -30,12 +30,12 @@ impl Statics {
     /// Equilibria with cage and loads as they are at `time` (s), and those of a ball pass from there.
     ///
     /// # Errors
-    /// [`StageError::System`] if there is no equilibrium.
+    /// [`ComputeError::System`] if there is no equilibrium.
     pub fn compute(
-        stage: &StructureStage,
+        stage: &CoupledStructure,
         setup: &BearingSetup,
         time: f64,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let condition = StaticCondition::at(setup, time);
         let equilibria = Equilibrium::find_all(&stage.structure, setup, condition)?;
         let point = |place: usize| {

@@ -1,14 +1,14 @@
 //! Ring and condensed housing of a case in one structure, with its sensors and modes.
 
 use super::boundary::Boundary;
-use super::condensed::{CondensedStage, basis_choice};
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::condensed::{CondensedHousing, basis_choice};
+use super::housing::AssembledHousing;
 use super::imported::ImportedHousing;
 use super::places::{Named, Place, PlaceBodies};
 use super::ring::ring;
 use super::watch::Watch;
 use crate::app::case::{self, Case, Interface, ModesKept};
+use crate::app::error::ComputeError;
 use crate::fe::model::{RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
 use crate::system::{Sensor, Structure, StructureModes};
@@ -38,9 +38,9 @@ pub(crate) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
 
 /// The linear model of a case.
 #[derive(Debug, Clone)]
-pub struct StructureStage {
+pub struct CoupledStructure {
     /// The housing, if the case has one.
-    pub housing: Option<HousingStage>,
+    pub housing: Option<AssembledHousing>,
     /// The superelement that stands for the housing, if the case has one.
     pub imported: Option<Box<ImportedHousing>>,
     /// How the ring sits in the housing, if there is one.
@@ -56,12 +56,12 @@ pub struct StructureStage {
     pub modes: StructureModes,
 }
 
-impl StructureStage {
+impl CoupledStructure {
     /// Builds ring and housing of a case, with as many modes as it needs; `None` without a ring.
     ///
     /// # Errors
-    /// [`StageError`] of the stages that it goes through.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, StageError> {
+    /// [`ComputeError`] of the stages that it goes through.
+    pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         Self::with_modes(case, needed_modes(case), watch)
     }
 
@@ -73,7 +73,7 @@ impl StructureStage {
         case: &Case,
         count: usize,
         watch: &impl Watch,
-    ) -> Result<Option<Self>, StageError> {
+    ) -> Result<Option<Self>, ComputeError> {
         let Some(asked) = &case.ring else {
             return Ok(None);
         };
@@ -82,7 +82,7 @@ impl StructureStage {
             .as_ref()
             .map_or([0.0, -9.81], |shaft| shaft.gravity);
         if case.condense.interface != Interface::Ring {
-            return Err(StageError::InterfaceOfRing);
+            return Err(ComputeError::InterfaceOfRing);
         }
         if let Some(path) = case.superelement() {
             watch.stage("read");
@@ -106,7 +106,7 @@ impl StructureStage {
             },
             ..asked_basis
         };
-        let Some(stage) = CondensedStage::with_basis(case, choice, watch)? else {
+        let Some(stage) = CondensedHousing::with_basis(case, choice, watch)? else {
             let ring = ring(case, asked, false)?;
             let mut structure = Structure::ring_alone(ring, gravity);
             let bodies = PlaceBodies {
@@ -129,14 +129,14 @@ impl StructureStage {
             rows.push(stage.place_of(sensor)?.reduced(&stage.condensed));
         }
         let complete_hz = stage.condensed.basis.complete_below().sqrt() / TAU;
-        let CondensedStage {
+        let CondensedHousing {
             housing,
             boundary,
             condensed,
             ..
         } = stage;
         let Boundary::Ring(bodies) = boundary else {
-            return Err(StageError::InterfaceOfRing);
+            return Err(ComputeError::InterfaceOfRing);
         };
         let (ring, tie) = *bodies;
         let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
@@ -154,7 +154,7 @@ impl StructureStage {
         around: Around,
         modes: usize,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         watch.stage("eigen");
         let mut stage = Self {
             modes: structure.lowest_modes(modes)?,
@@ -211,7 +211,7 @@ fn needed_modes(case: &Case) -> usize {
 enum Around {
     Nothing,
     /// A housing, the tie to it, and the number of vectors of its interior.
-    Housing(Box<(HousingStage, RingTie, usize)>),
+    Housing(Box<(AssembledHousing, RingTie, usize)>),
     Imported(Box<ImportedHousing>),
 }
 
@@ -219,7 +219,7 @@ fn add_sensors(
     structure: &mut Structure,
     sensors: &[case::Sensor],
     rows: Vec<Vec<f64>>,
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     for (sensor, row) in sensors.iter().zip(rows) {
         structure.add_sensor(Sensor {
             name: sensor.name.clone(),

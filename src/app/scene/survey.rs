@@ -1,13 +1,13 @@
 //! The modes of a case's housing, ring, or both, without contact and in full: nothing condensed.
 
-use super::error::StageError;
-use super::housing::HousingStage;
+use super::housing::AssembledHousing;
 use super::loose::unless_too_many_bodies;
 use super::modal_system::FullModes;
 use super::mode_set::RingShapes;
-use super::structure::StructureStage;
+use super::structure::CoupledStructure;
 use super::watch::{Unwatched, Watch};
 use crate::app::case::ModeExtent;
+use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{
@@ -46,14 +46,14 @@ impl ModalSurvey {
     /// Modes of a housing alone; its matrices are used up.
     ///
     /// # Errors
-    /// [`StageError`] of eigenvalue computation and analysis.
+    /// [`ComputeError`] of eigenvalue computation and analysis.
     pub fn of_housing(
         mesh: &Mesh,
         model: &HousingModel,
         matrices: SystemMatrices,
         extent: ModeExtent,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let mass = MassProperties::of_housing(&matrices, model)?;
         let rigid = rigid_motions(model.coordinates(), model.dimension(), centroid(&mass));
         let matrices = CoupledMatrices::of_housing(matrices, model);
@@ -88,12 +88,12 @@ impl ModalSurvey {
     /// Modes of a ring, in a housing if the case has one.
     ///
     /// # Errors
-    /// [`StageError`] of eigenvalue computation and analysis.
+    /// [`ComputeError`] of eigenvalue computation and analysis.
     pub fn of_structure(
-        stage: &StructureStage,
+        stage: &CoupledStructure,
         extent: ModeExtent,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let ring = stage.structure.ring();
         match (&stage.housing, &stage.tie) {
             (Some(housing), Some(tie)) => Self::of_coupled(housing, tie, ring, extent, watch),
@@ -104,10 +104,10 @@ impl ModalSurvey {
 
     /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
     fn of_imported(
-        stage: &StructureStage,
+        stage: &CoupledStructure,
         extent: ModeExtent,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let ring = stage.structure.ring();
         let modes = FullModes::of(matrices_of(stage), extent, watch)?;
         let of_ring = modes.motions.ring(&modes.over_all_rows());
@@ -125,13 +125,13 @@ impl ModalSurvey {
     }
 
     fn of_coupled(
-        housing: &HousingStage,
+        housing: &AssembledHousing,
         tie: &RingTie,
         ring: &Ring,
         extent: ModeExtent,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
-        let HousingStage { mesh, model, .. } = housing;
+    ) -> Result<Self, ComputeError> {
+        let AssembledHousing { mesh, model, .. } = housing;
         let frame = model.frame();
         let matrices = CoupledMatrices::new(&housing.matrices, tie, ring);
         let rigid_about = |about: [f64; 3]| {
@@ -174,7 +174,7 @@ impl ModalSurvey {
         })
     }
 
-    fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, StageError> {
+    fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, ComputeError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
         let matrices = CoupledMatrices::of_ring(ring);
@@ -211,11 +211,11 @@ fn centroid(mass: &MassProperties) -> [f64; 3] {
 /// Frequencies of a ring, in a housing if the case has one, in full: nothing condensed, nothing analysed.
 ///
 /// # Errors
-/// [`StageError`] of eigenvalue computation.
+/// [`ComputeError`] of eigenvalue computation.
 pub(crate) fn unloaded_modes(
-    stage: &StructureStage,
+    stage: &CoupledStructure,
     extent: ModeExtent,
-) -> Result<UnloadedModes, StageError> {
+) -> Result<UnloadedModes, ComputeError> {
     let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
     Ok(UnloadedModes {
         frequencies_hz: basis.frequencies_hz,
@@ -224,7 +224,7 @@ pub(crate) fn unloaded_modes(
 }
 
 /// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
-pub(crate) fn matrices_of(stage: &StructureStage) -> CoupledMatrices {
+pub(crate) fn matrices_of(stage: &CoupledStructure) -> CoupledMatrices {
     let structure = &stage.structure;
     let ring = structure.ring();
     match (&stage.housing, &stage.tie) {

@@ -1,7 +1,7 @@
 //! Why a check could not be carried out: nothing that a user could set right.
 
 use crate::app::case::CaseError;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::app::verification::ring::RingError as RingFormulaError;
 use crate::bearing::StiffnessError;
 use crate::bearing::hertz::HertzError;
@@ -27,7 +27,7 @@ pub enum VerificationError {
     Case(Box<CaseError>),
     /// A stage of a built-in case failed.
     #[error(transparent)]
-    Stage(Box<StageError>),
+    Stage(Box<ComputeError>),
     /// A built-in case has no bearing.
     #[error("the built-in case has no bearing")]
     NoBearing,
@@ -114,8 +114,8 @@ impl From<TransientError> for VerificationError {
     }
 }
 
-impl From<StageError> for VerificationError {
-    fn from(error: StageError) -> Self {
+impl From<ComputeError> for VerificationError {
+    fn from(error: ComputeError) -> Self {
         Self::Stage(Box::new(error))
     }
 }

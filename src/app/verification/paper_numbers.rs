@@ -175,7 +175,7 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
         young: 206e9,
         poisson: 0.3,
     };
-    let geometry = BearingGeometry::new(BEARING).map_err(crate::app::scene::StageError::from)?;
+    let geometry = BearingGeometry::new(BEARING).map_err(crate::app::error::ComputeError::from)?;
     let contacts = RaceContacts::new(&geometry, steel, steel, steel)?;
     let kind = |unit, reason| Kind {
         unit,

@@ -8,13 +8,13 @@ use super::source::Source;
 use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_window};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::TimeWindow;
 
 /// Whether a file of signals has instants or a sampling rate.
 fn states_its_rate(path: &Path) -> Result<bool, CliError> {
-    let found = read(path, SignalRequest::default(), Unnamed::Every).map_err(StageError::from)?;
+    let found = read(path, SignalRequest::default(), Unnamed::Every).map_err(ComputeError::from)?;
     Ok(!found.missing.contains(&Missing::Rate))
 }
 

@@ -5,7 +5,8 @@ use std::path::Path;
 use super::{AnalyzeArguments, AnalyzeError};
 use crate::app::case::Case;
 use crate::app::cli::CliError;
-use crate::app::scene::{StageError, bearing_geometry};
+use crate::app::error::ComputeError;
+use crate::app::scene::bearing_geometry;
 use crate::bearing::catalogue::CatalogueBearing;
 use crate::bearing::kinematics::{BallRow, DefectOrders, RaceError};
 use crate::signal::diagnosis::FaultOrders;
@@ -45,12 +46,12 @@ pub(super) fn orders(
     error: f64,
 ) -> Result<Option<FaultOrders>, CliError> {
     let in_row = |row: Result<DefectOrders, RaceError>| {
-        row.map_err(|error| StageError::Geometry(error.into()))
+        row.map_err(|error| ComputeError::Geometry(error.into()))
     };
     let row: DefectOrders = match (&asked.orders, asked.balls, catalogue, case) {
         (Some(given), ..) => {
             return Ok(Some(
-                FaultOrders::new(given.0, error).map_err(StageError::from)?,
+                FaultOrders::new(given.0, error).map_err(ComputeError::from)?,
             ));
         }
         // clap sees to it that all three numbers are there
@@ -71,7 +72,7 @@ pub(super) fn orders(
         (None, None, None, None) => return Ok(None),
     };
     Ok(Some(
-        FaultOrders::of(&row, error).map_err(StageError::from)?,
+        FaultOrders::of(&row, error).map_err(ComputeError::from)?,
     ))
 }
 

@@ -14,7 +14,8 @@ use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{
     AnalysisSettings, AskedBand, WindowAnalysis, compute_analysis,
 };
-use crate::app::scene::{Kinematics, StageError, Unwatched};
+use crate::app::error::ComputeError;
+use crate::app::scene::{Kinematics, Unwatched};
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
@@ -71,7 +72,7 @@ impl Source {
             (input.to_owned(), case)
         };
         let machine = Machine::of(asked, is_run, case.as_ref(), options)?;
-        let read = read(&file, request, unnamed).map_err(StageError::from)?;
+        let read = read(&file, request, unnamed).map_err(ComputeError::from)?;
         let mut missing = read.missing;
         if machine.orders.is_none() {
             missing.push(Missing::Bearing);
@@ -81,7 +82,7 @@ impl Source {
         }
         match (read.first, missing.as_slice()) {
             (_, []) => {}
-            (Some(alone), [_]) => return Err(StageError::from(alone).into()),
+            (Some(alone), [_]) => return Err(ComputeError::from(alone).into()),
             _ => {
                 let input = input.to_owned();
                 return Err(AnalyzeError::Missing { input, missing }.into());
@@ -213,7 +214,7 @@ impl Source {
 }
 
 /// Gives a sensor of a run its unit, which its file does not have.
-fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), StageError> {
+fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), ComputeError> {
     let series = &signal.series;
     let values = series.values().to_vec();
     signal.series = TimeSeries::new(series.start_s(), series.step_s(), "m/s^2", values)?;

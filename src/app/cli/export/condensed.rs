@@ -5,7 +5,8 @@ use super::{CliError, Export, ExportError};
 use crate::app::case::{Case, Interface, InterfaceModes};
 use crate::app::cli::{ExportFormat, OutputFolder, Progress};
 use crate::app::commands::condense::superelement_record;
-use crate::app::scene::{CondensedStage, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::CondensedHousing;
 use crate::formats::{
     DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
     write_superelement_op4,
@@ -105,7 +106,7 @@ pub(super) fn mbdyn(
 
 fn condensed(case: &Case, progress: &Progress) -> Result<SuperelementRecord, CliError> {
     // a case with nothing to condense was refused before
-    let stage = CondensedStage::build(case, progress)?.ok_or(StageError::NothingToCondense)?;
+    let stage = CondensedHousing::build(case, progress)?.ok_or(ComputeError::NothingToCondense)?;
     progress.stage("write");
     Ok(superelement_record(case, &stage)?)
 }

@@ -7,7 +7,8 @@ use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{Options, Progress, ResultsError};
 use crate::app::commands::modes::compute_mode_shapes;
-use crate::app::scene::{MeshDigest, StageError, mesh_digests};
+use crate::app::error::ComputeError;
+use crate::app::scene::{MeshDigest, mesh_digests};
 use crate::fe::mesh::Mesh;
 use crate::formats::{ModeShapes, read_modes_npz};
 use serde_json::Value;
@@ -84,7 +85,7 @@ impl Source {
         let mesh = housing
             .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
             .transpose()
-            .map_err(StageError::from)?;
+            .map_err(ComputeError::from)?;
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))

@@ -1,7 +1,7 @@
 //! The band of a signal whose envelope is taken: as asked for, or the most impulsive one of a window.
 
 use crate::app::case::{Case, EnvelopeBand};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::{FaultOrders, JUDGED_HARMONICS};
 use crate::signal::{
@@ -88,10 +88,10 @@ impl UsedBand {
     pub(crate) fn of(
         asked: Option<AskedBand>,
         window: TimeWindow,
-        read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
+        read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>,
         speed_hz: f64,
         orders: &FaultOrders,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         match asked {
             None => Ok(Self::default()),
             Some(AskedBand::HighPass(corner)) => Ok(Self::above(corner)),

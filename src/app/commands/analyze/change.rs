@@ -1,7 +1,8 @@
 //! A window of a signal beside an earlier signal of the same machine: what grew.
 
 use super::window::WindowAnalysis;
-use crate::app::scene::{Kinematics, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::Kinematics;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
@@ -69,7 +70,7 @@ impl WindowChange {
         &mut self,
         now: &ComparedSignal<'_>,
         then: &ComparedSignal<'_>,
-    ) -> Result<(), StageError> {
+    ) -> Result<(), ComputeError> {
         self.speed_hz = then.diagnosis().speed_hz;
         self.lines = line_changes(now, then)?;
         if let Some(band_hz) = shown_band(now.diagnosis(), &self.lines) {
@@ -102,14 +103,14 @@ impl WindowChange {
 /// Compares an analysed window of a signal with an earlier signal, and says in the evidence of each verdict what came of it.
 ///
 /// # Errors
-/// [`StageError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
+/// [`ComputeError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
 pub fn compare_window(
     window: &mut WindowAnalysis,
     within_hz: Option<[f64; 2]>,
     signal: &MeasuredSignal,
     kinematics: &Kinematics<'_>,
     earlier: &EarlierSignal<'_>,
-) -> Result<(), StageError> {
+) -> Result<(), ComputeError> {
     let span = TimeWindow {
         from: window.from,
         to: window.to,
@@ -181,7 +182,7 @@ pub fn compare_window(
 }
 
 /// A window of a series with as much before and after it as it is long, so that its envelope has no edges.
-fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, StageError> {
+fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, ComputeError> {
     let samples = series.values().len();
     let inside = window.check_inside(series.start_s(), series.step_s(), samples);
     inside.map_err(DiagnosisError::from)?;
@@ -191,7 +192,7 @@ fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, StageE
     Ok(series.window(from, to)?)
 }
 
-fn stretch_of(earlier: &EarlierSignal<'_>) -> Result<TimeSeries, StageError> {
+fn stretch_of(earlier: &EarlierSignal<'_>) -> Result<TimeSeries, ComputeError> {
     stretch(&earlier.signal.series, earlier.window)
 }
 

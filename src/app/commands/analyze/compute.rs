@@ -2,7 +2,8 @@
 
 use super::band_search::AskedBand;
 use super::window::{AnalysisSettings, WindowAnalysis, analyse};
-use crate::app::scene::{Kinematics, StageError, Watch};
+use crate::app::error::ComputeError;
+use crate::app::scene::{Kinematics, Watch};
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::TimeWindow;
 use crate::signal::diagnosis::DiagnosisError;
@@ -12,13 +13,13 @@ use crate::signal::usual_high_pass_hz;
 /// [`usual_high_pass_hz`].
 ///
 /// # Errors
-/// [`StageError`]: a window outside a signal, a filter beyond half the sampling rate.
+/// [`ComputeError`]: a window outside a signal, a filter beyond half the sampling rate.
 pub fn compute_analysis(
     signals: &[MeasuredSignal],
     settings: &AnalysisSettings,
     kinematics: &Kinematics,
     watch: &impl Watch,
-) -> Result<Vec<WindowAnalysis>, StageError> {
+) -> Result<Vec<WindowAnalysis>, ComputeError> {
     watch.stage("analyse");
     let mut windows = Vec::new();
     for signal in signals {

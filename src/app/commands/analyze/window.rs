@@ -4,7 +4,8 @@ use super::band_search::{AskedBand, UsedBand};
 use super::change::WindowChange;
 use super::no_signs::no_signs;
 use crate::app::case::Case;
-use crate::app::scene::{Kinematics, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::Kinematics;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
 use crate::signal::diagnosis::{Diagnosis, Fault, FaultOrders};
@@ -115,14 +116,14 @@ pub struct WindowAnalysis {
 ///
 /// # Errors
 /// Of `read`, and
-/// [`StageError::Signal`] or [`StageError::Series`] for a window outside the signal or a filter
+/// [`ComputeError::Signal`] or [`ComputeError::Series`] for a window outside the signal or a filter
 /// that does not fit the sampling.
 pub fn analyse(
     sensor: &str,
     settings: &AnalysisSettings,
-    read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>,
+    read: impl Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>,
     kinematics: &Kinematics,
-) -> Result<Vec<WindowAnalysis>, StageError> {
+) -> Result<Vec<WindowAnalysis>, ComputeError> {
     let windows = settings.windows.iter();
     windows
         .map(|&window| {
@@ -236,7 +237,7 @@ fn lines(
     orders: &FaultOrders,
     diagnosis: Option<&Diagnosis>,
     sharp: f64,
-) -> Result<(Vec<NamedLine>, bool), StageError> {
+) -> Result<(Vec<NamedLine>, bool), ComputeError> {
     if speed_hz <= 0.0 {
         return Ok((Vec::new(), false));
     }

@@ -1,13 +1,14 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
 
 use crate::app::case::{Case, InterfaceModes, ModeExtent};
-use crate::app::scene::CondensedStage;
+use crate::app::error::ComputeError;
+use crate::app::scene::CondensedHousing;
 use crate::app::scene::ReducedInterface;
 use crate::app::scene::loose::name_mechanisms;
 use crate::app::scene::modal_system::FullModes;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
-use crate::app::scene::{HousingStage, StageError, Watch, doubts};
+use crate::app::scene::{AssembledHousing, Watch, doubts};
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
     size_study,
@@ -48,7 +49,7 @@ pub struct FullComparison {
 #[derive(Debug, Clone)]
 pub struct CondenseResult {
     /// The condensed housing.
-    pub stage: CondensedStage,
+    pub stage: CondensedHousing,
     /// Its interface on modes, if the case asks for it.
     pub interface: Option<ReducedInterface>,
     /// Errors in the band, of the interface's reduction too.
@@ -81,14 +82,14 @@ impl CondenseResult {
 /// Condenses the housing of a case.
 ///
 /// # Errors
-/// [`StageError`] of the stages that it goes through.
+/// [`ComputeError`] of the stages that it goes through.
 pub fn compute_condense(
     case: &Case,
     comparison: Comparison,
     watch: &impl Watch,
-) -> Result<CondenseResult, StageError> {
+) -> Result<CondenseResult, ComputeError> {
     // a case with neither tie nor other interface was refused before
-    let stage = CondensedStage::build(case, watch)?.ok_or(StageError::NothingToCondense)?;
+    let stage = CondensedHousing::build(case, watch)?.ok_or(ComputeError::NothingToCondense)?;
     watch.stage("estimate");
     let band_hz = stage.choice.band_hz;
     let mut estimate = stage
@@ -137,7 +138,7 @@ pub fn compute_condense(
         }
     }
     drop(matrices);
-    let HousingStage { mesh, model, .. } = &stage.housing;
+    let AssembledHousing { mesh, model, .. } = &stage.housing;
     Ok(CondenseResult {
         doubts: doubts(case, Some((mesh, model)), None)?,
         stage,
@@ -165,10 +166,10 @@ fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {
 }
 
 fn compare(
-    stage: &CondensedStage,
+    stage: &CondensedHousing,
     estimate: &ErrorEstimate,
     watch: &impl Watch,
-) -> Result<FullComparison, StageError> {
+) -> Result<FullComparison, ComputeError> {
     let extent = ModeExtent::Count(estimate.modes.len().max(1));
     let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
     let rigid = modes.basis.rigid_modes;
@@ -195,7 +196,7 @@ fn compare(
 }
 
 /// Fixed-interface frequencies of a factorisation of its own.
-fn fixed_interface(stage: &CondensedStage) -> Result<Check, StageError> {
+fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
     let basis = &stage.condensed.basis;
     let kept = basis
         .values()

@@ -3,8 +3,9 @@
 use super::compute::{CondenseResult, FullComparison};
 use super::{reduced_interface_report, size_chart};
 use crate::app::case::Case;
+use crate::app::error::ComputeError;
+use crate::app::scene::Boundary;
 use crate::app::scene::tie_price::{BeamAndSolid, TiePrice};
-use crate::app::scene::{Boundary, StageError};
 use crate::fe::reduction::{BasisSize, Bound, Check};
 use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant};
 use std::f64::consts::TAU;
@@ -17,7 +18,7 @@ pub fn condense_report(
     case: &Case,
     result: &CondenseResult,
     command: &str,
-) -> Result<Report, StageError> {
+) -> Result<Report, ComputeError> {
     let document = Document::new()
         .case(case.source.path.display().to_string())
         .signed_by("Prepared by")

@@ -1,11 +1,11 @@
 //! A condensed housing as files carry it.
 
 use crate::app::case::Case;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::viscous_matrix;
 use crate::app::scene::places::{Named, Place, nodes_at};
-use crate::app::scene::{Boundary, CondensedStage};
+use crate::app::scene::{Boundary, CondensedHousing};
 use crate::fe::reduction::{InterfaceReduction, InteriorBasis, Superelement};
 use crate::formats::{DofLabel, FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
 use crate::numerics::linalg::{DenseMatrix, sparse_times_dense, transpose_times_dense};
@@ -18,11 +18,11 @@ const FIELD: usize = 1 << 20;
 /// The superelement with its labels, its damping, its weight and the rows of the case's sensors.
 ///
 /// # Errors
-/// [`StageError`] of sensors and damping.
+/// [`ComputeError`] of sensors and damping.
 pub fn superelement_record(
     case: &Case,
-    stage: &CondensedStage,
-) -> Result<SuperelementRecord, StageError> {
+    stage: &CondensedHousing,
+) -> Result<SuperelementRecord, ComputeError> {
     let coordinates = Coordinates {
         stage,
         reduction: None,
@@ -36,9 +36,9 @@ pub fn superelement_record(
 /// As [`superelement_record`].
 pub fn reduced_superelement_record(
     case: &Case,
-    stage: &CondensedStage,
+    stage: &CondensedHousing,
     reduction: &InterfaceReduction,
-) -> Result<SuperelementRecord, StageError> {
+) -> Result<SuperelementRecord, ComputeError> {
     let coordinates = Coordinates {
         stage,
         reduction: Some(reduction),
@@ -48,7 +48,7 @@ pub fn reduced_superelement_record(
 
 /// What the coordinates of a record are.
 struct Coordinates<'a> {
-    stage: &'a CondensedStage,
+    stage: &'a CondensedHousing,
     reduction: Option<&'a InterfaceReduction>,
 }
 
@@ -75,7 +75,7 @@ impl Coordinates<'_> {
         self.columns(column).col_as_slice(0).to_vec()
     }
 
-    fn record(&self, case: &Case) -> Result<SuperelementRecord, StageError> {
+    fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
         let (stage, element) = (self.stage, self.element());
         let sensors = case
             .sensors
@@ -87,7 +87,7 @@ impl Coordinates<'_> {
                     row: self.row(&place),
                 })
             })
-            .collect::<Result<_, StageError>>()?;
+            .collect::<Result<_, ComputeError>>()?;
         let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
         let values = stage.condensed.basis.values();
         let labels = stage.interface_labels();
@@ -125,7 +125,7 @@ impl Coordinates<'_> {
 
     /// The way back to nodes of the mesh: all of them, else those of the sensors and of the bore, else those of the sensors;
     /// the first whose recovery has at most [`FIELD`] numbers.
-    fn field(&self, case: &Case) -> Result<Option<FieldRecovery>, StageError> {
+    fn field(&self, case: &Case) -> Result<Option<FieldRecovery>, ComputeError> {
         let stage = self.stage;
         let housing = &stage.housing;
         let d = housing.model.dimension();
@@ -191,7 +191,7 @@ fn complete_hz(basis: &InteriorBasis) -> Option<f64> {
 }
 
 /// Mass times unit accelerations along the mesh's axes, on the coordinates [order x 3].
-fn weight(stage: &CondensedStage) -> DenseMatrix {
+fn weight(stage: &CondensedHousing) -> DenseMatrix {
     let model = &stage.housing.model;
     let d = model.dimension();
     let falls = DenseMatrix::from_fn(model.dof(), 3, |dof, axis| {

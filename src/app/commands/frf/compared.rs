@@ -4,9 +4,10 @@ use super::compute::TransferPath;
 use super::housing::FrfHousing;
 use super::reduced::ReducedPaths;
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
+use crate::app::scene::Watch;
 use crate::app::scene::damping::modal_damping;
 use crate::app::scene::places::Place;
-use crate::app::scene::{StageError, Watch};
 use crate::fe::assembly::StructuralStiffness;
 use crate::fe::reduction::frf::{FrequencyResponse, ModalDamping};
 use crate::numerics::linalg::{DenseMatrix, HarmonicDamping, HarmonicProblem, complex_columns};
@@ -41,7 +42,7 @@ pub(crate) fn compare(
     response: &FrequencyResponse,
     paths: &[TransferPath],
     watch: &impl Watch,
-) -> Result<(Vec<ComparedResponse>, Option<String>), StageError> {
+) -> Result<(Vec<ComparedResponse>, Option<String>), ComputeError> {
     let FrfHousing::Mesh(stage) = &reduced.housing else {
         let why = "the housing is a superelement from a file, of which no mesh is known";
         return Ok((Vec::new(), Some(why.to_owned())));

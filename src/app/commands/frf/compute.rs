@@ -5,7 +5,8 @@ use super::housing::FrfHousing;
 use super::ranking::{self, RankedPath};
 use super::reduced::ReducedPaths;
 use crate::app::case::Case;
-use crate::app::scene::{StageError, Unwatched, Watch, doubts};
+use crate::app::error::ComputeError;
+use crate::app::scene::{Unwatched, Watch, doubts};
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::{FrequencyResponse, PathShares};
 use faer::c64;
@@ -96,9 +97,9 @@ impl FrfResult {
 /// Computes the transfer paths of a case.
 ///
 /// # Errors
-/// [`StageError`] of the stages that it goes through.
-pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageError> {
-    let asked = case.frf.as_ref().ok_or(StageError::NothingToCondense)?;
+/// [`ComputeError`] of the stages that it goes through.
+pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, ComputeError> {
+    let asked = case.frf.as_ref().ok_or(ComputeError::NothingToCondense)?;
     let reduced = ReducedPaths::build(case, asked, watch)?;
     watch.stage("response");
     let response = reduced.response(&reduced.frequencies_hz)?;
@@ -135,7 +136,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, StageEr
 pub(crate) fn variants(
     case: &Case,
     watch: &impl Watch,
-) -> Result<Vec<(String, FrequencyResponse)>, StageError> {
+) -> Result<Vec<(String, FrequencyResponse)>, ComputeError> {
     let cases = case.frf_variants()?;
     let mut others = Vec::with_capacity(cases.len());
     if !cases.is_empty() {
@@ -147,7 +148,7 @@ pub(crate) fn variants(
             .case
             .frf
             .as_ref()
-            .ok_or(StageError::NothingToCondense)?;
+            .ok_or(ComputeError::NothingToCondense)?;
         let other = ReducedPaths::build(&variant.case, asked, &Unwatched)?;
         let response = other.response(&other.frequencies_hz)?;
         others.push((variant.what.clone(), response));

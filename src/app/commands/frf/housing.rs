@@ -1,9 +1,10 @@
 //! The housing of transfer paths: condensed from a mesh, or a superelement from a file.
 
 use crate::app::case::{self, Case};
-use crate::app::scene::CondensedStage;
+use crate::app::error::ComputeError;
+use crate::app::scene::CondensedHousing;
+use crate::app::scene::ImportedHousing;
 use crate::app::scene::places::{Named, Place};
-use crate::app::scene::{ImportedHousing, StageError};
 use crate::fe::model::Ring;
 use crate::fe::reduction::{Attached, Superelement};
 
@@ -11,7 +12,7 @@ use crate::fe::reduction::{Attached, Superelement};
 #[derive(Debug, Clone)]
 pub enum FrfHousing {
     /// Condensed from a mesh.
-    Mesh(Box<CondensedStage>),
+    Mesh(Box<CondensedHousing>),
     /// From a file, with the ring that fits it. What it lacks is not known.
     File(Box<(ImportedHousing, Ring)>),
 }
@@ -23,9 +24,9 @@ impl FrfHousing {
     /// Reads the file of a case.
     ///
     /// # Errors
-    /// [`StageError`] of the file, the ring, and matrices that are not those of a condensed housing.
-    pub(crate) fn read(case: &Case, path: &std::path::Path) -> Result<Self, StageError> {
-        let asked = case.ring.as_ref().ok_or(StageError::NothingToCondense)?;
+    /// [`ComputeError`] of the file, the ring, and matrices that are not those of a condensed housing.
+    pub(crate) fn read(case: &Case, path: &std::path::Path) -> Result<Self, ComputeError> {
+        let asked = case.ring.as_ref().ok_or(ComputeError::NothingToCondense)?;
         let (imported, ring) = ImportedHousing::read(case, asked, path)?;
         imported.accept()?;
         Ok(Self::File(Box::new((imported, ring))))
@@ -53,11 +54,11 @@ impl FrfHousing {
     /// Rows of some places over its coordinates, one \[order\] for each.
     ///
     /// # Errors
-    /// [`StageError`] for a place that is not there.
+    /// [`ComputeError`] for a place that is not there.
     pub(crate) fn rows<'c>(
         &self,
         spots: impl Iterator<Item = Spot<'c>>,
-    ) -> Result<Vec<Vec<f64>>, StageError> {
+    ) -> Result<Vec<Vec<f64>>, ComputeError> {
         match self {
             Self::Mesh(stage) => {
                 let places = places(stage, spots)?;
@@ -76,11 +77,11 @@ impl FrfHousing {
 /// Places on housing and ring.
 ///
 /// # Errors
-/// [`StageError`] for a place that is not there.
+/// [`ComputeError`] for a place that is not there.
 pub(crate) fn places<'c>(
-    stage: &CondensedStage,
+    stage: &CondensedHousing,
     spots: impl Iterator<Item = Spot<'c>>,
-) -> Result<Vec<Place>, StageError> {
+) -> Result<Vec<Place>, ComputeError> {
     let bodies = stage.bodies();
     spots
         .map(|(name, spot, direction)| Place::new(bodies, name, spot, direction))

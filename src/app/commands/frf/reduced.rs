@@ -3,11 +3,12 @@
 use super::compute::{CarriedPart, TransferPath};
 use super::housing::{FrfHousing, Spot, places};
 use crate::app::case::{self, Case};
-use crate::app::scene::CondensedStage;
+use crate::app::error::ComputeError;
+use crate::app::scene::CondensedHousing;
+use crate::app::scene::Watch;
 use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::{mass_damping, modal_damping, viscous_matrix};
 use crate::app::scene::places::{Named, Place};
-use crate::app::scene::{StageError, Watch};
 use crate::fe::reduction::frf::{
     FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition,
     ReducedSystem, Resonance, direct_response, frequency_list,
@@ -71,12 +72,12 @@ impl<'c> ReducedPaths<'c> {
     /// Condenses the housing of a case for its paths, or reads it.
     ///
     /// # Errors
-    /// [`StageError`] of the stages that it goes through.
+    /// [`ComputeError`] of the stages that it goes through.
     pub fn build(
         case: &'c Case,
         frf: &'c case::Frf,
         watch: &impl Watch,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let asked = Asked { case, frf };
         let choice = basis_choice(case);
         let band_hz = frf
@@ -87,8 +88,8 @@ impl<'c> ReducedPaths<'c> {
             watch.stage("read");
             return Self::of(asked, FrfHousing::read(case, path)?, band_hz);
         }
-        let stage = CondensedStage::with_basis(case, first_choice(choice, band_hz[1]), watch)?
-            .ok_or(StageError::NothingToCondense)?;
+        let stage = CondensedHousing::with_basis(case, first_choice(choice, band_hz[1]), watch)?
+            .ok_or(ComputeError::NothingToCondense)?;
         // static response to every force and, as the path back is the same, to a force at every sensor
         let ends = places(&stage, asked.ends().into_iter().flatten())?;
         let dof = stage.housing.model.dof();
@@ -116,7 +117,7 @@ impl<'c> ReducedPaths<'c> {
         Ok(reduced)
     }
 
-    fn of(asked: Asked<'c>, housing: FrfHousing, band_hz: [f64; 2]) -> Result<Self, StageError> {
+    fn of(asked: Asked<'c>, housing: FrfHousing, band_hz: [f64; 2]) -> Result<Self, ComputeError> {
         let system = system(asked.case, &housing)?;
         let basis = ModalBasis::new(&system)?;
         let order = system.order();
@@ -161,7 +162,7 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// None that [`ReducedPaths::build`] did not have.
-    pub fn places(&self, stage: &CondensedStage) -> Result<[Vec<Place>; 2], StageError> {
+    pub fn places(&self, stage: &CondensedHousing) -> Result<[Vec<Place>; 2], ComputeError> {
         let [from, to] = self.asked.ends();
         Ok([
             places(stage, from.into_iter())?,
@@ -172,8 +173,8 @@ impl<'c> ReducedPaths<'c> {
     /// Responses at ascending frequencies, Hz: sums of modes where damping does not couple them, which is exact and quick.
     ///
     /// # Errors
-    /// [`StageError::Frf`].
-    pub fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, StageError> {
+    /// [`ComputeError::Frf`].
+    pub fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, ComputeError> {
         Ok(if self.superposition.coupling() <= UNCOUPLED {
             self.superposition.response(frequencies_hz)?
         } else {
@@ -184,8 +185,8 @@ impl<'c> ReducedPaths<'c> {
     /// The paths, sensor by sensor, with what carries them.
     ///
     /// # Errors
-    /// [`StageError::Frf`].
-    pub fn transfer_paths(&self) -> Result<Vec<TransferPath>, StageError> {
+    /// [`ComputeError::Frf`].
+    pub fn transfer_paths(&self) -> Result<Vec<TransferPath>, ComputeError> {
         let [from, to] = self.asked.ends();
         let mut paths = Vec::with_capacity(from.len() * to.len());
         for (sensor, (to, ..)) in to.iter().enumerate() {
@@ -236,7 +237,7 @@ fn frequencies(
     basis: &ModalBasis,
     superposition: &ModalSuperposition,
     band_hz: [f64; 2],
-) -> Result<Vec<f64>, StageError> {
+) -> Result<Vec<f64>, ComputeError> {
     let [low, high] = band_hz;
     let resonances: Vec<Resonance> = basis
         .frequencies_hz()
@@ -263,7 +264,7 @@ fn frequencies(
 }
 
 /// Housing and ring, with the case's damping.
-fn system(case: &Case, housing: &FrfHousing) -> Result<ReducedSystem, StageError> {
+fn system(case: &Case, housing: &FrfHousing) -> Result<ReducedSystem, ComputeError> {
     let element = housing.element();
     let with_ring = |own: &DenseMatrix, ring: Option<&DenseMatrix>| {
         let mut sum = own.clone();

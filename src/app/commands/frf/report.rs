@@ -3,7 +3,7 @@
 use super::compute::{FrfResult, TransferPath};
 use super::housing::FrfHousing;
 use crate::app::case::Case;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::report::{
@@ -18,8 +18,8 @@ const LISTED: usize = 8;
 /// Composes the report; `command` is the line that made it.
 ///
 /// # Errors
-/// [`StageError::Frf`].
-pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, StageError> {
+/// [`ComputeError::Frf`].
+pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
     let document = Document::new()
         .case(case.source.path.display().to_string())
         .signed_by("Prepared by")
@@ -95,7 +95,7 @@ fn model(result: &FrfResult) -> Section {
     Section::new("Model").facts(of_housing.into_iter().chain(of_response))
 }
 
-fn of_path(result: &FrfResult, index: usize) -> Result<Section, StageError> {
+fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
     let path = &result.paths[index];
     let title = format!("From {} to {}", path.from, path.to);
     if path.is_closed() {

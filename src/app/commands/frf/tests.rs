@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::case::{Case, Purpose, Source};
 use crate::app::commands::condense::superelement_record;
-use crate::app::scene::CondensedStage;
+use crate::app::scene::CondensedHousing;
 use crate::app::scene::Unwatched;
 use crate::formats::write_superelement_npz;
 
@@ -238,7 +238,9 @@ fn a_superelement_from_a_file_has_the_responses_that_it_came_with() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("superelement.npz");
     let whole = case(meshed, &size);
-    let stage = CondensedStage::build(&whole, &Unwatched).unwrap().unwrap();
+    let stage = CondensedHousing::build(&whole, &Unwatched)
+        .unwrap()
+        .unwrap();
     write_superelement_npz(&path, &superelement_record(&whole, &stage).unwrap()).unwrap();
     let ring = &HOUSING[HOUSING.find("[ring]").unwrap()..HOUSING.find("tie = ").unwrap()];
     let frf = &HOUSING[HOUSING.find("[frf]").unwrap()..];

@@ -2,7 +2,7 @@
 
 use super::compute::ModesResult;
 use crate::app::case::{Case, ComparedModes};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::app::scene::mode_set::{OwnModes, placed};
 use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
 use crate::formats::{ModeShapes, read_mode_shapes};
@@ -142,8 +142,8 @@ impl<'c> ComparedFile<'c> {
     /// Reads every file that the case names, before anything is computed.
     ///
     /// # Errors
-    /// [`StageError::ModeShapes`] with file and line.
-    pub fn read_all(case: &'c Case) -> Result<Vec<Self>, StageError> {
+    /// [`ComputeError::ModeShapes`] with file and line.
+    pub fn read_all(case: &'c Case) -> Result<Vec<Self>, ComputeError> {
         let read = |asked: &'c ComparedModes| {
             let modes = read_mode_shapes(&asked.file)?;
             Ok(Self { asked, modes })
@@ -154,8 +154,8 @@ impl<'c> ComparedFile<'c> {
     /// Compares with what was computed.
     ///
     /// # Errors
-    /// [`StageError::PointsUnknown`], [`StageError::Compared`] for points that do not meet the model's.
-    pub fn compare(&self, result: &ModesResult) -> Result<FileComparison, StageError> {
+    /// [`ComputeError::PointsUnknown`], [`ComputeError::Compared`] for points that do not meet the model's.
+    pub fn compare(&self, result: &ModesResult) -> Result<FileComparison, ComputeError> {
         let survey = &result.survey;
         let housing = result.mesh_and_model();
         let own = OwnModes {
@@ -180,9 +180,9 @@ impl<'c> ComparedFile<'c> {
         own: &Side,
         rigid: usize,
         there: ModeSet,
-    ) -> Result<FileComparison, StageError> {
+    ) -> Result<FileComparison, ComputeError> {
         let asked = self.asked;
-        let compared = |source| StageError::Compared {
+        let compared = |source| ComputeError::Compared {
             file: asked.file.clone(),
             source: Box::new(source),
         };

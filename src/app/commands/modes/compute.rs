@@ -6,12 +6,13 @@ use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use super::shapes::mode_shapes;
 use crate::app::case::{Case, Expected, Linearise, ModeExtent};
+use crate::app::error::ComputeError;
 use crate::app::scene::LoadedPass;
 use crate::app::scene::Statics;
 use crate::app::scene::contact_limits::accept_contacts;
 use crate::app::scene::survey::{UnloadedModes, unloaded_modes};
 use crate::app::scene::{
-    HousingStage, ModalSurvey, StageError, StructureStage, Unwatched, Watch, bearing_setup, doubts,
+    AssembledHousing, CoupledStructure, ModalSurvey, Unwatched, Watch, bearing_setup, doubts,
     race_contacts,
 };
 use crate::fe::mesh::Mesh;
@@ -66,7 +67,7 @@ pub struct ModesResult {
     /// Modes without contact in full, with their proof.
     pub survey: ModalSurvey,
     /// The linear model of a case with a ring, its housing condensed.
-    pub structure: Option<StructureStage>,
+    pub structure: Option<CoupledStructure>,
     /// Mesh and model of a housing alone.
     pub housing: Option<(Mesh, HousingModel)>,
     /// These modes against those of other programs or measurements, in the order of the case file.
@@ -131,8 +132,8 @@ impl Reading {
 /// Carries the command out.
 ///
 /// # Errors
-/// [`StageError`] of the stages that it goes through.
-pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
+/// [`ComputeError`] of the stages that it goes through.
+pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
     // what is wrong with the files is told before anything is computed
     let files = ComparedFile::read_all(case)?;
     let sequence = MeshSequence::read(case)?;
@@ -150,8 +151,8 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Sta
     Ok(result)
 }
 
-fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
-    let Some(stage) = StructureStage::build(case, watch)? else {
+fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
+    let Some(stage) = CoupledStructure::build(case, watch)? else {
         return housing_alone(case, watch);
     };
     let survey = ModalSurvey::of_structure(&stage, case.modes.extent, watch)?;
@@ -180,7 +181,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
     for (index, variant) in cases.iter().enumerate() {
         watch.fraction(index as f64 / cases.len() as f64);
         let set = case.modes.variants[index].set.clone();
-        let built = StructureStage::build(&variant.case, &Unwatched)?;
+        let built = CoupledStructure::build(&variant.case, &Unwatched)?;
         if let Some(built) = built {
             let unloaded = unloaded_modes(&built, variant.case.modes.extent)?;
             let what = variant.what.clone();
@@ -223,12 +224,12 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError>
     })
 }
 
-fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageError> {
-    let HousingStage {
+fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
+    let AssembledHousing {
         mesh,
         model,
         matrices,
-    } = HousingStage::of(case, watch)?;
+    } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
     let mut base = Reading {
         what: String::new(),
@@ -254,7 +255,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, StageEr
 }
 
 /// The bearing, if modes are linearised with it.
-fn linearised_setup(case: &Case) -> Result<Option<BearingSetup>, StageError> {
+fn linearised_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> {
     match case.modes.linearise {
         Linearise::Static => bearing_setup(case),
         Linearise::None => Ok(None),
@@ -269,11 +270,11 @@ fn start_time(case: &Case) -> f64 {
 
 fn reading(
     case: &Case,
-    stage: &StructureStage,
+    stage: &CoupledStructure,
     unloaded: UnloadedModes,
     what: String,
     set: Vec<String>,
-) -> Result<Reading, StageError> {
+) -> Result<Reading, ComputeError> {
     let loaded = match linearised_setup(case)? {
         Some(setup) => {
             let condition = StaticCondition::at(&setup, start_time(case));
@@ -301,7 +302,7 @@ fn reading(
 /// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
 /// there are no elastic modes to compare.
 fn condensation_difference(
-    stage: &StructureStage,
+    stage: &CoupledStructure,
     full: &UnloadedModes,
     extent: ModeExtent,
 ) -> Option<f64> {

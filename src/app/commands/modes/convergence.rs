@@ -3,8 +3,9 @@
 use super::compute::ModesResult;
 use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
 use crate::app::case::{Case, ModeExtent};
+use crate::app::error::ComputeError;
+use crate::app::scene::Watch;
 use crate::app::scene::mode_set::{OwnModes, partners};
-use crate::app::scene::{StageError, Watch};
 use crate::fe::modal::{
     Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
 };
@@ -93,13 +94,13 @@ impl MeshConvergence {
 /// Computes the modes on the other meshes and extrapolates.
 ///
 /// # Errors
-/// [`StageError::OtherMesh`] with the mesh that fails.
+/// [`ComputeError::OtherMesh`] with the mesh that fails.
 pub(crate) fn mesh_convergence(
     case: &Case,
     sequence: &MeshSequence,
     result: &ModesResult,
     watch: &impl Watch,
-) -> Result<Option<MeshConvergence>, StageError> {
+) -> Result<Option<MeshConvergence>, ComputeError> {
     let survey = &result.survey;
     let Some(((mesh, model), shapes)) = result.mesh_and_model().zip(survey.housing.as_ref()) else {
         return Ok(None);
@@ -120,7 +121,7 @@ pub(crate) fn mesh_convergence(
     let extent = extent(case.modes.extent, own_modes);
     for (index, level) in sequence.levels.iter().enumerate().skip(1) {
         watch.fraction((index - 1) as f64 / (sequence.levels.len() - 1) as f64);
-        let on_level = || -> Result<OnLevel, StageError> {
+        let on_level = || -> Result<OnLevel, ComputeError> {
             let modes = ModesOnMesh::compute(case, level.mesh.clone(), extent)?;
             let larger = level.element_size.max(sequence.levels[0].element_size);
             recognised(&own, &modes, NEAREST * larger)
@@ -175,7 +176,7 @@ fn extent(asked: ModeExtent, own_modes: usize) -> ModeExtent {
 }
 
 /// Which mode of another mesh is which of the case's: by shape, and repeated ones in their order within their group.
-fn recognised(own: &ModeSet, other: &ModesOnMesh, distance: f64) -> Result<OnLevel, StageError> {
+fn recognised(own: &ModeSet, other: &ModesOnMesh, distance: f64) -> Result<OnLevel, ComputeError> {
     let options = ComparisonOptions {
         point_tolerance: (distance / own.diagonal()).min(1.0),
         ..ComparisonOptions::default()
@@ -196,13 +197,13 @@ fn on_meshes(
     sequence: &MeshSequence,
     found: &[OnLevel],
     order: &[usize],
-) -> Result<ModeOnMeshes, StageError> {
+) -> Result<ModeOnMeshes, ComputeError> {
     let on = |level: &usize| Some((*level, found[*level].frequencies_hz[mode]?));
     let alike = order.iter().filter(|level| sequence.is_alike(**level));
     let (levels, values): (Vec<usize>, Vec<f64>) = alike.filter_map(on).unzip();
     let mut limit = match levels.len() {
         0 | 1 => None,
-        _ => Some(richardson(&sequence.sizes(levels), &values).map_err(StageError::Sequence)?),
+        _ => Some(richardson(&sequence.sizes(levels), &values).map_err(ComputeError::Sequence)?),
     };
     if let Some(limit) = &mut limit {
         let far = |estimate: &f64| (limit.finest - estimate).abs() > FARTHEST * limit.finest;

@@ -2,8 +2,9 @@
 
 use crate::app::case::{Case, HousingSource, ModeExtent};
 use crate::app::commands::inspect::{elements_of, size};
+use crate::app::error::ComputeError;
+use crate::app::scene::Unwatched;
 use crate::app::scene::modal_system::{Bodies, FullModes};
-use crate::app::scene::{StageError, Unwatched};
 use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::{MeshLevels, ModeSet};
 use crate::report::significant;
@@ -43,9 +44,9 @@ impl MeshSequence {
     /// Looks at every mesh of the case, before anything is computed; `None` if the case has but its own.
     ///
     /// # Errors
-    /// [`StageError::OtherMesh`] for one that cannot be read, lacks a group or is of another body;
-    /// [`StageError::Sequence`] for sizes that are too near to each other.
-    pub fn read(case: &Case) -> Result<Option<Self>, StageError> {
+    /// [`ComputeError::OtherMesh`] for one that cannot be read, lacks a group or is of another body;
+    /// [`ComputeError::Sequence`] for sizes that are too near to each other.
+    pub fn read(case: &Case) -> Result<Option<Self>, ComputeError> {
         let (Some(asked), Some(housing)) = (&case.modes.convergence, case.meshed_housing()) else {
             return Ok(None);
         };
@@ -57,7 +58,7 @@ impl MeshSequence {
             // also false for a size that is no number
             let same = (found - own).abs() <= SAME_BODY * own;
             if !same {
-                return Err(at(index, path, StageError::OtherBody { own, found }));
+                return Err(at(index, path, ComputeError::OtherBody { own, found }));
             }
             levels.push(other);
         }
@@ -71,7 +72,7 @@ impl MeshSequence {
             .filter(|&level| found.is_alike(level))
             .collect();
         if alike.len() > 1 {
-            found.sizes(alike).check().map_err(StageError::Sequence)?;
+            found.sizes(alike).check().map_err(ComputeError::Sequence)?;
         }
         Ok(Some(found))
     }
@@ -113,8 +114,8 @@ impl MeshSequence {
 }
 
 /// An error with the mesh that it is about.
-pub(crate) fn at(index: usize, path: &std::path::Path, source: StageError) -> StageError {
-    StageError::OtherMesh {
+pub(crate) fn at(index: usize, path: &std::path::Path, source: ComputeError) -> ComputeError {
+    ComputeError::OtherMesh {
         index,
         path: path.to_owned(),
         source: Box::new(source),
@@ -122,7 +123,7 @@ pub(crate) fn at(index: usize, path: &std::path::Path, source: StageError) -> St
 }
 
 impl Level {
-    fn read(case: &Case, path: PathBuf) -> Result<Self, StageError> {
+    fn read(case: &Case, path: PathBuf) -> Result<Self, ComputeError> {
         let other = on_mesh(case, path);
         // a case without a housing has no sequence
         let Some(housing) = other.meshed_housing() else {
@@ -188,8 +189,8 @@ impl ModesOnMesh {
     /// The modes of the case on `path`, as many of them as it has; nothing else is computed there.
     ///
     /// # Errors
-    /// [`StageError`] of mesh, model and eigenvalues.
-    pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, StageError> {
+    /// [`ComputeError`] of mesh, model and eigenvalues.
+    pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, ComputeError> {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
         let modes = match extent {
             // a coarse mesh may have fewer

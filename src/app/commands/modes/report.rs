@@ -14,8 +14,9 @@ use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
 use crate::app::commands::parts::tables::{expected_table, mode_table};
 use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::error::ComputeError;
 use crate::app::scene::loaded_pass::loaded_pass_section;
-use crate::app::scene::{StageError, bearing_setup, race_contacts};
+use crate::app::scene::{bearing_setup, race_contacts};
 use crate::report::{
     Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,
     significant,
@@ -24,12 +25,12 @@ use crate::report::{
 /// Composes the report; `command` is the line that made it.
 ///
 /// # Errors
-/// [`StageError`] if the case's bearing cannot be built.
+/// [`ComputeError`] if the case's bearing cannot be built.
 pub fn modes_report(
     case: &Case,
     result: &ModesResult,
     command: &str,
-) -> Result<Report, StageError> {
+) -> Result<Report, ComputeError> {
     let view = shape_view(result);
     let mut report = head(case, result, command);
     report = report
@@ -176,7 +177,7 @@ fn purpose(result: &ModesResult) -> Section {
     section
 }
 
-fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, StageError> {
+fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, ComputeError> {
     let mut section = Section::new("Model");
     if let Some((mesh, model)) = result.mesh_and_model() {
         let inventory = mesh.inventory();

@@ -1,7 +1,8 @@
 //! Mode shapes at the nodes of a housing and of its ring, as other programs read them.
 
 use crate::app::case::Case;
-use crate::app::scene::{HousingStage, ModalSurvey, StageError, StructureStage, Watch};
+use crate::app::error::ComputeError;
+use crate::app::scene::{AssembledHousing, CoupledStructure, ModalSurvey, Watch};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
@@ -44,23 +45,23 @@ pub(crate) fn mode_shapes(
 /// Computes the modes of a case, as many as it asks for, and nothing else: the mesh, if it has one, and the shapes.
 ///
 /// # Errors
-/// [`StageError`] of the stages that it goes through.
+/// [`ComputeError`] of the stages that it goes through.
 pub fn compute_mode_shapes(
     case: &Case,
     watch: &impl Watch,
-) -> Result<(Option<Mesh>, ModeShapes), StageError> {
+) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
-    if let Some(stage) = StructureStage::build(case, watch)? {
+    if let Some(stage) = CoupledStructure::build(case, watch)? {
         let survey = ModalSurvey::of_structure(&stage, extent, watch)?;
         let housing = stage.housing.as_ref();
         let shapes = mode_shapes(&survey, housing.map(|stage| (&stage.mesh, &stage.model)));
         return Ok((stage.housing.map(|stage| stage.mesh), shapes));
     }
-    let HousingStage {
+    let AssembledHousing {
         mesh,
         model,
         matrices,
-    } = HousingStage::of(case, watch)?;
+    } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;
     let shapes = mode_shapes(&survey, Some((&mesh, &model)));
     Ok((Some(mesh), shapes))

@@ -1,7 +1,7 @@
 //! The picture of the model: mesh, ring, supports, balls, dents, sensors.
 
 use crate::app::case::{Case, SensorSpot};
-use crate::app::scene::StructureStage;
+use crate::app::scene::CoupledStructure;
 use crate::bearing::Race;
 use crate::bearing::defect::{DentShape, RaceDefect};
 use crate::fe::mesh::Mesh;
@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 const SHARP: f64 = 0.45;
 
 /// Draws a structure, and the bearing in it if there is one.
-pub(crate) fn draw(case: &Case, stage: &StructureStage, setup: Option<&BearingSetup>) -> Drawing {
+pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&BearingSetup>) -> Drawing {
     let ring = stage.structure.ring();
     let centre = Point { x: 0.0, y: 0.0 };
     let radius = ring.section().radius;
@@ -111,7 +111,7 @@ fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     edges.map(|(edge, _)| edge).collect()
 }
 
-fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
+fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
     let ring = stage.structure.ring();
     for support in case.ring.iter().flat_map(|ring| &ring.supports) {
         let (from, to) = (support.from_deg, support.to_deg);
@@ -179,7 +179,7 @@ fn dent_label(shape: &DentShape) -> String {
     format!("dent {long:.2} mm long, {deep:.0} \u{b5}m deep")
 }
 
-fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &StructureStage) {
+fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
     let origin = Point { x: 0.0, y: 0.0 };
     for sensor in &case.sensors {
         let at = match &sensor.spot {

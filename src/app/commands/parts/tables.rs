@@ -2,7 +2,7 @@
 
 use crate::app::case::{Bond, Case, Damping, PlaneAssumption, RadiusRule, RingElement};
 use crate::app::commands::modes::ExpectedMode;
-use crate::app::scene::StructureStage;
+use crate::app::scene::CoupledStructure;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
@@ -10,7 +10,7 @@ use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 const LISTED_MODES: usize = 20;
 
 /// The linear model in facts; `condensed`: how, where something of the report was computed with it.
-pub(crate) fn model_facts(case: &Case, stage: &StructureStage, condensed: bool) -> Vec<Fact> {
+pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool) -> Vec<Fact> {
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![

@@ -8,8 +8,9 @@ use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
+use crate::app::error::ComputeError;
 use crate::app::scene::Statics;
-use crate::app::scene::{Kinematics, Scene, StageError, Watch};
+use crate::app::scene::{Kinematics, Scene, Watch};
 use crate::report::{Table, significant};
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
 
@@ -48,8 +49,8 @@ pub struct RunResult<R = RunRecord> {
 /// Carries the command out, its signals in memory.
 ///
 /// # Errors
-/// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
-pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageError> {
+/// [`ComputeError`]; a solution that blows up is no error here but a [`RunEnd`](super::RunEnd).
+pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, ComputeError> {
     compute_kept_run(case, watch, &mut InMemory)
 }
 
@@ -60,7 +61,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, StageEr
 pub fn explain_run(
     case: &Case,
     watch: &impl Watch,
-) -> Result<(ModelChoice, Vec<String>), StageError> {
+) -> Result<(ModelChoice, Vec<String>), ComputeError> {
     let scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
@@ -72,12 +73,12 @@ pub fn explain_run(
 /// Carries the command out with its signals where `keeper` wants them, from where it says.
 ///
 /// # Errors
-/// As [`compute_run`], [`StageError::Interrupted`] and what the keeper returns.
+/// As [`compute_run`], [`ComputeError::Interrupted`] and what the keeper returns.
 pub fn compute_kept_run<K: Keeper>(
     case: &Case,
     watch: &impl Watch,
     keeper: &mut K,
-) -> Result<RunResult<K::Record>, StageError> {
+) -> Result<RunResult<K::Record>, ComputeError> {
     let mut scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;

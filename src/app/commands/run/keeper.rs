@@ -1,7 +1,7 @@
 //! Who keeps the rows of a simulation and what it remembers, while it goes on.
 
 use super::recording::Recording;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::numerics::ode::{SecondOrderSystem, Snapshot, State};
 use crate::system::{CoupledSystem, RunRecord};
 use sha2::{Digest, Sha256};
@@ -25,12 +25,12 @@ pub trait Keeper {
     /// The record to fill, and what the simulation remembered if it goes on.
     ///
     /// # Errors
-    /// [`StageError`] if it cannot be opened.
+    /// [`ComputeError`] if it cannot be opened.
     fn open(
         &mut self,
         sensors: Vec<String>,
         balls: usize,
-    ) -> Result<(Self::Record, Option<Snapshot>), StageError>;
+    ) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
 
     /// Asked after every output interval.
     fn wish(&mut self) -> Wish;
@@ -38,13 +38,13 @@ pub trait Keeper {
     /// Keeps a checkpoint of a simulation that has come to `t` (s); all rows before it are in the record.
     ///
     /// # Errors
-    /// [`StageError`] if it cannot be written.
+    /// [`ComputeError`] if it cannot be written.
     fn keep(
         &mut self,
         record: &Self::Record,
         t: f64,
         snapshot: &Snapshot,
-    ) -> Result<(), StageError>;
+    ) -> Result<(), ComputeError>;
 
     /// The stepping has ended.
     fn close(&mut self);
@@ -61,7 +61,7 @@ impl Keeper for InMemory {
         &mut self,
         sensors: Vec<String>,
         balls: usize,
-    ) -> Result<(RunRecord, Option<Snapshot>), StageError> {
+    ) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
         Ok((RunRecord::blank(sensors, balls), None))
     }
 
@@ -69,7 +69,7 @@ impl Keeper for InMemory {
         Wish::GoOn
     }
 
-    fn keep(&mut self, _: &RunRecord, _: f64, _: &Snapshot) -> Result<(), StageError> {
+    fn keep(&mut self, _: &RunRecord, _: f64, _: &Snapshot) -> Result<(), ComputeError> {
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Where the rows of a run go, and how they are read back.
 
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::formats::ColumnFiles;
 use crate::system::{Column, RunRecord};
 use std::ops::Range;
@@ -19,19 +19,19 @@ pub trait Recording {
     /// Appends rows of the same sensors and balls.
     ///
     /// # Errors
-    /// [`StageError::Columns`].
-    fn append(&mut self, rows: &RunRecord) -> Result<(), StageError>;
+    /// [`ComputeError::Columns`].
+    fn append(&mut self, rows: &RunRecord) -> Result<(), ComputeError>;
 
     /// Hands the numbers of some rows of a column to `take`, piece by piece. Rows that are not there are left out.
     ///
     /// # Errors
-    /// [`StageError::Columns`] and what `take` returns.
+    /// [`ComputeError::Columns`] and what `take` returns.
     fn read(
         &self,
         column: Column,
         rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), StageError>,
-    ) -> Result<(), StageError>;
+        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
+    ) -> Result<(), ComputeError>;
 }
 
 impl Recording for RunRecord {
@@ -47,7 +47,7 @@ impl Recording for RunRecord {
         self.rows()
     }
 
-    fn append(&mut self, rows: &RunRecord) -> Result<(), StageError> {
+    fn append(&mut self, rows: &RunRecord) -> Result<(), ComputeError> {
         self.append(rows);
         Ok(())
     }
@@ -56,8 +56,8 @@ impl Recording for RunRecord {
         &self,
         column: Column,
         rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), StageError>,
-    ) -> Result<(), StageError> {
+        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
+    ) -> Result<(), ComputeError> {
         let rows = rows.start.min(self.rows())..rows.end.min(self.rows());
         take(&self.column(column)[column.places(&rows, self.balls)])
     }
@@ -76,7 +76,7 @@ impl Recording for ColumnFiles {
         self.rows()
     }
 
-    fn append(&mut self, rows: &RunRecord) -> Result<(), StageError> {
+    fn append(&mut self, rows: &RunRecord) -> Result<(), ComputeError> {
         Ok(self.append(rows)?)
     }
 
@@ -84,8 +84,8 @@ impl Recording for ColumnFiles {
         &self,
         column: Column,
         rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), StageError>,
-    ) -> Result<(), StageError> {
+        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
+    ) -> Result<(), ComputeError> {
         self.read(column, rows, take)
     }
 }

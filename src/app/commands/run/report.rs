@@ -13,7 +13,7 @@ use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
 use crate::app::commands::parts::tables::{expected_table, mode_table};
 use crate::app::commands::parts::{assumptions, model_facts};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::report::{
     Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant,
 };
@@ -25,12 +25,12 @@ const LISTED_MODES: usize = 20;
 /// Composes the report; `command` is the line that made it.
 ///
 /// # Errors
-/// [`StageError`] if a signal cannot be shown.
+/// [`ComputeError`] if a signal cannot be shown.
 pub fn run_report<R: Recording>(
     case: &Case,
     result: &RunResult<R>,
     command: &str,
-) -> Result<Report, StageError> {
+) -> Result<Report, ComputeError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
     let windows = result.windows.iter();
@@ -130,7 +130,7 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
     report
 }
 
-fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, StageError> {
+fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError> {
     let mut section = Section::new("Signals");
     let simulation = &result.simulation;
     let (record, rows) = (&simulation.record, simulation.record.rows());

@@ -3,7 +3,7 @@
 use super::recording::Recording;
 use super::simulation::Simulation;
 use crate::app::case::ScalogramWindow;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::numerics::series::TimeWindow;
 use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Raster, Section, significant};
 use crate::signal::{FrequencyAxis, Scalogram, WaveletTransform};
@@ -37,13 +37,13 @@ impl SensorScalogram {
     /// Of sensor number `index` of a simulation.
     ///
     /// # Errors
-    /// [`StageError::Series`] for a window that is not in the record, [`StageError::Signal`] for a band that its length or its sampling
+    /// [`ComputeError::Series`] for a window that is not in the record, [`ComputeError::Signal`] for a band that its length or its sampling
     /// rate does not hold, and what reading it returns.
     pub fn of<R: Recording>(
         simulation: &Simulation<R>,
         index: usize,
         window: ScalogramWindow,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let (from, to) = (window.from, window.to);
         let [from_hz, to_hz] = window.band_hz;
         let margin_s = MARGIN * window.cycles / (TAU * from_hz);

@@ -3,8 +3,9 @@
 use super::keeper::fingerprint;
 use super::keeper::{InMemory, Keeper, Wish};
 use super::recording::Recording;
-use crate::app::commands::run::unfinished::UnfinishedError;
-use crate::app::scene::{RunModel, Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::error::UnfinishedError;
+use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
 use crate::numerics::ode::{Instant as Now, Observer, Snapshot, State};
 use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow};
@@ -67,13 +68,13 @@ impl Simulation {
     /// Steps a scene through `span` from rest, its signals in memory; `fraction` is told how far it is, 0 to 1.
     ///
     /// # Errors
-    /// [`StageError`]; a solution that blows up is no error here but a [`RunEnd`].
+    /// [`ComputeError`]; a solution that blows up is no error here but a [`RunEnd`].
     pub fn from_rest(
         scene: &Scene,
         model: &RunModel,
         span: Span,
         fraction: impl Fn(f64),
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         Self::kept_from_rest(scene, model, span, false, &mut InMemory, fraction)
     }
 
@@ -87,15 +88,15 @@ impl Simulation {
         model: &RunModel,
         span: Span,
         fraction: impl Fn(f64),
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         Self::kept(system, state, model, span, false, &mut InMemory, fraction)
     }
 
     /// A sensor's acceleration as a series, m/s^2.
     ///
     /// # Errors
-    /// [`StageError::Series`] if nothing was recorded.
-    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, StageError> {
+    /// [`ComputeError::Series`] if nothing was recorded.
+    pub fn signal(&self, sensor: usize) -> Result<TimeSeries, ComputeError> {
         let values = self.record.sensors[sensor].1.clone();
         let step = self.schedule.interval;
         Ok(TimeSeries::new(self.start_s, step, UNIT, values)?)
@@ -110,7 +111,7 @@ impl<R: Recording> Simulation<R> {
     /// What it takes does not grow with time.
     ///
     /// # Errors
-    /// [`StageError`], [`StageError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
+    /// [`ComputeError`], [`ComputeError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
     /// is no error here but a [`RunEnd`].
     pub fn kept_from_rest(
         scene: &Scene,
@@ -119,7 +120,7 @@ impl<R: Recording> Simulation<R> {
         energy: bool,
         keeper: &mut impl Keeper<Record = R>,
         fraction: impl Fn(f64),
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let system = scene.system(model)?;
         let state = scene.at_rest(&system);
         Self::kept(system, state, model, span, energy, keeper, fraction)
@@ -134,7 +135,7 @@ impl<R: Recording> Simulation<R> {
         energy: bool,
         keeper: &mut impl Keeper<Record = R>,
         fraction: impl Fn(f64),
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let start_s = state.t;
         let mut schedule = Schedule::covering(span.duration, 1.0 / span.output_hz, model.step)?;
         let wanted = usize::try_from(schedule.intervals)
@@ -199,13 +200,13 @@ impl<R: Recording> Simulation<R> {
     /// Part of a sensor's acceleration, m/s^2: a window with so many seconds before and after it as there are.
     ///
     /// # Errors
-    /// [`StageError::Series`] for a window that is not in the record, and what reading it returns.
+    /// [`ComputeError::Series`] for a window that is not in the record, and what reading it returns.
     pub fn stretch(
         &self,
         sensor: usize,
         window: TimeWindow,
         margin_s: f64,
-    ) -> Result<TimeSeries, StageError> {
+    ) -> Result<TimeSeries, ComputeError> {
         let (rows, step) = (self.record.rows(), self.schedule.interval);
         if rows == 0 {
             return Err(SeriesError::Empty.into());
@@ -267,7 +268,7 @@ impl<R: Recording> Stepping<R> {
         schedule: Schedule,
         keeper: &mut impl Keeper<Record = R>,
         fraction: impl Fn(f64),
-    ) -> Result<RunEnd, StageError> {
+    ) -> Result<RunEnd, ComputeError> {
         let tell_every = (schedule.intervals / TOLD).max(1);
         let tell = |done: u64| fraction(done as f64 / schedule.intervals as f64);
         tell(integration.intervals());
@@ -294,7 +295,7 @@ impl<R: Recording> Stepping<R> {
                 Wish::Stop if integration.is_complete() => {}
                 Wish::Stop => {
                     self.keep(integration, keeper)?;
-                    return Err(StageError::Interrupted {
+                    return Err(ComputeError::Interrupted {
                         at_s: integration.state().t,
                         end_s: self.end_s,
                     });
@@ -306,7 +307,7 @@ impl<R: Recording> Stepping<R> {
     }
 
     /// Brings the rows that are good into the record.
-    fn hand_on(&mut self) -> Result<(), StageError> {
+    fn hand_on(&mut self) -> Result<(), ComputeError> {
         let rows = self.recorder.take_confirmed();
         self.record.append(&rows)
     }
@@ -315,7 +316,7 @@ impl<R: Recording> Stepping<R> {
         &mut self,
         integration: &Integration<CoupledSystem>,
         keeper: &mut impl Keeper<Record = R>,
-    ) -> Result<(), StageError> {
+    ) -> Result<(), ComputeError> {
         self.hand_on()?;
         let mut snapshot = Snapshot::default();
         for word in self.fingerprint {
@@ -338,7 +339,7 @@ impl<R: Recording> Stepping<R> {
         method: Method,
         schedule: Schedule,
         snapshot: &Snapshot,
-    ) -> Result<Integration<CoupledSystem>, StageError> {
+    ) -> Result<Integration<CoupledSystem>, ComputeError> {
         let mut reader = snapshot.reader();
         let mut same = true;
         for word in self.fingerprint {

@@ -1,11 +1,13 @@
 //! Simulations that stop and go on, and what is read back of them.
 
-use super::unfinished::{RunIdentity, UnfinishedError, UnfinishedRun};
+use super::unfinished::{RunIdentity, UnfinishedRun};
 use super::*;
 use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
-use crate::app::scene::{Kinematics, Scene, StageError, Unwatched, bearing_setup};
+use crate::app::error::ComputeError;
+use crate::app::error::UnfinishedError;
+use crate::app::scene::{Kinematics, Scene, Unwatched, bearing_setup};
 use crate::numerics::ode::{
     Method, Schedule, Statistics, Stepping as Going, TransientError, integrate,
 };
@@ -29,7 +31,7 @@ impl Keeper for Stops {
         &mut self,
         sensors: Vec<String>,
         balls: usize,
-    ) -> Result<(RunRecord, Option<Snapshot>), StageError> {
+    ) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
         self.intervals = 0;
         Ok(match self.kept.take() {
             Some((record, snapshot)) => (record, Some(snapshot)),
@@ -50,7 +52,12 @@ impl Keeper for Stops {
         }
     }
 
-    fn keep(&mut self, record: &RunRecord, _: f64, snapshot: &Snapshot) -> Result<(), StageError> {
+    fn keep(
+        &mut self,
+        record: &RunRecord,
+        _: f64,
+        snapshot: &Snapshot,
+    ) -> Result<(), ComputeError> {
         // through words, as a file has them
         let words = snapshot.words().to_vec();
         self.kept = Some((record.clone(), Snapshot::from_words(words)));
@@ -135,7 +142,7 @@ fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
     let gone_on = loop {
         match Simulation::kept_from_rest(scene, &model, span, true, &mut stops, |_| {}) {
             Ok(simulation) => break simulation,
-            Err(StageError::Interrupted { .. }) => parts += 1,
+            Err(ComputeError::Interrupted { .. }) => parts += 1,
             Err(error) => panic!("{set:?}: {error}"),
         }
     };
@@ -171,11 +178,11 @@ fn a_run_of_another_model_does_not_go_on() {
         ..Stops::default()
     };
     let error = stopped(&[], &mut stops);
-    assert!(matches!(error, StageError::Interrupted { .. }), "{error}");
+    assert!(matches!(error, ComputeError::Interrupted { .. }), "{error}");
     assert!(!error.is_input());
     let error = stopped(&["shaft.mass=0.15000000000000002"], &mut stops);
     assert!(
-        matches!(error, StageError::Unfinished(UnfinishedError::Model)),
+        matches!(error, ComputeError::Unfinished(UnfinishedError::Model)),
         "{error}"
     );
     assert!(error.is_input());
@@ -293,7 +300,7 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
             + 100.0 * (-515.0 * since).exp() * (TAU * 8200.0 * since).sin()
     });
     let simulation = with_signal(values.collect());
-    let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, StageError>| {
+    let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
         let settings = AnalysisSettings::of(&case);
         let mut windows = analyse("P1", &settings, read, &Kinematics::of(&setup)).unwrap();
         windows.remove(0).spectrum.amplitude

@@ -2,9 +2,10 @@
 
 use super::reason::{NoTiePrice, Stop};
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
+use crate::app::scene::AssembledHousing;
 use crate::app::scene::ring::layer;
 use crate::app::scene::seat::Seat;
-use crate::app::scene::{HousingStage, StageError};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};
 use crate::fe::model::{PlaneModel, SolidRing};
@@ -42,12 +43,12 @@ impl RingBody {
     /// The rectangle with the section's area and second moment, with its outer face at the bore.
     ///
     /// # Errors
-    /// [`NoTiePrice`] for a ring that one rectangle cannot stand for; [`StageError`] of its material.
+    /// [`NoTiePrice`] for a ring that one rectangle cannot stand for; [`ComputeError`] of its material.
     pub fn of(
         case: &Case,
         asked: &case::Ring,
         tie: &case::Tie,
-        housing: &HousingStage,
+        housing: &AssembledHousing,
     ) -> Result<Self, Stop> {
         let [section] = asked.sections.as_slice() else {
             return Err(NoTiePrice::SeveralSections {
@@ -111,8 +112,8 @@ impl RingBody {
     /// ed., section 16).
     ///
     /// # Errors
-    /// [`StageError::Material`].
-    pub fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, StageError> {
+    /// [`ComputeError::Material`].
+    pub fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, ComputeError> {
         let Some(plane) = plane else {
             return Ok(self.material);
         };
@@ -131,7 +132,7 @@ impl RingBody {
         };
         let part = self.ring.width / plane.thickness;
         Material::new(part * young, poisson, part * density).map_err(|source| {
-            StageError::Material {
+            ComputeError::Material {
                 name: "the solid ring's".to_owned(),
                 source,
             }

@@ -10,11 +10,12 @@ use super::points::{Points, beam_shapes, section_nodes};
 use super::reason::NoTiePrice;
 use super::reason::Stop;
 use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
 use crate::app::scene::housing::description;
 use crate::app::scene::modal_system::FullModes;
 use crate::app::scene::mode_set::{Partner, partners};
 use crate::app::scene::ring::{ring, ring_and_tie};
-use crate::app::scene::{HousingStage, StageError, Watch};
+use crate::app::scene::{AssembledHousing, Watch};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
@@ -109,13 +110,13 @@ pub(crate) fn largest(modes: &[BeamAndSolid]) -> Option<f64> {
 /// Computes the price of the tie of a case for its lowest `count` elastic modes.
 ///
 /// # Errors
-/// [`StageError`] of the ring, the tie and the eigenvalue computations.
+/// [`ComputeError`] of the ring, the tie and the eigenvalue computations.
 pub fn tie_price(
     case: &Case,
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     count: usize,
     watch: &impl Watch,
-) -> Result<TiePrice, StageError> {
+) -> Result<TiePrice, ComputeError> {
     match compared(case, housing, count, watch) {
         Ok(comparison) => Ok(TiePrice::Computed(Box::new(comparison))),
         Err(Stop::Reason(reason)) => Ok(TiePrice::NotComputed(reason)),
@@ -125,7 +126,7 @@ pub fn tie_price(
 
 pub(crate) fn compared(
     case: &Case,
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     count: usize,
     watch: &impl Watch,
 ) -> Result<TieComparison, Stop> {
@@ -207,11 +208,11 @@ pub(crate) fn note_of_fit(fit: case::Fit) -> Option<String> {
 pub(crate) fn joined(
     description: HousingDescription,
     tie: &case::Tie,
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     body: &RingBody,
     ring: &Ring,
 ) -> Result<(HousingModel, MeshedRing), Stop> {
-    let HousingStage { mesh, model, .. } = housing;
+    let AssembledHousing { mesh, model, .. } = housing;
     let dimension = model.dimension();
     let meshed = body.ring.added_to(mesh, model.frame(), dimension);
     let mut description = description;
@@ -257,7 +258,7 @@ pub(crate) fn modes_of(
     model: &HousingModel,
     sought: usize,
     watch: &impl Watch,
-) -> Result<FullModes, StageError> {
+) -> Result<FullModes, ComputeError> {
     let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
     let mut modes = FullModes::lowest(matrices, sought, watch)?;
     modes.sharpen(|motions: &CoupledMotions, all: &DenseMatrix| {
@@ -272,10 +273,10 @@ pub(crate) fn ring_alone(
     asked: &case::Ring,
     body: &RingBody,
     plane: Option<PlaneModel>,
-    housing: &HousingStage,
+    housing: &AssembledHousing,
     count: usize,
     watch: &impl Watch,
-) -> Result<Vec<BeamAndSolid>, StageError> {
+) -> Result<Vec<BeamAndSolid>, ComputeError> {
     let in_space = plane.is_none();
     let free = case::Ring {
         supports: Vec::new(),
@@ -327,7 +328,7 @@ pub(crate) fn side_by_side(
     [beams, solid]: &[ModeSet; 2],
     rigid: usize,
     count: usize,
-) -> Result<Vec<BeamAndSolid>, StageError> {
+) -> Result<Vec<BeamAndSolid>, ComputeError> {
     let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
     let partners = partners(beams, solid, &found);
     let elastic = partners.iter().enumerate().skip(rigid).take(count);

@@ -1,6 +1,6 @@
 //! Why the price of a tie was not computed.
 
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::fe::model::ModelError;
 use serde::Serialize;
 use thiserror::Error;
@@ -52,7 +52,7 @@ pub enum NoTiePrice {
 #[derive(Debug)]
 pub(crate) enum Stop {
     Reason(NoTiePrice),
-    Failed(Box<StageError>),
+    Failed(Box<ComputeError>),
 }
 
 impl Stop {
@@ -70,7 +70,7 @@ impl From<NoTiePrice> for Stop {
     }
 }
 
-impl<E: Into<StageError>> From<E> for Stop {
+impl<E: Into<ComputeError>> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Failed(Box::new(error.into()))
     }

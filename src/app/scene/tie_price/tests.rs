@@ -3,7 +3,7 @@
 use super::price::*;
 use super::*;
 use crate::app::case::{Case, Source};
-use crate::app::scene::{HousingStage, Unwatched};
+use crate::app::scene::{AssembledHousing, Unwatched};
 
 const STEEL: &str = "[materials.steel]\nyoung = 210e9\npoisson = 0.3\ndensity = 7850\n";
 
@@ -39,7 +39,7 @@ const WIDE: &str = "mesh = \"pedestal.msh\"\nlength_unit = \"mm\"\n\
 const BONDED: &str = "tie = { group = \"bore\", fit = \"bonded\" }";
 
 fn price(case: &Case, count: usize) -> TiePrice {
-    let housing = HousingStage::build(case, &Unwatched);
+    let housing = AssembledHousing::build(case, &Unwatched);
     let housing = housing.expect("a model").expect("a housing");
     tie_price(case, &housing, count, &Unwatched).expect("modes")
 }
@@ -187,7 +187,7 @@ fn what_has_no_solid_counterpart_is_refused_with_its_reason() {
     let reason = refused(&case(PLANE, 72e9, &far, BONDED));
     assert!(matches!(reason, NoTiePrice::Rectangle { .. }), "{reason}");
     let tied = case(PLANE, 72e9, SECTION, BONDED);
-    let housing = HousingStage::build(&tied, &Unwatched).expect("a model");
+    let housing = AssembledHousing::build(&tied, &Unwatched).expect("a model");
     let alone = Case { ring: None, ..tied };
     let found = tie_price(&alone, &housing.expect("a housing"), 2, &Unwatched);
     let found = found.expect("nothing to compute");

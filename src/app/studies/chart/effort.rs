@@ -3,7 +3,7 @@
 use super::ChartError;
 use crate::app::case::{self, Case};
 use crate::app::commands::run::Span;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::signal::band_limit_edge_s;
 
 /// Samples of the compared signals in a period of the band's highest frequency: well above what must be told apart.
@@ -65,7 +65,7 @@ impl Settings {
     pub fn of(case: &Case, asked: &case::Transient, effort: Effort) -> Result<Self, ChartError> {
         let band_hz = case.band_hz().map_or(0.5 * asked.output_hz, |band| band[1]);
         let output_hz = SAMPLES_A_PERIOD * band_hz;
-        let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz).map_err(StageError::from)?;
+        let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz).map_err(ComputeError::from)?;
         let length = asked.end - asked.start;
         let [whole, quick] = SPAN;
         let span_s = length.min(if effort == Effort::Quick {

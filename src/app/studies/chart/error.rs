@@ -1,6 +1,6 @@
 //! Why there is no chart.
 
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::numerics::series::SeriesError;
 use crate::signal::SignalError;
 use crate::system::SystemError;
@@ -11,7 +11,7 @@ use thiserror::Error;
 pub enum ChartError {
     /// The scene cannot be built.
     #[error(transparent)]
-    Stage(Box<StageError>),
+    Stage(Box<ComputeError>),
     /// There is nothing to compare with.
     #[error("the reference by {method} failed at the start at {start_s} s: {reason}")]
     NoReference {
@@ -48,27 +48,27 @@ pub enum ChartError {
     },
 }
 
-impl From<StageError> for ChartError {
-    fn from(error: StageError) -> Self {
+impl From<ComputeError> for ChartError {
+    fn from(error: ComputeError) -> Self {
         Self::Stage(Box::new(error))
     }
 }
 
 impl From<SystemError> for ChartError {
     fn from(error: SystemError) -> Self {
-        StageError::from(error).into()
+        ComputeError::from(error).into()
     }
 }
 
 impl From<SignalError> for ChartError {
     fn from(error: SignalError) -> Self {
-        StageError::from(error).into()
+        ComputeError::from(error).into()
     }
 }
 
 impl From<SeriesError> for ChartError {
     fn from(error: SeriesError) -> Self {
-        StageError::from(error).into()
+        ComputeError::from(error).into()
     }
 }
 

@@ -3,7 +3,8 @@
 use super::systems::Ready;
 use super::trace::{Failure, simulate};
 use super::{Settings, Start, perturb};
-use crate::app::scene::{RunModel, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::RunModel;
 use crate::numerics::series::TimeSeries;
 use crate::signal::{EnvelopeAnalysis, SignalError, third_octaves};
 use rayon::prelude::*;
@@ -164,14 +165,14 @@ pub(super) fn ensemble(
             let simulation = simulate(system, state, model, span)?;
             let signal = simulation.signal(0)?;
             let signal =
-                crate::signal::band_limit(&signal, settings.band_hz).map_err(StageError::from)?;
+                crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;
             let signal = signal
                 .window(signal.start_s(), end)
-                .map_err(StageError::from)?;
+                .map_err(ComputeError::from)?;
             let figures = figures(&signal, analysis.band_hz, analysis.high_pass_hz);
             done();
-            Ok(figures.map_err(StageError::from)?)
+            Ok(figures.map_err(ComputeError::from)?)
         })
         .collect();
     runs.into_iter().collect()

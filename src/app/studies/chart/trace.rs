@@ -2,7 +2,8 @@
 
 use super::Settings;
 use crate::app::commands::run::{RunEnd, Simulation, Span};
-use crate::app::scene::{RunModel, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::RunModel;
 use crate::numerics::ode::State;
 use crate::numerics::ode::TransientError;
 use crate::numerics::series::TimeSeries;
@@ -62,10 +63,10 @@ impl Failure {
     }
 }
 
-impl From<StageError> for Failure {
-    fn from(error: StageError) -> Self {
+impl From<ComputeError> for Failure {
+    fn from(error: ComputeError) -> Self {
         let kind = match error {
-            StageError::Transient(TransientError::Unstable { .. }) => FailureKind::Unstable,
+            ComputeError::Transient(TransientError::Unstable { .. }) => FailureKind::Unstable,
             _ => FailureKind::Refused,
         };
         Self::new(kind, error.to_string())
@@ -94,7 +95,7 @@ impl Trace {
             let signal = whole.signal(sensor)?;
             Ok(band_limit(&signal, settings.band_hz)?)
         });
-        let signals = signals.collect::<Result<Vec<_>, StageError>>();
+        let signals = signals.collect::<Result<Vec<_>, ComputeError>>();
         Ok(Self::of(signals?))
     }
 

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::AxisProblem;
 use crate::app::case::CaseError;
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
 use crate::formats::NpzError;
 
 /// Why a sweep cannot be planned, or not go on.
@@ -97,7 +97,7 @@ pub enum SweepError {
     },
     /// A mesh of the case cannot be read, or the report's contents do not fit together.
     #[error(transparent)]
-    Stage(Box<StageError>),
+    Stage(Box<ComputeError>),
     /// The archive of the table cannot be written.
     #[error(transparent)]
     Npz(#[from] NpzError),
@@ -118,8 +118,8 @@ fn sets(set: &[String]) -> String {
         .join(" ")
 }
 
-impl From<StageError> for SweepError {
-    fn from(error: StageError) -> Self {
+impl From<ComputeError> for SweepError {
+    fn from(error: ComputeError) -> Self {
         Self::Stage(Box::new(error))
     }
 }

@@ -42,7 +42,7 @@ fn limits() -> ComparedModes {
 fn against(
     result: &ModesResult,
     change: impl Fn(&mut ModeShapes),
-) -> Result<FileComparison, StageError> {
+) -> Result<FileComparison, ComputeError> {
     let mut modes = result.mode_shapes();
     change(&mut modes);
     let asked = limits();
@@ -266,7 +266,7 @@ fn points_are_known_by_place_or_by_label() {
             .for_each(|x| *x *= 1e3);
     };
     let error = against(&result, far).expect_err("refused");
-    assert!(matches!(&error, StageError::Compared { source, .. }
+    assert!(matches!(&error, ComputeError::Compared { source, .. }
         if matches!(**source, ModalError::TooFewPoints { matched: 0, .. })));
     assert!(error.is_input() && error.help().is_some());
 }

@@ -1,7 +1,8 @@
 //! The loads of a run: the equilibrium under the heaviest, where it is heavier than at the start, and the fastest change.
 
 use crate::app::case;
-use crate::app::scene::{Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::Scene;
 use crate::system::{Equilibrium, StaticCondition};
 
 /// Instants at which the speed is looked at; loads are looked at wherever one changes its slope.
@@ -13,11 +14,11 @@ const HEAVIER: f64 = 1.05;
 /// That instant and equilibrium; the unbalance acts along the load there. `None` where nothing is heavier than at the start.
 ///
 /// # Errors
-/// [`StageError::System`] where the shaft finds no equilibrium under that load.
+/// [`ComputeError::System`] where the shaft finds no equilibrium under that load.
 pub(crate) fn heaviest(
     asked: &case::Transient,
     scene: &Scene,
-) -> Result<Option<(f64, Equilibrium)>, StageError> {
+) -> Result<Option<(f64, Equilibrium)>, ComputeError> {
     let setup = &scene.setup;
     let duration = asked.end - asked.start;
     let evenly =

@@ -22,7 +22,8 @@
 
 use super::mode_errors::{participations, radial_forces};
 use super::model_choice::judged;
-use crate::app::scene::{Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::Scene;
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{Equilibrium, Formulation, LoadedShapes};
 use std::f64::consts::{SQRT_2, TAU};
@@ -83,7 +84,7 @@ impl LoadedErrors {
         heaviest: Option<&Equilibrium>,
         band_hz: f64,
         seconds: f64,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let mut most = Self::at(scene, &scene.equilibrium, band_hz, seconds)?;
         if let Some(rest) = heaviest {
             let other = Self::at(scene, rest, band_hz, seconds)?;
@@ -98,13 +99,13 @@ impl LoadedErrors {
     /// For a band up to `band_hz` and a run of `seconds` about an equilibrium.
     ///
     /// # Errors
-    /// [`StageError::System`] for a scene that has no loaded modes.
+    /// [`ComputeError::System`] for a scene that has no loaded modes.
     fn at(
         scene: &Scene,
         rest: &Equilibrium,
         band_hz: f64,
         seconds: f64,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let count = scene.stage.modes.count();
         // the printed equations take all modes, and balls with inertia
         if scene.setup.formulation == Formulation::Printed {
@@ -147,7 +148,7 @@ impl LoadedErrors {
 }
 
 impl<'a> Loaded<'a> {
-    fn of(scene: &'a Scene, rest: &'a Equilibrium, seconds: f64) -> Result<Self, StageError> {
+    fn of(scene: &'a Scene, rest: &'a Equilibrium, seconds: f64) -> Result<Self, ComputeError> {
         let (stage, setup) = (&scene.stage, &scene.setup);
         let shapes = LoadedShapes::at(&stage.structure, &stage.modes, setup, rest)?;
         let sensors: Vec<_> = judged(scene)

@@ -7,8 +7,9 @@ use super::mode_errors::{ModeErrors, undamped_ball_hz};
 use super::pilot::Measured;
 use super::{balls, heaviest, pilot, stepping};
 use crate::app::case::{self, Case, ModesKept};
+use crate::app::error::ComputeError;
 use crate::app::scene::structure::left_out;
-use crate::app::scene::{RunModel, Scene, StageError};
+use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::report::significant;
 use crate::system::{BallsInertia, Equilibrium, Formulation, ModeSelection, Sensor};
@@ -155,12 +156,12 @@ impl ModelChoice {
     /// The model of a case: what it asks for, and the program's choice where it leaves one.
     ///
     /// # Errors
-    /// [`StageError`] for modes or a residual that do not fit the scene.
+    /// [`ComputeError`] for modes or a residual that do not fit the scene.
     pub fn of_case(
         case: &Case,
         asked: &case::Transient,
         scene: &Scene,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, ComputeError> {
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let target = case.target();
         let source = asked.method == case::Method::NewmarkExplicit;
@@ -174,7 +175,7 @@ impl ModelChoice {
         let (mut balls_inertia, mut balls_part) =
             balls::chosen(case, scene, band_hz, target, &loaded);
         let growth = growth(scene, rest);
-        let planned = |balls_inertia| -> Result<Planned, StageError> {
+        let planned = |balls_inertia| -> Result<Planned, ComputeError> {
             let mut model = RunModel {
                 modes,
                 residual: asked.residual,

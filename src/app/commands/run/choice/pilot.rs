@@ -11,7 +11,8 @@ use super::stepping;
 use super::stepping::ADAMS_ORDER;
 use crate::app::case;
 use crate::app::commands::run::{RunEnd, Simulation, Span};
-use crate::app::scene::{RunModel, Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::{RunModel, Scene};
 use crate::bearing::Race;
 use crate::numerics::ode::Method;
 use crate::numerics::series::TimeSeries;
@@ -164,14 +165,14 @@ pub(crate) fn stretch_s(asked: &case::Transient, band_hz: f64) -> f64 {
 /// The model that another is measured by; `None` for the printed equations, which take one method alone.
 ///
 /// # Errors
-/// [`StageError::System`] for a model that does not fit the scene.
+/// [`ComputeError::System`] for a model that does not fit the scene.
 pub(crate) fn finer(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
     target: f64,
     heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<Option<RunModel>, StageError> {
+) -> Result<Option<RunModel>, ComputeError> {
     if scene.setup.formulation == Formulation::Printed {
         return Ok(None);
     }

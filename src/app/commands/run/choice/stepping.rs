@@ -3,7 +3,8 @@
 use super::model_choice::{ChosenPart, IMPACT, dynamic};
 use super::travel;
 use crate::app::case::{self, StepLength};
-use crate::app::scene::{RunModel, Scene, StageError};
+use crate::app::error::ComputeError;
+use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{Method, Schedule};
 use crate::report::significant;
 use crate::system::{CoupledSystem, Equilibrium, ModeSelection};
@@ -120,13 +121,13 @@ pub(crate) fn method(
 /// The largest step, or the time between samples: the given one, so much shorter that a whole number fills an output interval, or the program's own.
 ///
 /// # Errors
-/// [`StageError::System`] for a model that does not fit the scene, [`StageError::Transient`] for a step that no run takes.
+/// [`ComputeError::System`] for a model that does not fit the scene, [`ComputeError::Transient`] for a step that no run takes.
 pub(crate) fn step(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
     heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, ChosenPart), StageError> {
+) -> Result<(f64, ChosenPart), ComputeError> {
     let (step, why) = match asked.step {
         StepLength::Auto => {
             let (step, why) = own_step(asked, model, scene, heaviest)?;
@@ -157,13 +158,13 @@ pub(crate) fn step(
 /// The program's own largest step for a model, and why.
 ///
 /// # Errors
-/// [`StageError::System`] for a model that does not fit the scene.
+/// [`ComputeError::System`] for a model that does not fit the scene.
 pub(crate) fn own_step(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
     heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, &'static str), StageError> {
+) -> Result<(f64, &'static str), ComputeError> {
     let system = scene.system(model)?;
     let interval = 1.0 / asked.output_hz;
     let highest = system.highest_squared_frequency().sqrt();
@@ -209,12 +210,12 @@ pub(crate) fn own_step(
 /// The longest stable step at rest (s), where the case gives a longer one.
 ///
 /// # Errors
-/// [`StageError::System`] for a model that does not fit the scene.
+/// [`ComputeError::System`] for a model that does not fit the scene.
 pub(crate) fn stable_below(
     asked: &case::Transient,
     model: &RunModel,
     scene: &Scene,
-) -> Result<Option<f64>, StageError> {
+) -> Result<Option<f64>, ComputeError> {
     if asked.step == StepLength::Auto {
         return Ok(None);
     }

@@ -7,8 +7,8 @@
 //! SHA-256 of all before           32 bytes
 //! ```
 
-use super::error::UnfinishedError;
 use super::identity::RunIdentity;
+use crate::app::error::UnfinishedError;
 use crate::files::write_atomic;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;

@@ -1,7 +1,8 @@
 //! What a run was begun with, told apart by content.
 
 use crate::app::case::{Case, Defect};
-use crate::app::scene::{MeshDigest, StageError, mesh_digests};
+use crate::app::error::ComputeError;
+use crate::app::scene::{MeshDigest, mesh_digests};
 use crate::files;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -21,8 +22,8 @@ impl RunIdentity {
     /// Of a case as it would be run now.
     ///
     /// # Errors
-    /// [`StageError`] for a mesh that cannot be read.
-    pub fn of(case: &Case) -> Result<Self, StageError> {
+    /// [`ComputeError`] for a mesh that cannot be read.
+    pub fn of(case: &Case) -> Result<Self, ComputeError> {
         let mut files = mesh_digests(case)?;
         let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects);
         for defect in defects {

@@ -6,10 +6,10 @@
 
 use super::checkpoint;
 use super::checkpoint::Checkpoint;
-use super::error::UnfinishedError;
 use super::identity::RunIdentity;
 use crate::app::commands::run::{Keeper, Wish};
-use crate::app::scene::StageError;
+use crate::app::error::ComputeError;
+use crate::app::error::UnfinishedError;
 use crate::files;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
@@ -151,7 +151,7 @@ impl Keeper for UnfinishedRun {
         &mut self,
         sensors: Vec<String>,
         balls: usize,
-    ) -> Result<(ColumnFiles, Option<Snapshot>), StageError> {
+    ) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
         self.stop.deaf.store(false, Ordering::SeqCst);
         self.last = Instant::now();
         Ok(match self.resumed.take() {
@@ -194,7 +194,7 @@ impl Keeper for UnfinishedRun {
         record: &ColumnFiles,
         t: f64,
         snapshot: &Snapshot,
-    ) -> Result<(), StageError> {
+    ) -> Result<(), ComputeError> {
         let began = Instant::now();
         record.sync()?;
         let path = self.folder.join(FILE);

@@ -1,10 +1,8 @@
 //! Runs that stop and go on: checkpoints, and what identifies a run.
 
 pub(crate) mod checkpoint;
-pub(crate) mod error;
 pub(crate) mod identity;
 pub(crate) mod kept_run;
 
-pub use error::UnfinishedError;
 pub use identity::RunIdentity;
 pub use kept_run::{CHECKPOINT_S, StopRequest, UnfinishedRun};

@@ -1,8 +1,8 @@
 //! What can go wrong on the way from a case to a result, and whose fault it is.
 
-use super::import_error::ImportError;
+use super::import::ImportError;
+use super::unfinished::UnfinishedError;
 use crate::app::case::{CaseError, ModeExtent};
-use crate::app::commands::run::unfinished::UnfinishedError;
 use crate::bearing::defect::DefectError;
 use crate::bearing::{
     CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError,
@@ -29,7 +29,7 @@ use thiserror::Error;
 
 /// Failure of a stage.
 #[derive(Debug, Error)]
-pub enum StageError {
+pub enum ComputeError {
     /// The case file.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -95,7 +95,7 @@ pub enum StageError {
         /// Its file.
         path: PathBuf,
         /// What is wrong with it.
-        source: Box<StageError>,
+        source: Box<ComputeError>,
     },
     /// A mesh of something else.
     #[error(
@@ -404,7 +404,7 @@ pub enum StageError {
     Report(#[from] ReportError),
 }
 
-impl StageError {
+impl ComputeError {
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
         Self::InterfaceHeld {
