@@ -1,4 +1,6 @@
-//! Command lines that are shown to be typed again: each argument one word for the shell, whatever is in it.
+//! Text that a shell reads again or that a terminal shows: nothing in it is taken for a command.
+
+use std::borrow::Cow;
 
 /// The text as one word of a POSIX shell: as it is where nothing in it means something to the shell, else in single quotes.
 ///
@@ -15,6 +17,17 @@ pub fn shell_word(text: &str) -> String {
         text.to_owned()
     } else {
         format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+/// Text for a terminal: names of a case or a mesh may have control characters in them, which could rewrite what is shown. All but
+/// the ends of lines and tabs become the replacement character.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    let control = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if text.contains(control) {
+        Cow::Owned(text.replace(control, "\u{fffd}"))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 

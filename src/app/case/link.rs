@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::housing::{PerNodeOrGroup, Spring};
 use super::schema::{one_of, together};
+use super::spring::{PerNodeOrGroup, Spring};
 use super::union::{Mismatch, written_as};
 
 /// A connection between two groups. Nodes of one are connected to the nearest points of the other, so the meshes of

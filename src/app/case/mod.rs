@@ -47,6 +47,7 @@ mod schema;
 mod sensor;
 mod set;
 mod slip;
+mod spring;
 #[cfg(test)]
 mod tests;
 mod transient;
@@ -70,7 +71,7 @@ pub use document::Source;
 pub use envelope_band::EnvelopeBand;
 pub use error::{CaseError, Place};
 pub use frf::{Frf, Push};
-pub use housing::{Axis, Hold, Housing, Part, PerNodeOrGroup, Plane, PointMass, Spring, Support};
+pub use housing::{Axis, Hold, Housing, Part, Plane, PointMass, Support};
 pub use housing::{Integration, LinearElements, PlaneAssumption};
 pub use housing_source::HousingSource;
 pub use link::{Joint, Link};
@@ -86,6 +87,7 @@ pub use ring::{
 pub use sensor::{Sensor, SensorSpot};
 pub use set::{SetProblem, replaced_argument, split_argument};
 pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
+pub use spring::{PerNodeOrGroup, Spring};
 pub use transient::{
     Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient, Window,
 };

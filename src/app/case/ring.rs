@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::housing::Spring;
+use super::spring::Spring;
 
 /// The ring. Angles are counted from +x towards +y, the ring's first node stands at 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
-use thiserror::Error;
 
-use super::CliError;
+use super::{CliError, ResultsError};
 use crate::app::case::Case;
 use crate::app::scene::MeshDigest;
-use crate::app::shell_word::shell_word;
 use crate::files;
 
 /// Where a result has the digests of the files beside it.
@@ -25,97 +23,6 @@ pub(super) struct Wanted {
     pub(super) arrays: &'static str,
     /// What could have been named instead of a folder.
     pub(super) instead: &'static str,
-}
-
-/// Why earlier results cannot be used.
-#[derive(Debug, Error)]
-pub enum ResultsError {
-    /// There are none.
-    #[error("{} has no {command}.json and {arrays}: expected a folder with results of `plummer {command}`, or {instead}", folder.display())]
-    Missing {
-        /// The folder.
-        folder: PathBuf,
-        /// The command.
-        command: &'static str,
-        /// The file with its arrays.
-        arrays: &'static str,
-        /// What could have been named instead.
-        instead: &'static str,
-    },
-    /// A `COMMAND.json` that cannot be read, or is none.
-    #[error("{}: expected {expected}, found {found}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What should be there.
-        expected: &'static str,
-        /// What is there.
-        found: String,
-    },
-    /// The case is elsewhere.
-    #[error("{} names the case file {}, which is not there", path.display(), case.display())]
-    CaseGone {
-        /// The result file.
-        path: PathBuf,
-        /// The case file.
-        case: PathBuf,
-    },
-    /// The case has other values now.
-    #[error("{} is the result of other values than {} has now", path.display(), case.display())]
-    CaseChanged {
-        /// The result file.
-        path: PathBuf,
-        /// The case file.
-        case: PathBuf,
-    },
-    /// `--set` gives the case other values than the results were computed with.
-    #[error("{} is the result of other values than --set gives", path.display())]
-    SetChanges {
-        /// The result file.
-        path: PathBuf,
-    },
-    /// A file that was replaced or damaged since.
-    #[error("{} is not the file that {} speaks of: expected SHA-256 {expected}, found {found}", arrays.display(), path.display())]
-    OtherFile {
-        /// The result file.
-        path: PathBuf,
-        /// The file beside it.
-        arrays: PathBuf,
-        /// 64 hexadecimal digits.
-        expected: String,
-        /// 64 hexadecimal digits.
-        found: String,
-    },
-}
-
-impl ResultsError {
-    /// What to do about it.
-    #[must_use]
-    pub fn help(&self) -> String {
-        match self {
-            Self::Missing {
-                folder, command, ..
-            } => format!(
-                "run `plummer {command} CASE.toml --out {}` first",
-                shell_word(&folder.to_string_lossy())
-            ),
-            Self::CaseGone { .. } => {
-                "go to the folder in which the results were computed, or compute them again"
-                    .to_owned()
-            }
-            Self::CaseChanged { .. } => {
-                "compute the results again with --force, or give the case file its old values; [analysis] may change"
-                    .to_owned()
-            }
-            Self::SetChanges { .. } => {
-                "of results, --set changes [analysis] alone; compute others with these values"
-                    .to_owned()
-            }
-            Self::Damaged { .. } | Self::OtherFile { .. } => {
-                "compute the results again with --force".to_owned()
-            }
-        }
-    }
 }
 
 /// SHA-256 of files by their names, for the result that speaks of them.

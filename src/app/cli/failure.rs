@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::output::printable;
-use super::{AnalyzeError, ExportError, InitError, RecordError, ResultsError};
+use super::{AnalyzeError, ExportError, InitError, ResultsError};
 use crate::app::case::CaseError;
 use crate::app::error::ComputeError;
+use crate::app::shell_word::printable;
 use crate::app::studies::chart::ChartError;
 use crate::app::studies::sweep::SweepError;
 use crate::app::verification::VerificationError;
@@ -127,9 +127,6 @@ pub enum CliError {
     /// No case file could be made.
     #[error(transparent)]
     Init(Box<InitError>),
-    /// There is no report to draw again.
-    #[error(transparent)]
-    Record(#[from] RecordError),
     /// A chart could not be made.
     #[error(transparent)]
     Chart(Box<ChartError>),
@@ -185,7 +182,6 @@ impl CliError {
             Self::Case(_)
             | Self::Analyze(_)
             | Self::Init(_)
-            | Self::Record(_)
             | Self::WrongInput { .. }
             | Self::ResultExists { .. }
             | Self::Busy { .. }
@@ -222,13 +218,12 @@ impl CliError {
             Self::Export(error) => error.help(),
             Self::Analyze(error) => error.help(),
             Self::Init(error) => error.help(),
-            Self::Record(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::Sweep(error) => error.help(),
             Self::Busy { .. } => {
                 Some("wait for its end, or choose another folder with --out".to_owned())
             }
-            Self::Results(error) => Some(error.help()),
+            Self::Results(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
@@ -271,8 +266,8 @@ mod tests {
 
     use super::super::analyze::Missing;
     use super::{
-        AnalyzeError, ChartError, CliError, ExportError, InitError, RecordError, ResultsError,
-        SweepError, VerificationError,
+        AnalyzeError, ChartError, CliError, ExportError, InitError, ResultsError, SweepError,
+        VerificationError,
     };
     use crate::app::case::Case;
     use crate::app::error::ComputeError;
@@ -418,7 +413,7 @@ mod tests {
                 "error: a.toml exists\nhelp: replace it with --force, or name another file with --out\n",
             ),
             (
-                CliError::from(RecordError::None { folder: path() }),
+                CliError::from(ResultsError::NoReport { folder: path() }),
                 2,
                 "error: out/a has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page\n\
                  help: name the folder with the results of a command\n",

@@ -23,6 +23,7 @@ mod progress;
 mod report;
 mod report_files;
 mod results;
+mod results_error;
 mod run;
 mod set_arguments;
 mod shell;
@@ -39,14 +40,13 @@ use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
-pub use earlier_results::ResultsError;
 pub use export::ExportError;
 pub use failure::CliError;
 pub use init::{InitArguments, InitError};
 pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
-pub use report::RecordError;
+pub use results_error::ResultsError;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};

@@ -1,24 +1,13 @@
 //! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
 
-use std::borrow::Cow;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::{CliError, Options, folder_lock};
 use crate::app::case::Case;
+use crate::app::shell_word::printable;
 use crate::files;
-
-/// Text for a terminal: names of a case or a mesh may have control characters in them, which could rewrite what is shown. All but
-/// the ends of lines and tabs become the replacement character.
-pub(super) fn printable(text: &str) -> Cow<'_, str> {
-    let control = |c: char| c.is_control() && c != '\n' && c != '\t';
-    if text.contains(control) {
-        Cow::Owned(text.replace(control, "\u{fffd}"))
-    } else {
-        Cow::Borrowed(text)
-    }
-}
 
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///

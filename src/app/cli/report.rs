@@ -1,78 +1,14 @@
 //! `plummer report`: the pages of earlier results, drawn again from their content.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
-use thiserror::Error;
 
 use super::report_files::{ReportFiles, page_of};
+use super::results_error::{ResultsError, WITH_REPORT};
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
-use crate::report::{Report, ReportError};
-
-/// The commands that write reports, by the names of their results.
-const WITH_REPORT: [&str; 9] = [
-    "run",
-    "modes",
-    "condense",
-    "frf",
-    "chart",
-    "stability",
-    "analysis",
-    "sweep",
-    "verify",
-];
-
-/// Why there is no report to draw again.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RecordError {
-    /// The folder cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// Folder or file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The folder has no content of a report.
-    #[error("{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page", folder.display())]
-    None {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// A file is no content of a report.
-    #[error("{}: {source}", path.display())]
-    Broken {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: ReportError,
-    },
-    /// A file is the content of a report that no command writes.
-    #[error("{}: a report of \"{command}\": expected one of {}", path.display(), WITH_REPORT.join(", "))]
-    Command {
-        /// The file.
-        path: PathBuf,
-        /// What it says of itself.
-        command: String,
-    },
-}
-
-impl RecordError {
-    /// Returns what to do about it.
-    #[must_use]
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::None { .. } => Some("name the folder with the results of a command".to_owned()),
-            Self::Broken { .. } | Self::Command { .. } => {
-                Some("run the command again with --force".to_owned())
-            }
-            Self::Read { .. } => None,
-        }
-    }
-}
+use crate::report::Report;
 
 /// Draws every report in a folder again, page, tables and figures, there or in `--out`. Nothing is computed; the results stay.
 ///
@@ -122,8 +58,8 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
 }
 
 /// The contents of reports in a folder, in order of their names, each with the name of its page.
-fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
-    let failed = |source| RecordError::Read {
+fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
+    let failed = |source| ResultsError::Unreadable {
         path: folder.to_owned(),
         source,
     };
@@ -135,7 +71,7 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
         }
     }
     if found.is_empty() {
-        return Err(RecordError::None {
+        return Err(ResultsError::NoReport {
             folder: folder.to_owned(),
         });
     }
@@ -144,12 +80,12 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
 }
 
 /// The report that a file holds, and the command that it is of.
-fn read(path: &Path) -> Result<(String, Report), RecordError> {
-    let bytes = fs::read(path).map_err(|source| RecordError::Read {
+fn read(path: &Path) -> Result<(String, Report), ResultsError> {
+    let bytes = fs::read(path).map_err(|source| ResultsError::Unreadable {
         path: path.to_owned(),
         source,
     })?;
-    let report = Report::from_record(&bytes).map_err(|source| RecordError::Broken {
+    let report = Report::from_record(&bytes).map_err(|source| ResultsError::BrokenReport {
         path: path.to_owned(),
         source,
     })?;
@@ -157,7 +93,7 @@ fn read(path: &Path) -> Result<(String, Report), RecordError> {
     let command = report.table_files.as_ref().map(|files| &files.prefix);
     match command.filter(|command| WITH_REPORT.contains(&command.as_str())) {
         Some(command) => Ok((command.clone(), report)),
-        None => Err(RecordError::Command {
+        None => Err(ResultsError::OtherReport {
             path: path.to_owned(),
             command: command.cloned().unwrap_or_default(),
         }),

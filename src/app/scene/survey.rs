@@ -3,7 +3,7 @@
 use super::housing::AssembledHousing;
 use super::loose::unless_too_many_bodies;
 use super::modal_system::FullModes;
-use super::mode_set::RingShapes;
+use super::mode_set::{OwnModes, RingShapes};
 use super::structure::CoupledStructure;
 use super::watch::{Unwatched, Watch};
 use crate::app::case::ModeExtent;
@@ -83,6 +83,20 @@ impl ModalSurvey {
             housing: Some(shapes),
             ring: None,
         })
+    }
+
+    /// The modes at the nodes of the mesh and of the ring; `housing` is what they are of.
+    pub(crate) fn own_modes<'a>(
+        &'a self,
+        housing: Option<(&'a Mesh, &'a HousingModel)>,
+    ) -> OwnModes<'a> {
+        OwnModes {
+            frequencies_hz: &self.basis.frequencies_hz,
+            housing: housing
+                .zip(self.housing.as_ref())
+                .map(|((mesh, model), shapes)| (mesh, model, shapes)),
+            ring: self.ring.as_ref(),
+        }
     }
 
     /// Modes of a ring, in a housing if the case has one.

@@ -1,5 +1,6 @@
 //! What `plummer analyze` takes.
 
+use super::number::number;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -107,14 +108,6 @@ impl AnalyzeArguments {
         });
         speed.chain(orders).chain(wide).collect()
     }
-}
-
-/// A finite number.
-pub(super) fn number(text: &str) -> Option<f64> {
-    text.trim()
-        .parse()
-        .ok()
-        .filter(|value: &f64| value.is_finite())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

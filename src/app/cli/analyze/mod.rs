@@ -7,6 +7,7 @@ mod each;
 mod error;
 mod failures;
 mod machine;
+mod number;
 mod orders;
 mod read;
 mod single;

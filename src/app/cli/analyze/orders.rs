@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::arguments::number;
+use super::number::number;
 use crate::signal::diagnosis::FaultOrders;
 
 /// Names of the orders, in the order of [`GivenOrders`].

@@ -1,6 +1,6 @@
 //! A shaft speed as it is typed: a number or points in time, in Hz or with a unit.
 
-use super::arguments::number;
+use super::number::number;
 use crate::bearing::{SpeedKnot, SpeedProfile};
 
 /// Units, in small letters, with their part of 1 Hz.

@@ -1,14 +1,14 @@
 //! A window of a signal beside an earlier signal of the same machine: what grew.
 
-use super::window::WindowAnalysis;
+use super::window::{WindowAnalysis, WindowChange};
 use crate::app::error::ComputeError;
 use crate::app::scene::Kinematics;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
 use crate::signal::diagnosis::{
-    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum,
-    Fault, LevelChange, LineChange, level_changes, line_changes,
+    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, LineChange,
+    level_changes, line_changes,
 };
 
 /// Speeds that differ by more than this part excite resonances differently.
@@ -29,33 +29,6 @@ pub struct EarlierSignal<'a> {
     pub window: TimeWindow,
     /// Speed and orders.
     pub kinematics: &'a Kinematics<'a>,
-}
-
-/// What changed in a window since an earlier signal.
-#[derive(Debug, Clone)]
-pub struct WindowChange {
-    /// File or folder of the earlier signal.
-    pub baseline: String,
-    /// Its channel.
-    pub channel: String,
-    /// Its window, s.
-    pub window: TimeWindow,
-    /// Mean shaft speed in it, Hz.
-    pub speed_hz: f64,
-    /// Root mean square in it, in the signal's unit.
-    pub rms: f64,
-    /// Largest magnitude in it, in the signal's unit.
-    pub peak: f64,
-    /// Kurtosis in it; `None` for a constant signal.
-    pub kurtosis: Option<f64>,
-    /// The impacts of each part, and of those that belong to none. Empty where there is no verdict.
-    pub lines: Vec<LineChange>,
-    /// RMS of all of the signal (first), and of each octave.
-    pub levels: Vec<LevelChange>,
-    /// Order spectra of the envelope of one band (Hz) in this signal and in the earlier one.
-    pub spectra: Option<([f64; 2], [EnvelopeOrderSpectrum; 2])>,
-    /// What makes the comparison doubtful, in words.
-    pub warnings: Vec<String>,
 }
 
 impl WindowChange {

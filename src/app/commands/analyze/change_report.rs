@@ -1,8 +1,8 @@
 //! What a report says of a window beside an earlier signal.
 
-use super::change::WindowChange;
-use super::report::{last_order, order_curve};
+use super::order_plot::{last_order, order_curve};
 use super::window::WindowAnalysis;
+use super::window::WindowChange;
 use crate::report::{
     Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant,
 };

@@ -1,7 +1,7 @@
 //! Many analysed windows in one table: a row a window, or a row that says why there is none.
 
-use super::change::WindowChange;
 use super::window::WindowAnalysis;
+use super::window::WindowChange;
 use crate::report::{Cell, Column, Table};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Fault};
 

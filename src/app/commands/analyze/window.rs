@@ -1,14 +1,15 @@
 //! Envelope analysis of a signal in windows, and what it says of the bearing: of a run's and of a measured one.
 
 use super::band_search::{AskedBand, UsedBand};
-use super::change::WindowChange;
 use super::no_signs::no_signs;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::Kinematics;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
-use crate::signal::diagnosis::{Diagnosis, Fault, FaultOrders};
+use crate::signal::diagnosis::{
+    Diagnosis, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange,
+};
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
     PeakSearch, band_limit, envelope_peaks, squared, whiten,
@@ -291,4 +292,31 @@ mod tests {
         assert_eq!(kept(0.1), (some, true));
         assert_eq!(kept(0.6), (Vec::new(), true));
     }
+}
+
+/// What changed in a window since an earlier signal.
+#[derive(Debug, Clone)]
+pub struct WindowChange {
+    /// File or folder of the earlier signal.
+    pub baseline: String,
+    /// Its channel.
+    pub channel: String,
+    /// Its window, s.
+    pub window: TimeWindow,
+    /// Mean shaft speed in it, Hz.
+    pub speed_hz: f64,
+    /// Root mean square in it, in the signal's unit.
+    pub rms: f64,
+    /// Largest magnitude in it, in the signal's unit.
+    pub peak: f64,
+    /// Kurtosis in it; `None` for a constant signal.
+    pub kurtosis: Option<f64>,
+    /// The impacts of each part, and of those that belong to none. Empty where there is no verdict.
+    pub lines: Vec<LineChange>,
+    /// RMS of all of the signal (first), and of each octave.
+    pub levels: Vec<LevelChange>,
+    /// Order spectra of the envelope of one band (Hz) in this signal and in the earlier one.
+    pub spectra: Option<([f64; 2], [EnvelopeOrderSpectrum; 2])>,
+    /// What makes the comparison doubtful, in words.
+    pub warnings: Vec<String>,
 }

@@ -1,7 +1,7 @@
 //! The full model's responses beside those of the reduced one.
 
-use super::compute::TransferPath;
 use super::housing::FrfHousing;
+use super::path::TransferPath;
 use super::reduced::ReducedPaths;
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;

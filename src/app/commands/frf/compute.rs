@@ -2,38 +2,14 @@
 
 use super::compared::{self, ComparedResponse};
 use super::housing::FrfHousing;
+use super::path::TransferPath;
 use super::ranking::{self, RankedPath};
 use super::reduced::ReducedPaths;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::{Unwatched, Watch, doubts};
 use crate::fe::reduction::ResponseEstimate;
-use crate::fe::reduction::frf::{FrequencyResponse, PathShares};
-use faer::c64;
-
-/// What one mode carries of a path.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CarriedPart {
-    /// Its natural frequency, Hz.
-    pub frequency_hz: f64,
-    /// Its part of the receptance over the frequencies of the response, m/N.
-    pub receptance: Vec<c64>,
-}
-
-/// A path from a force to a sensor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TransferPath {
-    /// Name of the force.
-    pub from: String,
-    /// Name of the sensor.
-    pub to: String,
-    /// Which sensor and which load of the response.
-    pub place: (usize, usize),
-    /// What carries it in the band.
-    pub shares: PathShares,
-    /// The few modes with the largest shares, over frequency.
-    pub carried: Vec<CarriedPart>,
-}
+use crate::fe::reduction::frf::FrequencyResponse;
 
 impl TransferPath {
     /// What is said of a path that carries next to nothing.

@@ -3,6 +3,7 @@
 pub(crate) mod compared;
 pub(crate) mod compute;
 pub(crate) mod housing;
+pub(crate) mod path;
 pub(crate) mod ranking;
 pub(crate) mod reduced;
 pub(crate) mod report;
@@ -10,7 +11,8 @@ pub(crate) mod report;
 mod tests;
 
 pub use compared::ComparedResponse;
-pub use compute::{CarriedPart, FrfResult, TransferPath, compute_frf};
+pub use compute::{FrfResult, compute_frf};
 pub use housing::FrfHousing;
+pub use path::{CarriedPart, TransferPath};
 pub use ranking::RankedPath;
 pub use report::frf_report;

@@ -1,6 +1,6 @@
 //! Variants of a case by what its paths transmit.
 
-use super::compute::TransferPath;
+use super::path::TransferPath;
 use crate::fe::reduction::frf::{
     BandVariant, FrequencyResponse, FrfError, RankedVariant, rank_in_band,
 };

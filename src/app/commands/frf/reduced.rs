@@ -1,7 +1,7 @@
 //! The reduced model on the paths of a case, with as many residual vectors as its responses need.
 
-use super::compute::{CarriedPart, TransferPath};
 use super::housing::{FrfHousing, Spot, places};
+use super::path::{CarriedPart, TransferPath};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;

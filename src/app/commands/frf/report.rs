@@ -1,7 +1,8 @@
 //! The report of `plummer frf`.
 
-use super::compute::{FrfResult, TransferPath};
+use super::compute::FrfResult;
 use super::housing::FrfHousing;
+use super::path::TransferPath;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;

@@ -1,10 +1,12 @@
 //! Computed modes against those of a file: which belong together, and whether they agree.
 
-use super::compute::ModesResult;
 use crate::app::case::{Case, ComparedModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::mode_set::{OwnModes, placed};
+use crate::app::scene::ModalSurvey;
+use crate::app::scene::mode_set::placed;
+use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
+use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -155,16 +157,12 @@ impl<'c> ComparedFile<'c> {
     ///
     /// # Errors
     /// [`ComputeError::PointsUnknown`], [`ComputeError::Compared`] for points that do not meet the model's.
-    pub fn compare(&self, result: &ModesResult) -> Result<FileComparison, ComputeError> {
-        let survey = &result.survey;
-        let housing = result.mesh_and_model();
-        let own = OwnModes {
-            frequencies_hz: &survey.basis.frequencies_hz,
-            housing: housing
-                .zip(survey.housing.as_ref())
-                .map(|((mesh, model), shapes)| (mesh, model, shapes)),
-            ring: survey.ring.as_ref(),
-        };
+    pub fn compare(
+        &self,
+        survey: &ModalSurvey,
+        housing: Option<(&Mesh, &HousingModel)>,
+    ) -> Result<FileComparison, ComputeError> {
+        let own = survey.own_modes(housing);
         let mesh = housing.map(|(mesh, _)| mesh);
         let check = survey.basis.count_check;
         let own = Side {

@@ -6,6 +6,7 @@ use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use super::shapes::mode_shapes;
 use crate::app::case::{Case, Expected, Linearise, ModeExtent};
+use crate::app::commands::parts::tables::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::LoadedPass;
 use crate::app::scene::Statics;
@@ -19,24 +20,6 @@ use crate::fe::mesh::Mesh;
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
-use serde::Serialize;
-
-/// An expected frequency and what was found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ExpectedMode {
-    /// Expected, Hz.
-    pub hz: f64,
-    /// What it is expected to be.
-    pub what: String,
-    /// Nearest mode that is not the balls' own, Hz; `None`: there is none.
-    pub found_hz: Option<f64>,
-    /// (found - expected) / expected.
-    pub relative_error: Option<f64>,
-    /// Largest magnitude of it that passes.
-    pub within: f64,
-    /// Whether it passes.
-    pub ok: bool,
-}
 
 /// One reading of a case: the case itself or one of its variants.
 #[derive(Debug, Clone, PartialEq)]
@@ -142,11 +125,13 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Com
         watch.stage("compare");
     }
     for file in &files {
-        result.comparisons.push(file.compare(&result)?);
+        let comparison = file.compare(&result.survey, result.mesh_and_model())?;
+        result.comparisons.push(comparison);
     }
     if let Some(sequence) = sequence {
         result.doubts.extend(sequence.doubts());
-        result.convergence = mesh_convergence(case, &sequence, &result, watch)?;
+        let housing = result.mesh_and_model();
+        result.convergence = mesh_convergence(case, &sequence, &result.survey, housing, watch)?;
     }
     Ok(result)
 }

@@ -1,14 +1,16 @@
 //! How far the frequencies of the case's own mesh are from those of an infinitely fine one.
 
-use super::compute::ModesResult;
 use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
 use crate::app::case::{Case, ModeExtent};
 use crate::app::error::ComputeError;
+use crate::app::scene::ModalSurvey;
 use crate::app::scene::Watch;
-use crate::app::scene::mode_set::{OwnModes, partners};
+use crate::app::scene::mode_set::partners;
+use crate::fe::mesh::Mesh;
 use crate::fe::modal::{
     Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
 };
+use crate::fe::model::HousingModel;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -98,18 +100,14 @@ impl MeshConvergence {
 pub(crate) fn mesh_convergence(
     case: &Case,
     sequence: &MeshSequence,
-    result: &ModesResult,
+    survey: &ModalSurvey,
+    housing: Option<(&Mesh, &HousingModel)>,
     watch: &impl Watch,
 ) -> Result<Option<MeshConvergence>, ComputeError> {
-    let survey = &result.survey;
-    let Some(((mesh, model), shapes)) = result.mesh_and_model().zip(survey.housing.as_ref()) else {
+    let own = survey.own_modes(housing);
+    if own.housing.is_none() {
         return Ok(None);
-    };
-    let own = OwnModes {
-        frequencies_hz: &survey.basis.frequencies_hz,
-        housing: Some((mesh, model, shapes)),
-        ring: survey.ring.as_ref(),
-    };
+    }
     let own = own.set();
     let own_modes = own.frequencies_hz.len();
     let mut found = vec![OnLevel {

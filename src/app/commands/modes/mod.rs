@@ -13,7 +13,7 @@ pub(crate) mod tables;
 
 pub use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
-pub use compute::{ExpectedMode, ModesResult, Reading, compute_modes};
+pub use compute::{ModesResult, Reading, compute_modes};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use report::modes_report;
 pub use shapes::compute_mode_shapes;

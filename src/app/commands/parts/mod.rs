@@ -7,4 +7,5 @@ pub(crate) mod statics_report;
 pub(crate) mod tables;
 
 pub use bearing_table::bearing_table;
+pub use tables::ExpectedMode;
 pub(crate) use tables::{assumptions, model_facts};

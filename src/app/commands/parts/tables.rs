@@ -1,7 +1,8 @@
 //! Tables and texts that both reports show.
 
+use serde::Serialize;
+
 use crate::app::case::{Bond, Case, Damping, PlaneAssumption, RadiusRule, RingElement};
-use crate::app::commands::modes::ExpectedMode;
 use crate::app::scene::CoupledStructure;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
@@ -266,4 +267,21 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
         ));
     }
     list
+}
+
+/// An expected frequency and what was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExpectedMode {
+    /// Expected, Hz.
+    pub hz: f64,
+    /// What it is expected to be.
+    pub what: String,
+    /// Nearest mode that is not the balls' own, Hz; `None`: there is none.
+    pub found_hz: Option<f64>,
+    /// (found - expected) / expected.
+    pub relative_error: Option<f64>,
+    /// Largest magnitude of it that passes.
+    pub within: f64,
+    /// Whether it passes.
+    pub ok: bool,
 }

@@ -8,7 +8,7 @@ use crate::app::case::Case;
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::survey_report::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
-use crate::app::commands::modes::ExpectedMode;
+use crate::app::commands::parts::ExpectedMode;
 use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
 use crate::app::commands::parts::tables::{expected_table, mode_table};

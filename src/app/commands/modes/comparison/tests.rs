@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::app::case::Source;
-use crate::app::commands::modes::compute_modes;
+use crate::app::commands::modes::{ModesResult, compute_modes};
 use crate::app::scene::Unwatched;
 use crate::fe::modal::ModalError;
 use std::path::Path;
@@ -50,7 +50,7 @@ fn against(
         asked: &asked,
         modes,
     };
-    file.compare(result)
+    file.compare(&result.survey, result.mesh_and_model())
 }
 
 fn remove(modes: &mut ModeShapes, mode: usize) {
@@ -287,13 +287,18 @@ fn points_within_widens_the_match() {
         asked: &asked,
         modes: modes.clone(),
     };
-    assert!(file.compare(&result).is_err());
+    assert!(
+        file.compare(&result.survey, result.mesh_and_model())
+            .is_err()
+    );
     asked.points_within = Some(1.1e-4);
     let file = ComparedFile {
         asked: &asked,
         modes,
     };
-    let found = file.compare(&result).expect("compares");
+    let found = file
+        .compare(&result.survey, result.mesh_and_model())
+        .expect("compares");
     assert_eq!(found.points.matched, 120);
     assert!((found.points.largest_distance_m - 1e-4).abs() < 1e-12);
 }

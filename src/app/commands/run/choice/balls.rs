@@ -1,7 +1,8 @@
 //! Whether the balls need their inertia.
 
 use super::loaded_errors::LoadedErrors;
-use super::model_choice::{ChosenPart, ball_frequency, hertz};
+use super::model_choice::ChosenPart;
+use super::quantities::{ball_frequency, hertz};
 use crate::app::case::{self, Case};
 use crate::app::scene::Scene;
 use crate::report::significant;

@@ -4,8 +4,9 @@
 //! [`pilot`](super::pilot) has the error of modes and steps along the way: on `examples/scenes` it found that of a run with all modes within
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
-use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT, USUAL_BAND};
+use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT};
 use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
+use super::quantities::USUAL_BAND;
 use crate::app::case::Case;
 use crate::app::commands::run::Span;
 use crate::app::scene::Scene;

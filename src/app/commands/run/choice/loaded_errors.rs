@@ -20,8 +20,7 @@
 //! counts. Source: Craig (1981), Structural Dynamics, sections 11.3 and 11.6 (modes and mode acceleration); Golub and Van
 //! Loan, Matrix Computations, section 8.1 (first order changes of eigenvalues).
 
-use super::mode_errors::{participations, radial_forces};
-use super::model_choice::judged;
+use super::quantities::{judged, participations, radial_forces};
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::numerics::linalg::DenseMatrix;

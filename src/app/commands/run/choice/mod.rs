@@ -6,7 +6,10 @@ pub(crate) mod horizon;
 pub(crate) mod loaded_errors;
 pub(crate) mod mode_errors;
 pub(crate) mod model_choice;
+pub(crate) mod modes;
 pub(crate) mod pilot;
+pub(crate) mod plan;
+pub(crate) mod quantities;
 pub(crate) mod stepping;
 pub(crate) mod table;
 #[cfg(test)]
@@ -14,5 +17,4 @@ mod tests;
 pub(crate) mod travel;
 
 pub use horizon::Horizon;
-pub use model_choice::{ChosenPart, ModelChoice};
-pub use pilot::Measured;
+pub use model_choice::{ChosenPart, Measured, ModelChoice};

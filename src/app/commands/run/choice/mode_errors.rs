@@ -16,9 +16,9 @@
 //! under an impact, and it counts [`ADDS_UP`] times.
 
 use super::loaded_errors::LoadedErrors;
-use super::model_choice::{IMPACT, ball_frequency, hertz, judged};
+use super::quantities::{IMPACT, ball_frequency, hertz, judged, participations, radial_forces};
 use crate::app::scene::Scene;
-use crate::system::{ModeDamping, StructureModes};
+use crate::system::ModeDamping;
 use std::f64::consts::TAU;
 
 /// Frequencies at which the band is looked at, and places on the raceway between two balls.
@@ -153,12 +153,6 @@ fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] 
     [whole, [whole[0] - softness, whole[1]]]
 }
 
-pub(crate) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
-    (0..modes.count())
-        .map(|mode| modes.participation(mode, row))
-        .collect()
-}
-
 /// Participations of radial forces at places all round the raceway.
 fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
     let count = PLACES * scene.setup.balls();
@@ -166,22 +160,6 @@ fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
         scene,
         (0..count).map(|number| TAU * number as f64 / count as f64),
     )
-}
-
-/// Participations of radial forces at angles (rad) of the raceway.
-pub(crate) fn radial_forces(scene: &Scene, angles: impl Iterator<Item = f64>) -> Vec<Vec<f64>> {
-    let structure = &scene.stage.structure;
-    let mut row = vec![0.0; structure.dof()];
-    angles
-        .map(|angle| {
-            let rows = structure.ring().rows_at(angle);
-            row.fill(0.0);
-            for (dof, value) in rows.dofs.into_iter().zip(rows.radial) {
-                row[dof] += value;
-            }
-            participations(&scene.stage.modes, &row)
-        })
-        .collect()
 }
 
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.

@@ -7,6 +7,7 @@
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
 use super::heaviest::fastest_change;
+use super::model_choice::Measured;
 use super::stepping;
 use super::stepping::ADAMS_ORDER;
 use crate::app::case;
@@ -53,21 +54,6 @@ pub(crate) const LONG: f64 = 10.0;
 /// What the error is taken for where no ball strikes, in units of what the stretch showed. The finer run errs as well: of some 90 preloaded bearings that nobody
 /// had looked at, one erred by 1.04 times its estimate and three by 0.83 to 0.97 times.
 pub(crate) const SAFETY: f64 = 1.5;
-
-/// What a stretch showed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measured {
-    /// Relative error of steps and modes in the band, the worst sensor's.
-    pub error: f64,
-    /// Begin of the stretch, s.
-    pub from_s: f64,
-    /// Its length, s.
-    pub length_s: f64,
-    /// Root mean square of the loudest sensor in it, m/s^2.
-    pub rms: f64,
-    /// What the run's model was compared with.
-    pub(crate) finer: RunModel,
-}
 
 /// The error of `model` on a stretch, and on a second one where loads change. It is that of steps and modes, and of balls without inertia where `finer` has
 /// them with it. Where balls strike it is that of a short stretch as a whole. Else the stretch is [`LONG`], and its worst part and its worst beginning count.

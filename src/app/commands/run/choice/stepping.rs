@@ -1,6 +1,7 @@
 //! Method and step.
 
-use super::model_choice::{ChosenPart, IMPACT, dynamic};
+use super::model_choice::ChosenPart;
+use super::quantities::{IMPACT, dynamic};
 use super::travel;
 use crate::app::case::{self, StepLength};
 use crate::app::error::ComputeError;

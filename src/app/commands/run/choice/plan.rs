@@ -1,0 +1,183 @@
+//! The model that a scene needs: what `[accuracy]` leaves to the program, chosen with an estimate of what it costs in accuracy.
+//!
+//! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
+
+use super::heaviest::heaviest;
+use super::loaded_errors::LoadedErrors;
+use super::mode_errors::ModeErrors;
+use super::model_choice::{CONDENSATION, ChosenPart, Measured, ModelChoice, SUPERELEMENT};
+use super::modes::modes;
+use super::quantities::USUAL_BAND;
+use super::{balls, pilot, stepping};
+use crate::app::case::{self, Case};
+use crate::app::error::ComputeError;
+use crate::app::scene::structure::left_out;
+use crate::app::scene::{RunModel, Scene};
+use crate::numerics::ode::Method;
+use crate::report::significant;
+use crate::system::{BallsInertia, Equilibrium, Formulation};
+
+/// What errors grow to where balls strike, while the solution can be predicted: the largest ratio of the error to the linear
+/// estimate in scenes with play or damage (`cargo test --test estimates`).
+const IMPACTS_GROWTH: f64 = 6.0;
+
+/// A model, and why its method and its step.
+type Planned = (RunModel, ChosenPart, ChosenPart);
+
+impl ModelChoice {
+    /// The model of a case: what it asks for, and the program's choice where it leaves one.
+    ///
+    /// # Errors
+    /// [`ComputeError`] for modes or a residual that do not fit the scene.
+    pub fn of_case(
+        case: &Case,
+        asked: &case::Transient,
+        scene: &Scene,
+    ) -> Result<Self, ComputeError> {
+        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let target = case.target();
+        let source = asked.method == case::Method::NewmarkExplicit;
+        // the source's method steps all ring displacements, and its equations need them
+        let whole = source || scene.setup.formulation == Formulation::Printed;
+        let heaviest = heaviest(asked, scene)?;
+        let rest = heaviest.as_ref().map(|(_, rest)| rest);
+        let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
+        let errors = ModeErrors::of(scene, band_hz, &loaded);
+        let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
+        let (mut balls_inertia, mut balls_part) =
+            balls::chosen(case, scene, band_hz, target, &loaded);
+        let growth = growth(scene, rest);
+        let planned = |balls_inertia| -> Result<Planned, ComputeError> {
+            let mut model = RunModel {
+                modes,
+                residual: asked.residual,
+                balls_inertia,
+                method: Method::Exponential,
+                step: 0.0,
+            };
+            let (method, method_part) = stepping::method(asked, &model, target);
+            model.method = method;
+            let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
+            model.step = step;
+            Ok((model, method_part, step_part))
+        };
+        let (mut model, mut method_part, mut step_part) = planned(balls_inertia)?;
+        let beside = |model: &RunModel, whole: &RunModel| -> Result<Option<Measured>, String> {
+            let finer = pilot::finer(asked, whole, scene, target, heaviest.as_ref());
+            let Some(finer) = finer.map_err(|error| error.to_string())? else {
+                return Ok(None);
+            };
+            pilot::measured(asked, model, finer, scene, band_hz, growth > 1.0).map(Some)
+        };
+        let mut measured = match balls_inertia {
+            BallsInertia::Dynamic => beside(&model, &model),
+            // beside balls with inertia
+            BallsInertia::QuasiStatic => {
+                let with_inertia = planned(BallsInertia::Dynamic)?;
+                let found = beside(&model, &with_inertia.0);
+                let error = found
+                    .as_ref()
+                    .ok()
+                    .and_then(|found| Some(found.as_ref()?.error));
+                match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
+                    false if balls::is_free(case) => {
+                        (balls_inertia, balls_part) = balls::needed(error);
+                        (model, method_part, step_part) = with_inertia;
+                        beside(&model, &model)
+                    }
+                    _ => found,
+                }
+            }
+        };
+        let step = model.step;
+        while let Ok(Some(found)) = measured
+            && let Some(shorter) = stepping::shorter(asked, &model, found.error, target, step)
+        {
+            model.step = shorter;
+            step_part.chosen = format!("{} s", significant(shorter, 3));
+            "by the target, from the error that longer ones made on a stretch"
+                .clone_into(&mut step_part.why);
+            measured = match balls_inertia {
+                BallsInertia::Dynamic => beside(&model, &model),
+                BallsInertia::QuasiStatic => beside(&model, &planned(BallsInertia::Dynamic)?.0),
+            };
+        }
+        match &measured {
+            Ok(Some(found)) => {
+                method_part.estimated_error = Some(found.error);
+                // beside balls with inertia: the stretch has their part
+                balls_part.estimated_error.get_or_insert(0.0);
+            }
+            Ok(None) => {}
+            Err(why) => {
+                method_part.estimated_error = None;
+                method_part.why +=
+                    &format!("; its error could not be measured before the run: {why}");
+            }
+        }
+        let mut parts = vec![modes_part, balls_part, method_part, step_part];
+        parts.extend(superelement(scene, band_hz));
+        parts.extend(condensed(scene, band_hz));
+        for part in &mut parts {
+            if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
+                part.estimated_error = Some(growth * error);
+                part.why += &format!(
+                    "; {} times the linear estimate, as balls strike",
+                    significant(growth, 2)
+                );
+            }
+        }
+        let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
+        let sum: Option<f64> = squares.sum();
+        Ok(Self {
+            model,
+            estimated_error: sum.map(f64::sqrt),
+            growth,
+            measured: measured.ok().flatten(),
+            stable_s: stepping::stable_below(asked, &model, scene)?,
+            target,
+            parts,
+        })
+    }
+}
+
+/// What errors grow to in a run that begins at rest and meets a heavier load.
+fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
+    let setup = &scene.setup;
+    let rests = heaviest.into_iter().chain([&scene.equilibrium]);
+    let mut balls = rests.flat_map(|rest| &rest.balls);
+    let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
+    match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
+        true => 1.0,
+        false => IMPACTS_GROWTH,
+    }
+}
+
+/// What a superelement from a file lacks, by [`left_out`].
+fn superelement(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
+    let imported = scene.stage.imported.as_ref()?;
+    let highest = scene.stage.complete_hz;
+    Some(ChosenPart {
+        what: SUPERELEMENT,
+        chosen: format!("{} vectors", imported.record.modal_hz.len()),
+        why: format!(
+            "given; vectors above {} kHz were left out when it was condensed",
+            significant(highest / 1e3, 4)
+        ),
+        estimated_error: Some(left_out(band_hz, highest)),
+    })
+}
+
+/// What the condensed housing lacks, by [`left_out`].
+fn condensed(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
+    scene.stage.housing.as_ref()?;
+    Some(ChosenPart {
+        what: CONDENSATION,
+        chosen: format!("{} vectors", scene.stage.fixed_interface_modes),
+        why: format!(
+            "of the housing's interior; those above {} kHz are left out",
+            significant(scene.stage.complete_hz / 1e3, 3)
+        ),
+        estimated_error: Some(left_out(band_hz, scene.stage.complete_hz)),
+    })
+}
