@@ -4,7 +4,7 @@
 //! A housing mesh from gmsh is condensed by Craig-Bampton onto the curved-beam outer ring of a ball
 //! bearing; the nonlinear ball-contact transient runs on the reduced coupled system through a run-up
 //! with faults; the signal is diagnosed. Source of the bearing model: Tadina and Boltezar, J. Sound
-//! Vib. (2011), with its equations put right where that was needed (`docs/theory.md`).
+//! Vib. (2011), with its equations put right where that was needed (`docs/theory/bearing.md`).
 //!
 //! The data flows one way:
 //!

@@ -359,11 +359,11 @@ fn links_anchors_and_complaints() {
         )
     };
     for (target, picture, expected) in [
-        ("theory.md", false, None),
-        ("theory.md#23-signals", false, None),
+        ("theory/structure.md", false, None),
+        ("theory/structure.md#mesh", false, None),
         ("#a", false, None),
         ("https://gmsh.info", false, None),
-        ("theory.md#no", false, Some("theory.md has no such heading")),
+        ("theory/structure.md#no", false, Some("structure.md has no such heading")),
         ("#b", false, Some("limits.md has no such heading")),
         ("none.md", false, Some("no such file")),
         (

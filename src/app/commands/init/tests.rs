@@ -68,7 +68,7 @@ fn a_unit_is_given_told_by_the_bearing_or_guessed() {
     }
 }
 
-/// The ring of the source paper's bearing of 12 mm (Table 1 and docs/paper-numbers.md: area 5.37e-6 m^2, second moment 8.88e-13 m^4,
+/// The ring of the source paper's bearing of 12 mm (Table 1 and docs/paper.md: area 5.37e-6 m^2, second moment 8.88e-13 m^4,
 /// radius 5.314 mm) against that of 625 scaled to 12 mm: another bearing, of the same kind.
 #[test]
 fn a_scaled_ring_is_like_that_of_a_bearing_of_this_size() {
