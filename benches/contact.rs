@@ -3,7 +3,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use plummer::app::case::Case;
-use plummer::app::scene::{CoupledStructure, Unwatched, bearing_setup};
+use plummer::app::scene::{CoupledStructure, bearing_setup};
+use plummer::numerics::Unwatched;
 use plummer::numerics::ode::{Instant, Observer, SecondOrderSystem};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};

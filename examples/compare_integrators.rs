@@ -12,7 +12,7 @@
 
 use plummer::app::case::Case;
 use plummer::app::commands::run::{RunResult, compute_run};
-use plummer::app::scene::Unwatched;
+use plummer::numerics::Unwatched;
 use plummer::numerics::series::TimeSeries;
 use plummer::signal::{band_limit, relative_difference};
 use std::error::Error;

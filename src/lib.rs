@@ -29,7 +29,7 @@
 //! ```no_run
 //! use plummer::app::case::Case;
 //! use plummer::app::commands::run::compute_run;
-//! use plummer::app::scene::Unwatched;
+//! use crate::numerics::Unwatched;
 //! let case = Case::load("examples/tadina2011/outer-dent.toml", &[])?;
 //! let run = compute_run(&case, &Unwatched)?;
 //! assert_eq!(run.simulation.record.sensors[0].0, "P1");

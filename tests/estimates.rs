@@ -17,8 +17,9 @@
 use plummer::app::case::Case;
 use plummer::app::commands::run::choice::{Horizon, ModelChoice};
 use plummer::app::commands::run::{RunEnd, Simulation, Span};
-use plummer::app::scene::{RunModel, Scene, Unwatched};
+use plummer::app::scene::{RunModel, Scene};
 use plummer::app::studies::chart::Trace;
+use plummer::numerics::Unwatched;
 use plummer::numerics::ode::Method;
 use plummer::signal::{band_limit_edge_s, band_limit_from_rest};
 use plummer::system::{BallsInertia, ModeSelection};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use plummer::app::commands::modes::compute_modes;
-use plummer::app::scene::Unwatched;
+use plummer::numerics::Unwatched;
 use plummer::system::LoadedMode;
 
 use plummer::app::case::{

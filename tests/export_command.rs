@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::io::load_coo_from_matrix_market_file;
-use plummer::app::scene::MeshDigest;
+use plummer::files::FileDigest;
 use plummer::formats::{
     Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz,
     write_superelement_npz,
@@ -70,7 +70,7 @@ fn refused(folder: &Path, words: &str) -> String {
 fn name_again(out: &Path) {
     let path = out.join("modes.json");
     let mut result = json(path.clone());
-    let digest = MeshDigest::of_file(&out.join("modes.npz")).unwrap();
+    let digest = FileDigest::of_file(&out.join("modes.npz")).unwrap();
     result["arrays"]["modes.npz"] = digest.sha256.into();
     fs::write(path, result.to_string()).unwrap();
 }
@@ -407,7 +407,7 @@ fn tables_lie_beside_the_report() {
     // every bit of what the archive has
     let shapes = read_mode_shapes(&out.join("modes.npz")).unwrap();
     assert_eq!(found, shapes.frequencies_hz);
-    let digest = MeshDigest::of_file(&folder.join("a.msh")).unwrap().sha256;
+    let digest = FileDigest::of_file(&folder.join("a.msh")).unwrap().sha256;
     assert_eq!(
         result["meshes"],
         serde_json::json!([{ "path": "a.msh", "sha256": digest }])

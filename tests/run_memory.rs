@@ -11,7 +11,8 @@ use plummer::app::case::Case;
 use plummer::app::commands::run::choice::ModelChoice;
 use plummer::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use plummer::app::commands::run::{Simulation, Span};
-use plummer::app::scene::{Scene, Unwatched};
+use plummer::app::scene::Scene;
+use plummer::numerics::Unwatched;
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

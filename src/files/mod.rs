@@ -2,17 +2,17 @@
 //! results, made: no symbolic links, since these could lead elsewhere.
 
 mod atomic;
+mod digest;
 mod error;
 
 pub use atomic::{AtomicFile, write_atomic};
+pub use digest::{FileDigest, hex, sha256};
 pub use error::FileError;
 pub(crate) use error::bytes_of;
 
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader};
+use std::io;
 use std::path::{Path, PathBuf};
-
-use sha2::{Digest, Sha256};
 
 /// Opens a regular file.
 ///
@@ -50,33 +50,6 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// As [`open`], and [`io::ErrorKind::InvalidData`] for what is not UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
     io::read_to_string(open(path)?)
-}
-
-/// SHA-256 (FIPS 180-4) of what a reader gives, to which more can be added.
-///
-/// # Errors
-/// What the system says.
-pub fn sha256(reader: impl io::Read) -> io::Result<Sha256> {
-    let mut hasher = Sha256::new();
-    let mut reader = BufReader::with_capacity(1 << 16, reader);
-    loop {
-        let piece = reader.fill_buf()?;
-        if piece.is_empty() {
-            return Ok(hasher);
-        }
-        hasher.update(piece);
-        let read = piece.len();
-        reader.consume(read);
-    }
-}
-
-/// A digest as 64 hexadecimal digits, as `sha256sum` prints it.
-pub fn hex(hasher: Sha256) -> String {
-    hasher
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
 }
 
 /// Checks that no symbolic link stands at a path; nothing may.

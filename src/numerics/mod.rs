@@ -5,6 +5,7 @@
 //! - [`linalg`]: sparse symmetric matrices, factorisation with inertia, eigenpairs with a proof, dense blocks;
 //! - [`ode`]: a second-order system as an integrator sees it, and the integrators;
 //! - [`series`]: evenly sampled signals, their statistics and decimation;
+//! - [`Watch`]: where a computation tells how far it is;
 //! - [`units`]: units of a file, turned into SI; `lanes`: four numbers side by side.
 //!
 //! Read [`linalg::SparseMatrix`] first, then [`ode::SecondOrderSystem`].
@@ -14,3 +15,6 @@ pub mod linalg;
 pub mod ode;
 pub mod series;
 pub mod units;
+mod watch;
+
+pub use watch::{Unwatched, Watch};

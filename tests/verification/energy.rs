@@ -10,7 +10,8 @@
 use plummer::app::case::Case;
 use plummer::app::commands::run::choice::ModelChoice;
 use plummer::app::commands::run::{InMemory, Simulation, Span};
-use plummer::app::scene::{Scene, Unwatched};
+use plummer::app::scene::Scene;
+use plummer::numerics::Unwatched;
 use plummer::system::EnergyBalance;
 
 /// Samples by `dop853`, far more than the vibrations of a ball between its contacts need for a sum over them.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plummer::app::case::{Case, Source};
 use plummer::app::commands::run::{RunEnd, RunResult, compute_run};
-use plummer::app::scene::Unwatched;
+use plummer::numerics::Unwatched;
 
 /// An example at constant speed: 10 Hz between two lines of the envelope's spectrum over 0.2 s, in quarters.
 fn run(example: &str, set: &[&str]) -> RunResult {

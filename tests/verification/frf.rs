@@ -10,7 +10,6 @@ use crate::reference_frequencies::data;
 use crate::setup::{BORE_RADIUS, Housing, dense, steel_ring};
 use plummer::app::case::{Case, Source};
 use plummer::app::commands::frf::compute_frf;
-use plummer::app::scene::Unwatched;
 use plummer::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use plummer::fe::element::continuum::{Formulation, Integration};
 use plummer::fe::material::Material;
@@ -23,6 +22,7 @@ use plummer::fe::reduction::frf::{
     FrequencyResponse, FrfPaths, FrfQuantity, ModalBasis, ModalDamping, ModalSuperposition,
     ReducedSystem, direct_response,
 };
+use plummer::numerics::Unwatched;
 use plummer::numerics::linalg::{
     ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix,
     submatrix,

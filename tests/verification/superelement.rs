@@ -12,11 +12,12 @@
 
 use crate::reference_frequencies::data;
 use plummer::app::case::{Case, Source};
-use plummer::app::scene::{AssembledHousing, CondensedHousing, Unwatched};
+use plummer::app::scene::{AssembledHousing, CondensedHousing};
 use plummer::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure,
     choose_basis,
 };
+use plummer::numerics::Unwatched;
 use plummer::numerics::linalg::{EigenPairs, symmetric_generalised_eigen};
 use std::f64::consts::TAU;
 

@@ -13,7 +13,7 @@ use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::element::continuum::{ContinuumKind, Formulation, Integration};
 use plummer::fe::material::Material;
 use plummer::fe::mesh::Mesh;
-use plummer::fe::modal::housing_modes;
+use plummer::fe::modal::{ModeRange, housing_modes};
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
 use plummer::numerics::units::LengthUnit;
 
@@ -33,7 +33,7 @@ fn elastic(mesh: &Mesh, group: &str, integration: Integration, count: usize) -> 
     };
     let model = HousingModel::new(mesh, description).unwrap();
     let matrices = SystemMatrices::assemble(&model).unwrap();
-    let modes = housing_modes(&matrices, &model.free_dofs(), 6 + count).unwrap();
+    let modes = housing_modes(&model, matrices, ModeRange::Count(6 + count)).unwrap();
     modes.frequencies_hz[6..].to_vec()
 }
 

@@ -3,7 +3,8 @@
 use plummer::app::case::Case;
 use plummer::numerics::ode::{SecondOrderSystem, State, Tangent};
 use plummer::app::commands::run::choice::ModelChoice;
-use plummer::app::scene::{RunModel, Scene, Unwatched};
+use plummer::numerics::{Unwatched};
+use plummer::app::scene::{RunModel, Scene};
 use plummer::system::CoupledSystem;
 use std::error::Error;
 

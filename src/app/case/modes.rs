@@ -1,5 +1,6 @@
 //! `[modes]`: which eigenfrequencies.
 
+use crate::fe::modal::ModeRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -130,12 +131,13 @@ struct ModesForm {
 written_as!(Modes, ModesForm);
 
 impl ModeExtent {
-    /// The same for a model with so many degrees of freedom: fewer modes than the default if it has fewer. What was
-    /// asked for by name stays.
-    pub fn of_model(self, free_dof: usize) -> Self {
+    /// The same as a range: fewer modes than the default where a model has fewer. What was asked for by name stays.
+    pub fn range(self) -> ModeRange {
         match self {
-            Self::Count(DEFAULT_COUNT) => Self::Count(DEFAULT_COUNT.min(free_dof).max(1)),
-            asked => asked,
+            Self::Count(DEFAULT_COUNT) => ModeRange::AtMost(DEFAULT_COUNT),
+            Self::Count(count) => ModeRange::Count(count),
+            Self::UpToHz(hz) => ModeRange::UpToHz(hz),
+            Self::BandHz(band) => ModeRange::BandHz(band),
         }
     }
 }

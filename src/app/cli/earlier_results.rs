@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::{CliError, ResultsError};
 use crate::app::case::Case;
-use crate::app::scene::MeshDigest;
 use crate::files;
+use crate::files::FileDigest;
 
 /// Where a result has the digests of the files beside it.
 pub(super) const ARRAYS: &str = "arrays";
@@ -32,7 +32,7 @@ pub(super) struct Wanted {
 pub(super) fn digests(files: &[PathBuf]) -> Result<Value, CliError> {
     let mut map = Map::new();
     for path in files {
-        let digest = MeshDigest::of_file(path).map_err(|source| CliError::Write {
+        let digest = FileDigest::of_file(path).map_err(|source| CliError::Write {
             path: path.clone(),
             source,
         })?;
@@ -93,7 +93,7 @@ pub(super) fn case_of_results(
         return Err(ResultsError::CaseChanged { path, case: file }.into());
     }
     if let Some(expected) = result[ARRAYS][arrays].as_str() {
-        let found = MeshDigest::of_file(&beside);
+        let found = FileDigest::of_file(&beside);
         let found = found.map_err(|error| damaged("a file that can be read", error.to_string()))?;
         if found.sha256 != expected {
             return Err(ResultsError::OtherFile {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use crate::app::scene::MeshDigest;
+use crate::files::FileDigest;
 
 /// Whether progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ const COUNTED: &str = "{spinner} {msg} {bar:30} {pos} of {len} files, {eta} left
 pub struct Progress {
     bar: ProgressBar,
     stages: Mutex<Vec<(String, Instant)>>,
-    files: Mutex<Vec<MeshDigest>>,
+    files: Mutex<Vec<FileDigest>>,
 }
 
 impl Progress {
@@ -96,7 +96,7 @@ impl Progress {
 
     /// The meshes that were read, with each content that they had.
     #[must_use]
-    pub fn files(&self) -> Vec<MeshDigest> {
+    pub fn files(&self) -> Vec<FileDigest> {
         let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         files.clone()
     }
@@ -128,8 +128,8 @@ impl Progress {
 }
 
 /// The templates are constants that a test reads; indicatif's own style stands in if one were wrong.
-impl crate::app::scene::Watch for Progress {
-    fn read(&self, file: &MeshDigest) {
+impl crate::numerics::Watch for Progress {
+    fn read(&self, file: &FileDigest) {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         if !files.contains(file) {
             files.push(file.clone());

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::{CliError, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::{MeshDigest, mesh_digests};
+use crate::app::scene::mesh_digests;
+use crate::files::FileDigest;
 use crate::report::{Document, MeshFile, Report};
 
 /// Folders of the tables and of the figures, in that of the results.
@@ -21,7 +22,7 @@ const RECORD: &str = ".cbor.gz";
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct ReportFiles {
     /// The meshes behind the results.
-    pub(super) meshes: Vec<MeshDigest>,
+    pub(super) meshes: Vec<FileDigest>,
     /// Names of the tables' files in the folder of the results.
     pub(super) tables: Vec<String>,
     /// What to name to the reader: the folders of tables and figures, the report.
@@ -128,8 +129,8 @@ pub(super) fn page_of(record: &str) -> Option<String> {
 ///
 /// # Errors
 /// [`ComputeError::MeshChanged`].
-fn unchanged(now: &[MeshDigest], read: &[MeshDigest]) -> Result<(), ComputeError> {
-    let other = |file: &&MeshDigest| {
+fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError> {
+    let other = |file: &&FileDigest| {
         let same_path = now.iter().find(|now| now.path == file.path);
         same_path.is_some_and(|now| now.sha256 != file.sha256)
     };
@@ -173,8 +174,9 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{MeshDigest, is_of_report, page_of, record_of, unchanged};
+    use super::{is_of_report, page_of, record_of, unchanged};
     use crate::app::error::ComputeError;
+    use crate::files::FileDigest;
 
     #[test]
     fn a_page_and_its_content_know_each_other() {
@@ -193,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_mesh_that_changed_is_named() {
-        let file = |path: &str, content: &[u8]| MeshDigest::of_bytes(path.as_ref(), content);
+        let file = |path: &str, content: &[u8]| FileDigest::of_bytes(path.as_ref(), content);
         let now = [file("a.msh", b"1"), file("b.msh", b"2")];
         assert!(unchanged(&now, &now[..1]).is_ok());
         let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();

@@ -10,10 +10,9 @@ use crate::app::commands::modes::{ModesResult, Reading};
 use crate::app::commands::run::choice::{ChosenPart, ModelChoice};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, SensorScalogram};
 use crate::app::error::ComputeError;
-use crate::app::scene::{
-    CoupledStructure, ImportedHousing, LoadedPoint, MeshDigest, ReducedInterface,
-};
+use crate::app::scene::{CoupledStructure, ImportedHousing, LoadedPoint, ReducedInterface};
 use crate::fe::reduction::{Bound, Check, SizeErrors};
+use crate::files::FileDigest;
 use crate::formats::{NpzWriter, write_modes_npz};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{BallsInertia, Column};
@@ -36,7 +35,7 @@ pub(super) fn common(
     case: &Case,
     progress: &Progress,
     wall_s: f64,
-    meshes: &[MeshDigest],
+    meshes: &[FileDigest],
 ) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("plummer".to_owned(), json!(env!("CARGO_PKG_VERSION")));

@@ -6,8 +6,9 @@ use serde_json::{Map, Value};
 
 use super::{Effort, OutputFolder, compute_stability, stability_lines, write_stability};
 use crate::app::case::Case;
-use crate::app::scene::{Scene, Unwatched};
+use crate::app::scene::Scene;
 use crate::app::studies::chart::{Condition, stability_report};
+use crate::numerics::Unwatched;
 
 /// The smooth scene made small: a ring of 12 nodes, and a target for which seven modes are enough, whose limits are the test's.
 fn small() -> Case {

@@ -2,7 +2,7 @@
 
 use super::import::ImportError;
 use super::unfinished::UnfinishedError;
-use crate::app::case::{CaseError, ModeExtent};
+use crate::app::case::CaseError;
 use crate::bearing::defect::DefectError;
 use crate::bearing::{
     CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError,
@@ -67,7 +67,7 @@ pub enum ComputeError {
     Section(#[from] SectionError),
     /// Modes that cannot be analysed.
     #[error(transparent)]
-    Modal(#[from] ModalError),
+    Modal(ModalError),
     /// A file of mode shapes that cannot be read.
     #[error(transparent)]
     ModeShapes(#[from] ReadModesError),
@@ -338,15 +338,6 @@ pub enum ComputeError {
         /// What was found.
         source: ReductionError,
     },
-    /// A band without modes.
-    #[error(
-        "modes: expected at least one mode {}, a count of eigenvalues finds none",
-        within(extent)
-    )]
-    NoModes {
-        /// What was asked for.
-        extent: ModeExtent,
-    },
     /// A superelement that cannot take the housing's place.
     #[error("housing.superelement: {}: {source}", path.display())]
     Import {
@@ -404,6 +395,16 @@ pub enum ComputeError {
     Report(#[from] ReportError),
 }
 
+impl From<ModalError> for ComputeError {
+    fn from(error: ModalError) -> Self {
+        match error {
+            ModalError::Linalg(error) => Self::Linalg(error),
+            ModalError::Model(error) => Self::Model(error),
+            error => Self::Modal(error),
+        }
+    }
+}
+
 impl ComputeError {
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
@@ -430,7 +431,7 @@ impl ComputeError {
                  that are not in line into the interface, or leave it out of housing.parts"
                     .to_owned(),
             ),
-            Self::NoModes { .. } => Some(
+            Self::Modal(ModalError::NoModes { .. }) => Some(
                 "another band, or `modes.count = 1`, which finds the lowest wherever it is".to_owned(),
             ),
             Self::SoftPart { .. } => Some(
@@ -480,14 +481,5 @@ impl ComputeError {
             | Self::Report(_) => false,
             _ => true,
         }
-    }
-}
-
-/// Where modes were asked for, in words.
-fn within(extent: &ModeExtent) -> String {
-    match extent {
-        ModeExtent::Count(count) => format!("among the lowest {count} (count)"),
-        ModeExtent::UpToHz(hz) => format!("up to {hz} Hz (up_to_hz)"),
-        ModeExtent::BandHz([low, high]) => format!("from {low} to {high} Hz (band_hz)"),
     }
 }

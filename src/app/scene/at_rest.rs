@@ -6,10 +6,10 @@ use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
 use super::run_model::RunModel;
 use super::structure::CoupledStructure;
-use super::watch::Watch;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::bearing::{Race, RaceContacts};
+use crate::numerics::Watch;
 use crate::numerics::ode::State;
 use crate::system::{
     BearingSetup, CoupledSystem, Equilibrium, ModeDamping, StaticCondition, SystemError,

@@ -6,12 +6,12 @@ use super::housing::description;
 use super::mesh_digest::read_mesh;
 use super::ring::layer;
 use super::seat::Seat;
-use super::watch::Unwatched;
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::pieces_at;
 use crate::fe::model::HousingModel;
+use crate::numerics::Unwatched;
 use crate::system::{BearingSetup, Equilibrium};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,13 +1,13 @@
 //! Stiffness and mass of a case over its free degrees of freedom, each with its name.
 
+use super::bodies::Bodies;
 use super::dof_labels::{of_housing, of_ring};
 use super::imported::ImportedHousing;
-use super::modal_system::Bodies;
-use super::watch::Watch;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::formats::DofLabel;
+use crate::numerics::Watch;
 use crate::numerics::linalg::{SparseMatrix, submatrix};
 use crate::system::Structure;
 

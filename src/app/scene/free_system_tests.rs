@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::free_system::FreeSystem;
-use super::watch::Unwatched;
 use crate::app::case::{Case, Source};
 use crate::app::commands::modes::compute_mode_shapes;
 use crate::formats::{DofDirection, DofLabel};
+use crate::numerics::Unwatched;
 use crate::numerics::linalg::{SparseMatrix, sparse_times_dense};
 
 /// A case beside the example meshes; the tie's axes are turned against the mesh's.

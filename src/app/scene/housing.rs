@@ -1,7 +1,6 @@
 //! Mesh to matrices of a housing, as the case asks for them.
 
 use super::mesh_digest::read_mesh;
-use super::watch::Watch;
 use crate::app::case::{self, Case, Hold, Joint, PerNodeOrGroup};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
@@ -12,6 +11,7 @@ use crate::fe::model::{
     Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
     PlaneModel, PointMass, RingFrame, SpringStiffness, SupportShare,
 };
+use crate::numerics::Watch;
 use crate::numerics::linalg::LinalgError;
 
 /// A housing, assembled.

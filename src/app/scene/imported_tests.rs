@@ -7,7 +7,6 @@ use super::at_rest::Scene;
 use super::condensed::CondensedHousing;
 use super::imported::ImportedHousing;
 use super::structure::CoupledStructure;
-use super::watch::Unwatched;
 use crate::app::case::{Case, Source};
 use crate::app::commands::condense::superelement_record;
 use crate::app::commands::modes::compute_modes;
@@ -17,6 +16,7 @@ use crate::formats::{
     DofDirection, DofLabel, Op4Format, SuperelementRecord, write_superelement_npz,
     write_superelement_op4,
 };
+use crate::numerics::Unwatched;
 use crate::numerics::linalg::DenseMatrix;
 
 const RING: &str = "outer_radius = 6e-3\n\

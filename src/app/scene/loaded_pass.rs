@@ -1,8 +1,8 @@
 //! Loaded eigenfrequencies as the balls go round, and under more or less load.
 
 use super::structure::CoupledStructure;
-use super::watch::Watch;
 use crate::app::error::ComputeError;
+use crate::numerics::Watch;
 use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Section};
 use crate::system::{BearingSetup, Equilibrium, LoadedModes, StaticCondition, SystemError};
 use rayon::prelude::*;

@@ -3,6 +3,7 @@
 use super::boundary::Boundary;
 use super::housing::AssembledHousing;
 use crate::app::error::ComputeError;
+use crate::fe::modal::unless_too_many_bodies;
 use crate::fe::modal::{Mechanisms, ModalError};
 use crate::fe::model::HousingModel;
 use crate::fe::reduction::{Check, ReductionError};
@@ -77,15 +78,4 @@ pub(crate) fn name_mechanisms(
         held.what = format!("{}; {sentence}", held.what);
     }
     Ok(())
-}
-
-/// A mesh in too many bodies is worth no error where only reasons were asked for.
-pub(crate) fn unless_too_many_bodies(
-    found: Result<Mechanisms, ModalError>,
-) -> Result<Option<Mechanisms>, ModalError> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(ModalError::TooManyBodies { .. }) => Ok(None),
-        Err(error) => Err(error),
-    }
 }

@@ -1,44 +1,17 @@
 //! Which mesh files a case rests on, told apart by their content.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
-use super::watch::{MeshDigest, Watch};
 use crate::app::case::{Case, Housing};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::files;
+use crate::files::FileDigest;
+use crate::numerics::Watch;
 use crate::report::MeshFile;
 
-impl MeshDigest {
-    /// The digest of a file.
-    ///
-    /// # Errors
-    /// What the system says when the file cannot be read.
-    pub fn of_file(path: &Path) -> io::Result<Self> {
-        Ok(Self::of_hash(path, files::sha256(files::open(path)?)?))
-    }
-
-    /// The digest of a file's content that is at hand.
-    #[must_use]
-    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
-        let mut hasher = Sha256::new();
-        hasher.update(bytes);
-        Self::of_hash(path, hasher)
-    }
-
-    fn of_hash(path: &Path, hasher: Sha256) -> Self {
-        Self {
-            path: path.to_owned(),
-            sha256: files::hex(hasher),
-        }
-    }
-}
-
-impl From<&MeshDigest> for MeshFile {
-    fn from(digest: &MeshDigest) -> Self {
+impl From<&FileDigest> for MeshFile {
+    fn from(digest: &FileDigest) -> Self {
         Self {
             path: digest.path.display().to_string(),
             hash: Some(format!("SHA-256 {}", digest.sha256)),
@@ -56,7 +29,7 @@ pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, C
         path: path.clone(),
         cause,
     })?;
-    watch.read(&MeshDigest::of_bytes(path, &bytes));
+    watch.read(&FileDigest::of_bytes(path, &bytes));
     Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
 }
 
@@ -65,7 +38,7 @@ pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, C
 ///
 /// # Errors
 /// [`ComputeError::Mesh`] for a file that cannot be read, [`ComputeError::Case`] for a variant that is no case.
-pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, ComputeError> {
+pub fn mesh_digests(case: &Case) -> Result<Vec<FileDigest>, ComputeError> {
     let variants = case.variants()?;
     let cases = std::iter::once(case).chain(variants.iter().map(|variant| &variant.case));
     let housings = cases.filter_map(|case| case.housing.as_ref());
@@ -79,7 +52,7 @@ pub fn mesh_digests(case: &Case) -> Result<Vec<MeshDigest>, ComputeError> {
         }
     }
     let digest = |path: &&Path| {
-        MeshDigest::of_file(path).map_err(|cause| {
+        FileDigest::of_file(path).map_err(|cause| {
             let path = path.to_path_buf();
             ComputeError::from(MeshError::Read { path, cause })
         })
@@ -113,7 +86,7 @@ mod tests {
         })
         .unwrap();
         let found = mesh_digests(&case).unwrap();
-        let expected = [("a.msh", abc), ("b.msh", empty)].map(|(name, sha256)| MeshDigest {
+        let expected = [("a.msh", abc), ("b.msh", empty)].map(|(name, sha256)| FileDigest {
             path: folder.path().join(name),
             sha256: sha256.to_owned(),
         });

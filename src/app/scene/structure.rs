@@ -6,11 +6,11 @@ use super::housing::AssembledHousing;
 use super::imported::ImportedHousing;
 use super::places::{Named, Place, PlaceBodies};
 use super::ring::ring;
-use super::watch::Watch;
 use crate::app::case::{self, Case, Interface, ModesKept};
 use crate::app::error::ComputeError;
 use crate::fe::model::{RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
+use crate::numerics::Watch;
 use crate::system::{Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
 

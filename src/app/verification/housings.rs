@@ -7,11 +7,12 @@ use serde_json::Value;
 use super::check::Kind;
 use super::section::SectionResult;
 use super::{Check, VerificationError};
+use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
 use crate::fe::material::Material;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::housing_modes;
+use crate::fe::modal::{ModeRange, housing_modes};
 use crate::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
     SupportShare,
@@ -115,7 +116,8 @@ fn elastic(model: &Model, count: usize) -> Result<Vec<f64>, VerificationError> {
     };
     let housing = HousingModel::new(&mesh, description)?;
     let matrices = SystemMatrices::assemble(&housing)?;
-    let modes = housing_modes(&matrices, &housing.free_dofs(), count + 6)?;
+    let modes = housing_modes(&housing, matrices, ModeRange::Count(count + 6))
+        .map_err(ComputeError::from)?;
     let elastic = modes.frequencies_hz.into_iter().skip(modes.rigid_modes);
     Ok(elastic.take(count).collect())
 }

@@ -8,7 +8,7 @@ use super::readings::{
 use super::section::{SectionResult, signed};
 use super::{Check, VerificationError};
 use crate::app::commands::modes::compute_modes;
-use crate::app::scene::{Unwatched, Watch};
+use crate::numerics::{Unwatched, Watch};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Section, SpanPoint,
     SpanRow, Spans, Table, Verdict, fixed, significant,

@@ -8,10 +8,10 @@ use super::section::SectionResult;
 use super::{Check, VerificationError};
 use crate::app::case::{Case, Source};
 use crate::app::commands::run::compute_run;
-use crate::app::scene::Unwatched;
 use crate::bearing::HertzContact;
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
 use crate::bearing::impact::impact;
+use crate::numerics::Unwatched;
 use crate::numerics::ode::{Instant, LinearCoordinate, Observer, SecondOrderSystem, State};
 use crate::numerics::ode::{Method, Schedule, Stepping, integrate};
 

@@ -8,7 +8,7 @@ use super::readings::Grid;
 use super::signals::signals;
 use super::simulation::simulation;
 use super::{SectionResult, VerificationError, paper_numbers, reading_study};
-use crate::app::scene::Watch;
+use crate::numerics::Watch;
 
 /// Carries out every section that takes seconds; with `full` also orders of convergence, and the study of
 /// readings of the source, which takes minutes.

@@ -17,10 +17,25 @@ const NEAR_ZERO: f64 = 1e4;
 pub enum ModeRange {
     /// The lowest so many, at least 1.
     Count(usize),
+    /// The lowest so many, at least 1, or all if there are fewer.
+    AtMost(usize),
     /// All below a frequency, Hz.
     UpToHz(f64),
     /// All between two frequencies, Hz.
     BandHz([f64; 2]),
+}
+
+impl ModeRange {
+    /// In words, with the key of the case file.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Self::Count(count) | Self::AtMost(count) => {
+                format!("among the lowest {count} (count)")
+            }
+            Self::UpToHz(hz) => format!("up to {hz} Hz (up_to_hz)"),
+            Self::BandHz([low, high]) => format!("from {low} to {high} Hz (band_hz)"),
+        }
+    }
 }
 
 /// The proof that no mode is missing: Sylvester's law of inertia at one or two shifts.
@@ -76,6 +91,7 @@ impl ModalBasis {
         let squared = |hz: f64| (TAU * hz).powi(2);
         let pairs = match range {
             ModeRange::Count(count) => problem.lowest(count),
+            ModeRange::AtMost(count) => problem.lowest(count.min(problem.order()).max(1)),
             ModeRange::UpToHz(hz) => problem.below(squared(hz)),
             ModeRange::BandHz([low, high]) => problem.between(squared(low), squared(high)),
         }?;
@@ -104,7 +120,7 @@ impl ModalBasis {
         let mut basis = Self::of(problem, computed)?;
         let counted = basis.count_check.counted;
         if basis.near_zero() == basis.count()
-            && matches!(range, ModeRange::Count(count) if count < counted)
+            && matches!(range, ModeRange::Count(count) | ModeRange::AtMost(count) if count < counted)
         {
             basis = Self::of(problem, ModeRange::Count(counted))?;
         }
@@ -119,7 +135,7 @@ impl ModalBasis {
         let lies_in = |mode: &usize| {
             let (value, bound) = (self.eigenvalues[*mode], self.bounds[*mode]);
             match range {
-                ModeRange::Count(count) => *mode < count,
+                ModeRange::Count(count) | ModeRange::AtMost(count) => *mode < count,
                 ModeRange::UpToHz(high) => value - bound <= squared(high),
                 ModeRange::BandHz([low, high]) => {
                     let begins =

@@ -1,5 +1,6 @@
 //! What can be wrong with modes that are to be analysed.
 
+use super::ModeRange;
 use crate::fe::model::ModelError;
 use crate::numerics::linalg::LinalgError;
 use thiserror::Error;
@@ -44,6 +45,15 @@ pub enum ModalError {
         "mass properties of a plane model and of a solid one cannot be added: the plane one has no moments about x and y"
     )]
     PlaneAndSpace,
+    /// A range of frequencies without a mode.
+    #[error(
+        "modes: expected at least one mode {}, a count of eigenvalues finds none",
+        range.words()
+    )]
+    NoModes {
+        /// What was asked for.
+        range: ModeRange,
+    },
     /// More bodies than the search for mechanisms takes.
     #[error(
         "the mesh falls into {found} bodies that share no whole face; mechanisms are looked for among at most {limit}: are nodes doubled between the elements?"

@@ -1,18 +1,25 @@
 //! Modes of a housing without ring, free or supported.
 
-use super::{ModalBasis, ModeRange};
-use crate::fe::assembly::SystemMatrices;
-use crate::numerics::linalg::{EigenProblem, LinalgError};
+use super::full_modes::FullModes;
+use super::{ModalBasis, ModalError, ModeRange, strain_products};
+use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
+use crate::fe::model::HousingModel;
+use crate::numerics::Unwatched;
+use crate::numerics::linalg::DenseMatrix;
 
-/// The `count` lowest modes over the free degrees of freedom. Whether the housing is held need not be said.
+/// Modes over the free degrees of freedom, those near zero by the energies of elements: the frequencies of `plummer modes`. Whether
+/// the housing is held need not be said.
 ///
 /// # Errors
-/// [`LinalgError`] of factorisation, iteration or proof.
+/// [`ModalError`] of factorisation, iteration, proof or elements; [`ModalError::NoModes`] for a range without any.
 pub fn housing_modes(
-    matrices: &SystemMatrices,
-    free_dofs: &[usize],
-    count: usize,
-) -> Result<ModalBasis, LinalgError> {
-    let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, free_dofs)?;
-    ModalBasis::of(&problem, ModeRange::Count(count))
+    model: &HousingModel,
+    matrices: SystemMatrices,
+    range: ModeRange,
+) -> Result<ModalBasis, ModalError> {
+    let matrices = CoupledMatrices::of_housing(matrices, model);
+    let products = |motions: &CoupledMotions, all: &DenseMatrix| {
+        strain_products(model, &motions.housing(model, all))
+    };
+    Ok(FullModes::sharpened(matrices, range, products, &Unwatched)?.basis)
 }

@@ -11,16 +11,19 @@ mod element_work;
 mod energy_shares;
 mod energy_sums;
 mod error;
+mod full_modes;
 mod housing_modes;
 mod mass_properties;
 mod mechanisms;
 mod membership;
+mod mode_shapes;
 mod motions;
 mod participation;
 #[cfg(test)]
 mod samples;
 mod spring_rows;
 mod strain_products;
+mod survey;
 
 pub use basis::{FrequencyCount, ModalBasis, ModeRange};
 pub use comparison::{
@@ -31,9 +34,14 @@ pub use convergence::{
 };
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
+pub use full_modes::FullModes;
 pub use housing_modes::housing_modes;
 pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
 pub use mechanisms::{Body, Joint, Mechanisms, Piece, pieces_at};
+pub use mode_shapes::RingShapes;
+pub(crate) use mode_shapes::{OwnModes, Partner, partners};
 pub use motions::{over_all_dofs, rigid_motions, ring_motions};
 pub use participation::Participation;
 pub use strain_products::strain_products;
+pub use survey::ModalSurvey;
+pub(crate) use survey::unless_too_many_bodies;

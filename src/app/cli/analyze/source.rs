@@ -15,8 +15,9 @@ use crate::app::commands::analyze::{
     AnalysisSettings, AskedBand, WindowAnalysis, compute_analysis,
 };
 use crate::app::error::ComputeError;
-use crate::app::scene::{Kinematics, Unwatched};
+use crate::app::scene::Kinematics;
 use crate::formats::{MeasuredSignal, SignalRequest};
+use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
 use crate::signal::diagnosis::{Fault, FaultOrders};

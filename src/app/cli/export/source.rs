@@ -8,8 +8,9 @@ use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{Options, Progress, ResultsError};
 use crate::app::commands::modes::compute_mode_shapes;
 use crate::app::error::ComputeError;
-use crate::app::scene::{MeshDigest, mesh_digests};
+use crate::app::scene::mesh_digests;
 use crate::fe::mesh::Mesh;
+use crate::files::FileDigest;
 use crate::formats::{ModeShapes, read_modes_npz};
 use serde_json::Value;
 
@@ -96,7 +97,7 @@ impl Source {
 fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
     let text = std::fs::read(result).unwrap_or_default();
     let json: Value = serde_json::from_slice(&text).unwrap_or_default();
-    let then: Vec<MeshDigest> = serde_json::from_value(json["meshes"].clone()).unwrap_or_default();
+    let then: Vec<FileDigest> = serde_json::from_value(json["meshes"].clone()).unwrap_or_default();
     let now = mesh_digests(case)?;
     match then
         .iter()

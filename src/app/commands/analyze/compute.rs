@@ -3,8 +3,9 @@
 use super::band_search::AskedBand;
 use super::window::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::error::ComputeError;
-use crate::app::scene::{Kinematics, Watch};
+use crate::app::scene::Kinematics;
 use crate::formats::MeasuredSignal;
+use crate::numerics::Watch;
 use crate::numerics::series::TimeWindow;
 use crate::signal::diagnosis::DiagnosisError;
 use crate::signal::usual_high_pass_hz;

@@ -5,14 +5,15 @@ use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::app::scene::ReducedInterface;
 use crate::app::scene::loose::name_mechanisms;
-use crate::app::scene::modal_system::FullModes;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
-use crate::app::scene::{AssembledHousing, Watch, doubts};
+use crate::app::scene::{AssembledHousing, doubts};
+use crate::fe::modal::FullModes;
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
     size_study,
 };
+use crate::numerics::Watch;
 use crate::numerics::linalg::EigenProblem;
 use std::f64::consts::TAU;
 
@@ -171,7 +172,7 @@ fn compare(
     watch: &impl Watch,
 ) -> Result<FullComparison, ComputeError> {
     let extent = ModeExtent::Count(estimate.modes.len().max(1));
-    let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
+    let modes = FullModes::of(stage.full_matrices(), extent.range(), watch)?;
     let rigid = modes.basis.rigid_modes;
     let full = &modes.basis.frequencies_hz;
     let errors = estimate.modes.iter().zip(full).enumerate();

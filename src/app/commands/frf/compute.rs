@@ -7,9 +7,10 @@ use super::ranking::{self, RankedPath};
 use super::reduced::ReducedPaths;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::{Unwatched, Watch, doubts};
+use crate::app::scene::doubts;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrequencyResponse;
+use crate::numerics::{Unwatched, Watch};
 
 impl TransferPath {
     /// What is said of a path that carries next to nothing.

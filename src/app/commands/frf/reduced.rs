@@ -5,7 +5,6 @@ use super::path::{CarriedPart, TransferPath};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
-use crate::app::scene::Watch;
 use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::{mass_damping, modal_damping, viscous_matrix};
 use crate::app::scene::places::{Named, Place};
@@ -14,6 +13,7 @@ use crate::fe::reduction::frf::{
     ReducedSystem, Resonance, direct_response, frequency_list,
 };
 use crate::fe::reduction::{BasisChoice, BasisSize, InteriorDamping, ResponseEstimate, UNCOUPLED};
+use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
 
 /// Equal intervals of the band in which the response is computed, beside its resonances.

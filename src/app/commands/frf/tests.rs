@@ -4,8 +4,8 @@ use super::*;
 use crate::app::case::{Case, Purpose, Source};
 use crate::app::commands::condense::superelement_record;
 use crate::app::scene::CondensedHousing;
-use crate::app::scene::Unwatched;
 use crate::formats::write_superelement_npz;
+use crate::numerics::Unwatched;
 
 const HOUSING: &str = "title = \"small\"\n\
     [materials.aluminium]\nyoung = 70e9\npoisson = 0.33\ndensity = 2700\n\

@@ -2,13 +2,15 @@
 
 use crate::app::case::{Case, ComparedModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::ModalSurvey;
-use crate::app::scene::mode_set::placed;
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::ModalSurvey;
 use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
 use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
+use crate::numerics::linalg::DenseMatrix;
 use serde::Serialize;
+use std::collections::HashMap;
+use std::path::Path;
 use std::path::PathBuf;
 
 /// What a pair of modes, or a mode without a partner, misses.
@@ -316,6 +318,38 @@ impl Judge<'_> {
         };
         modes.iter().map(of).collect()
     }
+}
+
+/// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
+///
+/// # Errors
+/// [`ComputeError::PointsUnknown`] if neither gives their places.
+fn placed(file: &Path, modes: &ModeShapes, mesh: Option<&Mesh>) -> Result<ModeSet, ComputeError> {
+    let unknown = |found| ComputeError::PointsUnknown {
+        file: file.to_owned(),
+        found,
+    };
+    // index in the file of each point, and where it is
+    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh)
+    {
+        (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),
+        (None, Some(tags), Some(mesh)) => {
+            let places: HashMap<u64, usize> = mesh.node_tags.iter().copied().zip(0..).collect();
+            let known = |(row, tag): (usize, &u64)| Some((row, mesh.nodes[*places.get(tag)?]));
+            tags.iter().enumerate().filter_map(known).unzip()
+        }
+        (None, Some(_), None) => return Err(unknown("node labels, and the case has no mesh")),
+        (None, None, _) => return Err(unknown("neither points nor node labels")),
+    };
+    let tags = modes.node_tags.as_ref();
+    Ok(ModeSet {
+        frequencies_hz: modes.frequencies_hz.clone(),
+        node_tags: tags.map(|tags| rows.iter().map(|&row| tags[row]).collect()),
+        shapes: DenseMatrix::from_fn(3 * rows.len(), modes.count_modes(), |row, mode| {
+            modes.shapes[mode][3 * rows[row / 3] + row % 3]
+        }),
+        points,
+    })
 }
 
 #[cfg(test)]

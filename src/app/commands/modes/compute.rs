@@ -11,14 +11,13 @@ use crate::app::error::ComputeError;
 use crate::app::scene::LoadedPass;
 use crate::app::scene::Statics;
 use crate::app::scene::contact_limits::accept_contacts;
-use crate::app::scene::survey::{UnloadedModes, unloaded_modes};
-use crate::app::scene::{
-    AssembledHousing, CoupledStructure, ModalSurvey, Unwatched, Watch, bearing_setup, doubts,
-    race_contacts,
-};
+use crate::app::scene::structure_modes::UnloadedModes;
+use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::ModalSurvey;
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
+use crate::numerics::{Unwatched, Watch};
 use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
 
 /// One reading of a case: the case itself or one of its variants.
@@ -140,7 +139,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     let Some(stage) = CoupledStructure::build(case, watch)? else {
         return housing_alone(case, watch);
     };
-    let survey = ModalSurvey::of_structure(&stage, case.modes.extent, watch)?;
+    let survey = stage.survey(case.modes.extent, watch)?;
     watch.stage("linearise");
     let unloaded = UnloadedModes {
         frequencies_hz: survey.basis.frequencies_hz.clone(),
@@ -168,7 +167,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         let set = case.modes.variants[index].set.clone();
         let built = CoupledStructure::build(&variant.case, &Unwatched)?;
         if let Some(built) = built {
-            let unloaded = unloaded_modes(&built, variant.case.modes.extent)?;
+            let unloaded = built.unloaded_modes(variant.case.modes.extent)?;
             let what = variant.what.clone();
             variants.push(reading(&variant.case, &built, unloaded, what, set)?);
         }
@@ -215,7 +214,8 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, Compute
         model,
         matrices,
     } = AssembledHousing::of(case, watch)?;
-    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
+    let survey =
+        ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent.range(), watch)?;
     let mut base = Reading {
         what: String::new(),
         set: Vec::new(),

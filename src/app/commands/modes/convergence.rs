@@ -3,14 +3,14 @@
 use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
 use crate::app::case::{Case, ModeExtent};
 use crate::app::error::ComputeError;
-use crate::app::scene::ModalSurvey;
-use crate::app::scene::Watch;
-use crate::app::scene::mode_set::partners;
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::ModalSurvey;
+use crate::fe::modal::partners;
 use crate::fe::modal::{
     Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
 };
 use crate::fe::model::HousingModel;
+use crate::numerics::Watch;
 use serde::Serialize;
 use std::path::PathBuf;
 

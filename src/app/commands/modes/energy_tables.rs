@@ -1,7 +1,7 @@
 //! Tables of where the energy of each mode is.
 
 use super::shape_view::shown_places;
-use crate::app::scene::ModalSurvey;
+use crate::fe::modal::ModalSurvey;
 use crate::report::{Cell, Column, Table};
 
 /// Shares below this are not listed by number.

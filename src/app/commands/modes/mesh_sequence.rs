@@ -3,10 +3,11 @@
 use crate::app::case::{Case, HousingSource, ModeExtent};
 use crate::app::commands::inspect::{elements_of, size};
 use crate::app::error::ComputeError;
-use crate::app::scene::Unwatched;
-use crate::app::scene::modal_system::{Bodies, FullModes};
+use crate::app::scene::bodies::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::modal::FullModes;
 use crate::fe::modal::{MeshLevels, ModeSet};
+use crate::numerics::Unwatched;
 use crate::report::significant;
 use std::path::PathBuf;
 
@@ -195,7 +196,7 @@ impl ModesOnMesh {
         let modes = match extent {
             // a coarse mesh may have fewer
             ModeExtent::Count(count) => FullModes::lowest(matrices, count, &Unwatched),
-            other => FullModes::of(matrices, other, &Unwatched),
+            other => FullModes::of(matrices, other.range(), &Unwatched),
         }?;
         let free_dof = modes.free_dof();
         let set = bodies.mode_set(&modes);

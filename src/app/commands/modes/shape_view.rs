@@ -1,8 +1,8 @@
 //! The surface of a housing and the line of its ring, with mode shapes, as the report shows them.
 
 use super::compute::ModesResult;
-use crate::app::scene::{ModalSurvey, RingShapes};
 use crate::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh};
+use crate::fe::modal::{ModalSurvey, RingShapes};
 use crate::fe::model::HousingModel;
 use crate::report::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,

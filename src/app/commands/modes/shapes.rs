@@ -2,10 +2,12 @@
 
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::{AssembledHousing, CoupledStructure, ModalSurvey, Watch};
+use crate::app::scene::{AssembledHousing, CoupledStructure};
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::ModalSurvey;
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
+use crate::numerics::Watch;
 
 /// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.
 pub(crate) fn mode_shapes(
@@ -52,7 +54,7 @@ pub fn compute_mode_shapes(
 ) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
     if let Some(stage) = CoupledStructure::build(case, watch)? {
-        let survey = ModalSurvey::of_structure(&stage, extent, watch)?;
+        let survey = stage.survey(extent, watch)?;
         let housing = stage.housing.as_ref();
         let shapes = mode_shapes(&survey, housing.map(|stage| (&stage.mesh, &stage.model)));
         return Ok((stage.housing.map(|stage| stage.mesh), shapes));
@@ -62,7 +64,7 @@ pub fn compute_mode_shapes(
         model,
         matrices,
     } = AssembledHousing::of(case, watch)?;
-    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent.range(), watch)?;
     let shapes = mode_shapes(&survey, Some((&mesh, &model)));
     Ok((Some(mesh), shapes))
 }

@@ -10,7 +10,8 @@ use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
 use crate::app::error::ComputeError;
 use crate::app::scene::Statics;
-use crate::app::scene::{Kinematics, Scene, Watch};
+use crate::app::scene::{Kinematics, Scene};
+use crate::numerics::Watch;
 use crate::report::{Table, significant};
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
 
@@ -220,7 +221,7 @@ impl<R: Recording> RunResult<R> {
 mod tests {
     use super::*;
     use crate::app::commands::run::RunEnd;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
     use crate::numerics::series::TimeSeries;
     use crate::signal::relative_difference;
 

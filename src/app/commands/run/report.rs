@@ -260,7 +260,7 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
 mod tests {
     use super::*;
     use crate::app::commands::run::compute_run;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
     use crate::report::Block;
 
     /// Twelve sensors are drawn, and of more than twelve windows there is one table.

@@ -123,7 +123,7 @@ impl SensorScalogram {
 mod tests {
     use crate::app::case::Case;
     use crate::app::commands::run::compute_run;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
 
     #[test]
     fn a_run_has_the_scalogram_that_its_case_names() {

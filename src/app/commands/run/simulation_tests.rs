@@ -7,7 +7,8 @@ use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::error::UnfinishedError;
-use crate::app::scene::{Kinematics, Scene, Unwatched, bearing_setup};
+use crate::app::scene::{Kinematics, Scene, bearing_setup};
+use crate::numerics::Unwatched;
 use crate::numerics::ode::{
     Method, Schedule, Statistics, Stepping as Going, TransientError, integrate,
 };

@@ -1,6 +1,6 @@
 //! The points at which modes with beams and with a body are compared, and how the beams move them.
 
-use crate::app::scene::modal_system::FullModes;
+use crate::fe::modal::FullModes;
 use crate::fe::modal::ModeSet;
 use crate::fe::model::{MeshedRing, Ring, RingFrame};
 use crate::numerics::linalg::DenseMatrix;

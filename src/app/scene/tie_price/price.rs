@@ -11,18 +11,19 @@ use super::reason::NoTiePrice;
 use super::reason::Stop;
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
+use crate::app::scene::AssembledHousing;
 use crate::app::scene::housing::description;
-use crate::app::scene::modal_system::FullModes;
-use crate::app::scene::mode_set::{Partner, partners};
 use crate::app::scene::ring::{ring, ring_and_tie};
-use crate::app::scene::{AssembledHousing, Watch};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::FullModes;
 use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
+use crate::fe::modal::{Partner, partners};
 use crate::fe::model::{
     Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
     PlaneModel, Ring, SpringStiffness, SupportShare,
 };
+use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
 use serde::Serialize;
 
@@ -154,10 +155,10 @@ pub(crate) fn compared(
     let solid = modes_of(&with_body, sought, watch)?;
     // the housing's own nodes come first in both, and the ring's after them
     let of_housing = beams
-        .motions
+        .motions()
         .housing(&housing.model, &beams.over_all_rows());
-    let of_ring = beams.motions.ring(&beams.over_all_rows());
-    let of_solid = solid.motions.housing(&with_body, &solid.over_all_rows());
+    let of_ring = beams.motions().ring(&beams.over_all_rows());
+    let of_solid = solid.motions().housing(&with_body, &solid.over_all_rows());
     let nodes = housing.mesh.nodes.len();
     let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
     let frame = housing.model.frame();
@@ -313,7 +314,7 @@ pub(crate) fn ring_alone(
         },
     )?;
     let solid = modes_of(&model, sought, watch)?;
-    let moved = solid.motions.housing(&model, &solid.over_all_rows());
+    let moved = solid.motions().housing(&model, &solid.over_all_rows());
     let points = Points::new(&meshed, section_nodes(&meshed));
     let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
     let sets = [

@@ -3,7 +3,8 @@
 use super::price::*;
 use super::*;
 use crate::app::case::{Case, Source};
-use crate::app::scene::{AssembledHousing, Unwatched};
+use crate::app::scene::AssembledHousing;
+use crate::numerics::Unwatched;
 
 const STEEL: &str = "[materials.steel]\nyoung = 210e9\npoisson = 0.3\ndensity = 7850\n";
 

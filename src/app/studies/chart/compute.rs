@@ -9,7 +9,8 @@ use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, par
 use crate::app::case::{self, Case, ModesKept, StepLength};
 use crate::app::commands::analyze::AskedBand;
 use crate::app::commands::run::choice::ModelChoice;
-use crate::app::scene::{RunModel, Scene, Watch};
+use crate::app::scene::{RunModel, Scene};
+use crate::numerics::Watch;
 use crate::system::SystemError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};

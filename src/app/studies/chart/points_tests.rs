@@ -4,7 +4,8 @@ use super::candidates::Family;
 use super::points::{Point, evaluate, over_all_starts};
 use super::{Effort, FailureKind, Reference, Settings, Starts};
 use crate::app::case::Case;
-use crate::app::scene::{RunModel, Scene, Unwatched};
+use crate::app::scene::{RunModel, Scene};
+use crate::numerics::Unwatched;
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
 

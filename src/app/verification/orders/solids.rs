@@ -7,8 +7,9 @@ use super::{Family, Series, VerificationError};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::element::continuum::{ContinuumKind, Formulation, Integration, LinearFormulation};
 use crate::fe::material::Material;
-use crate::fe::modal::housing_modes;
+use crate::fe::modal::{ModalBasis, ModeRange};
 use crate::fe::model::{HousingDescription, HousingModel, HousingPart};
+use crate::numerics::linalg::EigenProblem;
 
 /// The box, m.
 const BOX: [f64; 3] = [1.0, 0.8, 0.25];
@@ -150,5 +151,6 @@ fn frequencies(
     let matrices = SystemMatrices::assemble(&model)?;
     let mut free = model.free_dofs();
     free.retain(|dof| !mesh.is_on_face(dof / 3, dof % 3));
-    Ok(housing_modes(&matrices, &free, MODES)?.frequencies_hz)
+    let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, &free)?;
+    Ok(ModalBasis::of(&problem, ModeRange::Count(MODES))?.frequencies_hz)
 }

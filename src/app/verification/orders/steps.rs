@@ -3,7 +3,7 @@
 use super::super::simulation::{SMOOTH, example};
 use super::{Family, Series, VerificationError};
 use crate::app::commands::run::compute_run;
-use crate::app::scene::Unwatched;
+use crate::numerics::Unwatched;
 use crate::numerics::series::TimeSeries;
 
 /// Rate of the signals, Hz; steps divide its interval.

@@ -6,12 +6,13 @@ use super::choices::{
 };
 use super::shapes::{ByShape, NamedMotions, ShapeShares};
 use crate::app::case::Case;
-use crate::app::scene::{Watch, bearing_setup};
+use crate::app::scene::bearing_setup;
 use crate::app::verification::{PaperFrequencies, TABLE_ONE, VerificationError};
 use crate::bearing::{ContactMaterial, ContactStiffness, RaceContacts};
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::fe::model::{RadialSupport, Ring, RingSupport, SpringShare};
+use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{
     BearingSetup, Equilibrium, Formulation, LoadedModes, LoadedShapes, StaticCondition, Structure,

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::app::commands::modes::compute_modes;
-use crate::app::scene::Unwatched;
 use crate::app::verification::beam_case;
 use crate::app::verification::readings::{Factor, Fit, Fits, moved_by_one_choice};
+use crate::numerics::Unwatched;
 
 /// A corner of the full grid with the known reading in it: 144 readings of 6 rings.
 fn small() -> Grid {

@@ -3,8 +3,8 @@
 use super::*;
 use crate::app::case::Source;
 use crate::app::commands::modes::{ModesResult, compute_modes};
-use crate::app::scene::Unwatched;
 use crate::fe::modal::ModalError;
+use crate::numerics::Unwatched;
 use std::path::Path;
 
 const HOUSING: &str = "[housing]\nmesh = \"ring_6_9_24.msh\"\nlength_unit = \"mm\"\n\

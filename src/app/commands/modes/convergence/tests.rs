@@ -3,8 +3,8 @@
 use super::*;
 use crate::app::case::Source;
 use crate::app::commands::modes::compute_modes;
-use crate::app::scene::Unwatched;
 use crate::formats::read_modes_csv;
+use crate::numerics::Unwatched;
 use std::path::Path;
 
 fn path(name: &str) -> PathBuf {

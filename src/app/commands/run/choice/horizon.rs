@@ -138,7 +138,7 @@ impl ModelChoice {
 mod tests {
     use super::*;
     use crate::app::commands::run::choice::ModelChoice;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
 
     fn horizon(example: &str, set: &[&str]) -> Horizon {
         let case = Case::example(example, set);

@@ -360,7 +360,7 @@ fn dot(row: &[f64], amplitudes: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::app::case::Case;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
 
     fn smooth(keys: &[&str], band_hz: f64, seconds: f64) -> LoadedErrors {
         let case = Case::example("scenes/smooth", keys);

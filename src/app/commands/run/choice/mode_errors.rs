@@ -186,7 +186,7 @@ mod tests {
     use super::*;
     use crate::app::case::Case;
     use crate::app::commands::run::choice::loaded_errors::RESPONSE_SAFETY;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
 
     fn errors(scene: &Scene) -> ModeErrors {
         let loaded = LoadedErrors::of(scene, None, 40e3, 5e-3).unwrap();

@@ -320,7 +320,7 @@ mod tests {
     use super::*;
     use crate::app::case::Case;
     use crate::app::commands::run::choice::ModelChoice;
-    use crate::app::scene::Unwatched;
+    use crate::numerics::Unwatched;
 
     fn with_tolerance(example: &str, tolerance: f64, set: &[&str]) -> (f64, f64) {
         let case = Case::example(example, set);

@@ -2,7 +2,8 @@
 
 use super::model_choice::{CONDENSATION, ModelChoice};
 use crate::app::case::Case;
-use crate::app::scene::{Scene, Unwatched};
+use crate::app::scene::Scene;
+use crate::numerics::Unwatched;
 
 fn choice(example: &str, set: &[&str]) -> ModelChoice {
     let case = Case::example(example, set);

@@ -39,8 +39,8 @@ pub(crate) fn longest_step(asked: &case::Transient, scene: &Scene) -> Option<f64
 mod tests {
     use super::*;
     use crate::app::case::Case;
-    use crate::app::scene::Unwatched;
     use crate::bearing::defect::reduced;
+    use crate::numerics::Unwatched;
 
     /// Five milliseconds of a shipped case at 30 Hz.
     fn case(name: &str, keys: &[&str]) -> (Case, Scene) {

@@ -2,8 +2,9 @@
 
 use crate::app::case::{Case, Defect};
 use crate::app::error::ComputeError;
-use crate::app::scene::{MeshDigest, mesh_digests};
+use crate::app::scene::mesh_digests;
 use crate::files;
+use crate::files::FileDigest;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -15,7 +16,7 @@ pub struct RunIdentity {
     case_sha256: String,
     set: Vec<String>,
     /// Meshes and tables that it names.
-    files: Vec<MeshDigest>,
+    files: Vec<FileDigest>,
 }
 
 impl RunIdentity {
@@ -29,7 +30,7 @@ impl RunIdentity {
         for defect in defects {
             if let Defect::Measured(measured) = defect {
                 // one that cannot be read is named where it is needed
-                files.extend(MeshDigest::of_file(&measured.csv));
+                files.extend(FileDigest::of_file(&measured.csv));
             }
         }
         Ok(Self {
@@ -65,7 +66,7 @@ impl RunIdentity {
                 set_text(&now.set)
             ));
         }
-        let hashes = |files: &[MeshDigest]| -> Vec<String> {
+        let hashes = |files: &[FileDigest]| -> Vec<String> {
             files.iter().map(|file| file.sha256.clone()).collect()
         };
         if hashes(&self.files) != hashes(&now.files) {
@@ -101,7 +102,7 @@ mod tests {
             plummer: "0.1.0".to_owned(),
             case_sha256: "aa".to_owned(),
             set: vec!["a=1".to_owned()],
-            files: vec![MeshDigest {
+            files: vec![FileDigest {
                 path: "a.msh".into(),
                 sha256: "bb".to_owned(),
             }],
@@ -114,7 +115,7 @@ mod tests {
             plummer: "0.2.0".to_owned(),
             case_sha256: "ab".to_owned(),
             set: Vec::new(),
-            files: vec![MeshDigest {
+            files: vec![FileDigest {
                 path: "a.msh".into(),
                 sha256: "cc".to_owned(),
             }],

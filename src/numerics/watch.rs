@@ -1,8 +1,6 @@
 //! Where a computation tells how far it is.
 
-use std::path::PathBuf;
-
-use serde::{Deserialize, Serialize};
+use crate::files::FileDigest;
 
 /// Where a computation tells how far it is.
 pub trait Watch {
@@ -11,7 +9,7 @@ pub trait Watch {
     /// Part of the stage that is done, 0 to 1; the first is where it begins.
     fn fraction(&self, done: f64);
     /// A mesh was read, and this was its content.
-    fn read(&self, _file: &MeshDigest) {}
+    fn read(&self, _file: &FileDigest) {}
 }
 
 /// Watches nothing.
@@ -21,13 +19,4 @@ pub struct Unwatched;
 impl Watch for Unwatched {
     fn stage(&self, _name: &str) {}
     fn fraction(&self, _done: f64) {}
-}
-
-/// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MeshDigest {
-    /// The file, as the case names it from where the program was called.
-    pub path: PathBuf,
-    /// 64 hexadecimal digits.
-    pub sha256: String,
 }

@@ -1,20 +1,15 @@
-//! The modes of a case's housing, ring, or both, without contact and in full: nothing condensed.
+//! The modes of a housing, a ring, or both, without contact and in full: nothing condensed.
 
-use super::housing::AssembledHousing;
-use super::loose::unless_too_many_bodies;
-use super::modal_system::FullModes;
-use super::mode_set::{OwnModes, RingShapes};
-use super::structure::CoupledStructure;
-use super::watch::{Unwatched, Watch};
-use crate::app::case::ModeExtent;
-use crate::app::error::ComputeError;
+use super::full_modes::FullModes;
+use super::mode_shapes::{OwnModes, RingShapes};
+use super::{
+    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, Participation,
+    rigid_motions, ring_motions, strain_products,
+};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, Participation, rigid_motions,
-    ring_motions, strain_products,
-};
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
 
 /// Modes and all that is said of them.
@@ -46,14 +41,14 @@ impl ModalSurvey {
     /// Modes of a housing alone; its matrices are used up.
     ///
     /// # Errors
-    /// [`ComputeError`] of eigenvalue computation and analysis.
+    /// [`ModalError`] of eigenvalue computation and analysis.
     pub fn of_housing(
         mesh: &Mesh,
         model: &HousingModel,
         matrices: SystemMatrices,
-        extent: ModeExtent,
+        range: ModeRange,
         watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    ) -> Result<Self, ModalError> {
         let mass = MassProperties::of_housing(&matrices, model)?;
         let rigid = rigid_motions(model.coordinates(), model.dimension(), centroid(&mass));
         let matrices = CoupledMatrices::of_housing(matrices, model);
@@ -61,9 +56,9 @@ impl ModalSurvey {
             Ok(strain_products(model, &motions.housing(model, all))?)
         };
         let (modes, all, participation) =
-            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
+            FullModes::analysed(matrices, range, &rigid, products, watch)?;
         watch.stage("analyse");
-        let shapes = modes.motions.housing(model, &all);
+        let shapes = modes.motions().housing(model, &all);
         let groups = mesh.groups.iter();
         let groups = groups.filter(|group| group.dimension == model.dimension());
         let several =
@@ -99,55 +94,19 @@ impl ModalSurvey {
         }
     }
 
-    /// Modes of a ring, in a housing if the case has one.
+    /// Modes of a housing and the ring in it, tied to its bore.
     ///
     /// # Errors
-    /// [`ComputeError`] of eigenvalue computation and analysis.
-    pub fn of_structure(
-        stage: &CoupledStructure,
-        extent: ModeExtent,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
-        let ring = stage.structure.ring();
-        match (&stage.housing, &stage.tie) {
-            (Some(housing), Some(tie)) => Self::of_coupled(housing, tie, ring, extent, watch),
-            _ if stage.imported.is_some() => Self::of_imported(stage, extent, watch),
-            _ => Self::of_ring(ring, extent, watch),
-        }
-    }
-
-    /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
-    fn of_imported(
-        stage: &CoupledStructure,
-        extent: ModeExtent,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
-        let ring = stage.structure.ring();
-        let modes = FullModes::of(matrices_of(stage), extent, watch)?;
-        let of_ring = modes.motions.ring(&modes.over_all_rows());
-        Ok(Self {
-            dof: stage.structure.dof(),
-            free_dof: modes.free_dof(),
-            basis: modes.basis,
-            mass: None,
-            participation: None,
-            shares: None,
-            mechanisms: None,
-            housing: None,
-            ring: Some(RingShapes::new(ring, &stage.frame(), &of_ring)),
-        })
-    }
-
-    fn of_coupled(
-        housing: &AssembledHousing,
+    /// [`ModalError`] of eigenvalue computation and analysis.
+    pub fn of_coupled(
+        (mesh, model, matrices): (&Mesh, &HousingModel, &SystemMatrices),
         tie: &RingTie,
         ring: &Ring,
-        extent: ModeExtent,
+        range: ModeRange,
         watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
-        let AssembledHousing { mesh, model, .. } = housing;
+    ) -> Result<Self, ModalError> {
         let frame = model.frame();
-        let matrices = CoupledMatrices::new(&housing.matrices, tie, ring);
+        let matrices = CoupledMatrices::new(matrices, tie, ring);
         let rigid_about = |about: [f64; 3]| {
             let of_housing = rigid_motions(model.coordinates(), model.dimension(), about);
             let of_ring = ring_motions(ring, frame, about);
@@ -167,10 +126,10 @@ impl ModalSurvey {
             Ok(of_housing + of_ring.beams + of_ring.springs)
         };
         let (modes, all, participation) =
-            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
+            FullModes::analysed(matrices, range, &rigid, products, watch)?;
         watch.stage("analyse");
-        let shapes = modes.motions.housing(model, &all);
-        let of_ring = modes.motions.ring(&all);
+        let shapes = modes.motions().housing(model, &all);
+        let of_ring = modes.motions().ring(&all);
         let rigid_modes = modes.basis.rigid_modes;
         let shares = EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, rigid_modes)?;
         let mechanisms =
@@ -188,7 +147,11 @@ impl ModalSurvey {
         })
     }
 
-    fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, ComputeError> {
+    /// Modes of a ring alone.
+    ///
+    /// # Errors
+    /// [`ModalError`] of eigenvalue computation and analysis.
+    pub fn of_ring(ring: &Ring, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
         let matrices = CoupledMatrices::of_ring(ring);
@@ -199,7 +162,7 @@ impl ModalSurvey {
             Ok(strain.beams + strain.springs)
         };
         let (modes, all, participation) =
-            FullModes::analysed(matrices, extent, &rigid, products, watch)?;
+            FullModes::analysed(matrices, range, &rigid, products, watch)?;
         let shares = ring
             .has_springs()
             .then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes))
@@ -222,38 +185,13 @@ fn centroid(mass: &MassProperties) -> [f64; 3] {
     mass.centroid().map(|component| component.unwrap_or(0.0))
 }
 
-/// Frequencies of a ring, in a housing if the case has one, in full: nothing condensed, nothing analysed.
-///
-/// # Errors
-/// [`ComputeError`] of eigenvalue computation.
-pub(crate) fn unloaded_modes(
-    stage: &CoupledStructure,
-    extent: ModeExtent,
-) -> Result<UnloadedModes, ComputeError> {
-    let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
-    Ok(UnloadedModes {
-        frequencies_hz: basis.frequencies_hz,
-        rigid: basis.rigid_modes,
-    })
-}
-
-/// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
-pub(crate) fn matrices_of(stage: &CoupledStructure) -> CoupledMatrices {
-    let structure = &stage.structure;
-    let ring = structure.ring();
-    match (&stage.housing, &stage.tie) {
-        (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
-        _ if stage.imported.is_some() => {
-            CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
-        }
-        _ => CoupledMatrices::of_ring(ring),
+/// A mesh in too many bodies is worth no error where only reasons were asked for.
+pub(crate) fn unless_too_many_bodies(
+    found: Result<Mechanisms, ModalError>,
+) -> Result<Option<Mechanisms>, ModalError> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(ModalError::TooManyBodies { .. }) => Ok(None),
+        Err(error) => Err(error),
     }
-}
-
-/// Frequencies of a model in full.
-pub(crate) struct UnloadedModes {
-    /// Ascending, Hz.
-    pub frequencies_hz: Vec<f64>,
-    /// How many of the first ones are rigid.
-    pub rigid: usize,
 }

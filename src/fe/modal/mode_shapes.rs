@@ -1,13 +1,9 @@
-//! Modes at points: those that were computed, and those of a file, for a comparison.
+//! Mode shapes at the points of a housing and a ring, and which of two sets belong together.
 
-use crate::app::error::ComputeError;
+use super::{ModalComparison, ModeSet};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{ModalComparison, ModeSet};
 use crate::fe::model::{HousingModel, Ring, RingFrame};
-use crate::formats::ModeShapes;
 use crate::numerics::linalg::DenseMatrix;
-use std::collections::HashMap;
-use std::path::Path;
 
 /// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring.
 #[derive(Debug, Clone, Copy)]
@@ -95,42 +91,6 @@ pub(crate) fn partners(
         }
     }
     partners
-}
-
-/// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
-///
-/// # Errors
-/// [`ComputeError::PointsUnknown`] if neither gives their places.
-pub(crate) fn placed(
-    file: &Path,
-    modes: &ModeShapes,
-    mesh: Option<&Mesh>,
-) -> Result<ModeSet, ComputeError> {
-    let unknown = |found| ComputeError::PointsUnknown {
-        file: file.to_owned(),
-        found,
-    };
-    // index in the file of each point, and where it is
-    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh)
-    {
-        (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),
-        (None, Some(tags), Some(mesh)) => {
-            let places: HashMap<u64, usize> = mesh.node_tags.iter().copied().zip(0..).collect();
-            let known = |(row, tag): (usize, &u64)| Some((row, mesh.nodes[*places.get(tag)?]));
-            tags.iter().enumerate().filter_map(known).unzip()
-        }
-        (None, Some(_), None) => return Err(unknown("node labels, and the case has no mesh")),
-        (None, None, _) => return Err(unknown("neither points nor node labels")),
-    };
-    let tags = modes.node_tags.as_ref();
-    Ok(ModeSet {
-        frequencies_hz: modes.frequencies_hz.clone(),
-        node_tags: tags.map(|tags| rows.iter().map(|&row| tags[row]).collect()),
-        shapes: DenseMatrix::from_fn(3 * rows.len(), modes.count_modes(), |row, mode| {
-            modes.shapes[mode][3 * rows[row / 3] + row % 3]
-        }),
-        points,
-    })
 }
 
 /// Displacements of a ring's nodes in the mesh's axes.
