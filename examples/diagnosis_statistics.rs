@@ -16,12 +16,13 @@ use plummer::app::case::Case;
 use plummer::app::commands::analyze::{AnalysisSettings, AskedBand, analyse};
 use plummer::app::commands::run::choice::ModelChoice;
 use plummer::app::commands::run::{Simulation, Span};
-use plummer::app::scene::{CoupledStructure, Kinematics, Scene};
+use plummer::app::scene::{CoupledStructure, Scene};
 use plummer::bearing::kinematics::BallRow;
 use plummer::bearing::{SpeedKnot, SpeedProfile};
 use plummer::numerics::Unwatched;
 use plummer::numerics::series::{TimeSeries, TimeWindow};
 use plummer::signal::diagnosis::FaultOrders;
+use plummer::signal::diagnosis::Kinematics;
 use rayon::prelude::*;
 
 type Failure = Box<dyn Error + Send + Sync>;

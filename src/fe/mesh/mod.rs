@@ -11,6 +11,7 @@
 
 mod block;
 mod boundary;
+pub(crate) mod cylinder;
 mod error;
 mod faces;
 mod format;

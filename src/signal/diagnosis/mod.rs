@@ -35,6 +35,7 @@ mod explain;
 mod fault;
 mod findings;
 mod inner_race_lines;
+mod kinematics;
 mod known;
 mod level_change;
 mod line_change;
@@ -71,6 +72,7 @@ pub use change::line_changes;
 pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
+pub use kinematics::Kinematics;
 pub use known::line_name;
 pub use level_change::{LevelChange, level_changes};
 pub use line_change::{

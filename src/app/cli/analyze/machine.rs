@@ -4,10 +4,11 @@ use super::bearing::{Named, described, named_bearing, orders, without_bearing};
 use super::{AnalyzeArguments, GivenSpeed};
 use crate::app::case::Case;
 use crate::app::cli::{CliError, Options};
-use crate::app::scene::{Kinematics, bearing_setup};
+use crate::app::scene::bearing_setup;
 use crate::bearing::SpeedProfile;
 use crate::formats::MeasuredSignal;
 use crate::report::significant;
+use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{Fault, FaultOrders};
 use crate::system::BearingSetup;
 
@@ -82,7 +83,7 @@ impl Machine {
     /// speed.
     pub(super) fn motion(&self, signal: &MeasuredSignal) -> Option<(Kinematics<'_>, Vec<String>)> {
         if let (Some((setup, error)), None) = (&self.setup, own_speed(signal)) {
-            let kinematics = match Kinematics::of(setup) {
+            let kinematics = match Kinematics::of(&setup.cage, &setup.geometry) {
                 Kinematics::Cage {
                     cage,
                     balls,

@@ -15,11 +15,11 @@ use crate::app::commands::analyze::{
     AnalysisSettings, AskedBand, WindowAnalysis, compute_analysis,
 };
 use crate::app::error::ComputeError;
-use crate::app::scene::Kinematics;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
+use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{Fault, FaultOrders};
 
 /// The results that a run's signals are taken from.
@@ -170,7 +170,8 @@ impl Source {
             (Some(signal), Some(window)) => {
                 let (from, to) = (window.from, window.to);
                 let kinematics = self.kinematics(input, signal)?;
-                Some(kinematics.orders(TimeWindow { from, to })?)
+                let orders = kinematics.orders(TimeWindow { from, to });
+                Some(orders.map_err(ComputeError::from)?)
             }
             _ => None,
         };

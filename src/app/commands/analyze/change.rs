@@ -2,10 +2,10 @@
 
 use super::window::{WindowAnalysis, WindowChange};
 use crate::app::error::ComputeError;
-use crate::app::scene::Kinematics;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
+use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{
     ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, LineChange,
     level_changes, line_changes,

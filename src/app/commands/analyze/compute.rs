@@ -3,11 +3,11 @@
 use super::band_search::AskedBand;
 use super::window::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::error::ComputeError;
-use crate::app::scene::Kinematics;
 use crate::formats::MeasuredSignal;
 use crate::numerics::Watch;
 use crate::numerics::series::TimeWindow;
 use crate::signal::diagnosis::DiagnosisError;
+use crate::signal::diagnosis::Kinematics;
 use crate::signal::usual_high_pass_hz;
 
 /// Analyses every signal in every window; without windows each as a whole. Without a band in `settings`: the high-pass of

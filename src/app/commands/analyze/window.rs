@@ -4,9 +4,9 @@ use super::band_search::{AskedBand, UsedBand};
 use super::no_signs::no_signs;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::Kinematics;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
+use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{
     Diagnosis, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange,
 };

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::cylinder::{Cylinder, Facet, fit};
+use crate::fe::mesh::cylinder::{Cylinder, Facet, fit};
 use crate::fe::mesh::{BoundaryFace, Mesh, PhysicalGroup};
 
 /// Largest distance of a node from the cylinder, relative to its radius: what the ring's tie accepts.

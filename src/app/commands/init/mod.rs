@@ -1,7 +1,6 @@
 //! `plummer init`: a commented case file from a mesh.
 
 pub(crate) mod bore;
-pub(crate) mod cylinder;
 pub(crate) mod draft;
 pub(crate) mod error;
 pub(crate) mod found;

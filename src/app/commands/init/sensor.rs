@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::bore::Rim;
-use super::cylinder::{Facet, area_vector};
 use crate::fe::mesh::Mesh;
+use crate::fe::mesh::cylinder::{Facet, area_vector};
 
 /// Cosine of the angle between a face and the direction of the sensor up to which it may stand there.
 const FACING: f64 = 0.7;

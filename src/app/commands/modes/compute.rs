@@ -8,8 +8,6 @@ use super::shapes::mode_shapes;
 use crate::app::case::{Case, Expected, Linearise, ModeExtent};
 use crate::app::commands::parts::tables::ExpectedMode;
 use crate::app::error::ComputeError;
-use crate::app::scene::LoadedPass;
-use crate::app::scene::Statics;
 use crate::app::scene::contact_limits::accept_contacts;
 use crate::app::scene::structure_modes::UnloadedModes;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
@@ -18,6 +16,8 @@ use crate::fe::modal::ModalSurvey;
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::numerics::{Unwatched, Watch};
+use crate::system::LoadedPass;
+use crate::system::Statics;
 use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
 
 /// One reading of a case: the case itself or one of its variants.
@@ -147,12 +147,16 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     };
     let base = reading(case, &stage, unloaded, String::new(), Vec::new())?;
     let statics = match linearised_setup(case)? {
-        Some(setup) => Some(Statics::compute(&stage, &setup, start_time(case))?),
+        Some(setup) => Some(Statics::compute(
+            &stage.structure,
+            &setup,
+            start_time(case),
+        )?),
         None => None,
     };
     let loaded_pass = match linearised_setup(case)?.filter(|_| case.modes.ball_pass) {
         Some(setup) => Some(LoadedPass::compute(
-            &stage,
+            (&stage.structure, &stage.modes),
             &setup,
             start_time(case),
             watch,

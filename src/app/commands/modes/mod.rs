@@ -5,6 +5,7 @@ pub(crate) mod comparison;
 pub(crate) mod compute;
 pub(crate) mod convergence;
 pub(crate) mod energy_tables;
+pub(crate) mod loaded_pass_report;
 pub(crate) mod mesh_sequence;
 pub(crate) mod report;
 pub(crate) mod shape_view;

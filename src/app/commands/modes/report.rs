@@ -9,13 +9,13 @@ use super::tables::{
     material_table, proof_facts,
 };
 use crate::app::case::Case;
+use crate::app::commands::modes::loaded_pass_report::loaded_pass_section;
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
 use crate::app::commands::parts::tables::{expected_table, mode_table};
 use crate::app::commands::parts::{assumptions, model_facts};
 use crate::app::error::ComputeError;
-use crate::app::scene::loaded_pass::loaded_pass_section;
 use crate::app::scene::{bearing_setup, race_contacts};
 use crate::report::{
     Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,

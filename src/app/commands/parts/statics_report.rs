@@ -1,8 +1,8 @@
 //! A bearing at rest, in tables and plots.
 
-use crate::app::scene::Statics;
-use crate::app::scene::statics::stiffness_along;
 use crate::report::{Abscissa, Axis, Bars, Cell, Column, Curve, Plot, Section, Table, significant};
+use crate::system::Statics;
+use crate::system::stiffness_along;
 use crate::system::{BearingSetup, Equilibrium};
 
 /// Share of the largest force from which on a ball counts as loaded: more than its own weight.

@@ -9,10 +9,11 @@ use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
 use crate::app::error::ComputeError;
-use crate::app::scene::Statics;
-use crate::app::scene::{Kinematics, Scene};
+use crate::app::scene::Scene;
 use crate::numerics::Watch;
 use crate::report::{Table, significant};
+use crate::signal::diagnosis::Kinematics;
+use crate::system::Statics;
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
@@ -83,7 +84,7 @@ pub fn compute_kept_run<K: Keeper>(
     let mut scene = Scene::build(case, watch)?;
     // a run without transient was refused with the case
     let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
-    let statics = Statics::compute(&scene.stage, &scene.setup, asked.start)?;
+    let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(
         &scene.stage.structure,
@@ -200,7 +201,7 @@ impl<R: Recording> RunResult<R> {
         let settings = AnalysisSettings::of(case);
         for (index, name) in self.simulation.record.sensors().iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
-            let kinematics = Kinematics::of(&self.scene.setup);
+            let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
             let analysed = analyse(name, &settings, read, &kinematics);
             match analysed {
                 Ok(windows) => self.windows.extend(windows),

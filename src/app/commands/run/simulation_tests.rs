@@ -7,13 +7,14 @@ use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::error::UnfinishedError;
-use crate::app::scene::{Kinematics, Scene, bearing_setup};
+use crate::app::scene::{Scene, bearing_setup};
 use crate::numerics::Unwatched;
 use crate::numerics::ode::{
     Method, Schedule, Statistics, Stepping as Going, TransientError, integrate,
 };
 use crate::numerics::ode::{NoRecord, Snapshot};
 use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::signal::diagnosis::Kinematics;
 use crate::system::{Column, RunRecord};
 use std::f64::consts::TAU;
 
@@ -303,7 +304,13 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
         let settings = AnalysisSettings::of(&case);
-        let mut windows = analyse("P1", &settings, read, &Kinematics::of(&setup)).unwrap();
+        let mut windows = analyse(
+            "P1",
+            &settings,
+            read,
+            &Kinematics::of(&setup.cage, &setup.geometry),
+        )
+        .unwrap();
         windows.remove(0).spectrum.amplitude
     };
     let part = analysed(&|window, margin| simulation.stretch(0, window, margin));

@@ -1,11 +1,9 @@
 //! How shaft and balls move: what orders and speeds of an analysis come from.
 
-use crate::app::error::ComputeError;
+use super::{DiagnosisError, FaultOrders};
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::{Cage, SpeedProfile};
+use crate::bearing::{BearingGeometry, Cage, SpeedProfile};
 use crate::numerics::series::TimeWindow;
-use crate::signal::diagnosis::FaultOrders;
-use crate::system::BearingSetup;
 use std::f64::consts::TAU;
 
 /// Motion of a machine whose signal is analysed.
@@ -34,11 +32,11 @@ pub enum Kinematics<'a> {
 impl<'a> Kinematics<'a> {
     /// Of a simulated bearing, whose motion is known exactly.
     #[must_use]
-    pub fn of(setup: &'a BearingSetup) -> Self {
+    pub fn of(cage: &'a Cage, geometry: &BearingGeometry) -> Self {
         Self::Cage {
-            cage: &setup.cage,
-            balls: setup.geometry.balls(),
-            rolling: setup.geometry.orders(),
+            cage,
+            balls: geometry.balls(),
+            rolling: geometry.orders(),
             error: 0.0,
         }
     }
@@ -80,8 +78,8 @@ impl<'a> Kinematics<'a> {
     /// ball's own spin is not prescribed; its order stays that of pure rolling.
     ///
     /// # Errors
-    /// [`ComputeError::Diagnosis`] for orders that are none.
-    pub fn orders(&self, window: TimeWindow) -> Result<FaultOrders, ComputeError> {
+    /// [`DiagnosisError`] for orders that are none.
+    pub fn orders(&self, window: TimeWindow) -> Result<FaultOrders, DiagnosisError> {
         match self {
             Self::Cage {
                 cage,
@@ -97,7 +95,7 @@ impl<'a> Kinematics<'a> {
                     inner: balls * (1.0 - ratio),
                     ..*rolling
                 };
-                Ok(FaultOrders::of(&orders, *error)?)
+                FaultOrders::of(&orders, *error)
             }
             Self::Given { orders, .. } => Ok(*orders),
         }

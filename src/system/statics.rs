@@ -1,8 +1,6 @@
 //! A bearing at rest: its equilibria, and what changes while the cage turns.
 
-use super::structure::CoupledStructure;
-use crate::app::error::ComputeError;
-use crate::system::{BearingSetup, Equilibrium, StaticCondition};
+use super::{BearingSetup, Equilibrium, StaticCondition, Structure, SystemError};
 use rayon::prelude::*;
 
 /// Cage angles over one ball spacing, both ends included.
@@ -30,20 +28,20 @@ impl Statics {
     /// Equilibria with cage and loads as they are at `time` (s), and those of a ball pass from there.
     ///
     /// # Errors
-    /// [`ComputeError::System`] if there is no equilibrium.
+    /// [`SystemError`] if there is no equilibrium.
     pub fn compute(
-        stage: &CoupledStructure,
+        structure: &Structure,
         setup: &BearingSetup,
         time: f64,
-    ) -> Result<Self, ComputeError> {
+    ) -> Result<Self, SystemError> {
         let condition = StaticCondition::at(setup, time);
-        let equilibria = Equilibrium::find_all(&stage.structure, setup, condition)?;
+        let equilibria = Equilibrium::find_all(structure, setup, condition)?;
         let point = |place: usize| {
             let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
             let condition = condition.turned_by(setup, turned);
             PassPoint {
                 turned,
-                equilibrium: Equilibrium::find(&stage.structure, setup, condition).ok(),
+                equilibrium: Equilibrium::find(structure, setup, condition).ok(),
             }
         };
         Ok(Self {

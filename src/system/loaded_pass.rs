@@ -1,0 +1,79 @@
+//! Loaded eigenfrequencies as the balls go round, and under more or less load.
+
+use super::{
+    BearingSetup, Equilibrium, LoadedModes, StaticCondition, Structure, StructureModes, SystemError,
+};
+use crate::numerics::Watch;
+use rayon::prelude::*;
+
+/// Cage angles over one ball spacing, both ends included.
+const ANGLES: usize = 29;
+
+/// Loads, each in units of the case's, from a tenth to ten times.
+const LOADS: usize = 17;
+
+/// Loaded modes at one cage angle or load.
+#[derive(Debug, Clone)]
+pub struct LoadedPoint {
+    /// Angle that the cage is turned on by, rad, or load in units of the case's.
+    pub at: f64,
+    /// `None` where no equilibrium was found.
+    pub modes: Option<LoadedModes>,
+}
+
+/// Loaded modes over a ball pass and over the load.
+#[derive(Debug, Clone)]
+pub struct LoadedPass {
+    /// Over one ball spacing.
+    pub over_angle: Vec<LoadedPoint>,
+    /// From a tenth of the force on the shaft to ten times.
+    pub over_load: Vec<LoadedPoint>,
+}
+
+impl LoadedPass {
+    /// Linearises at the equilibrium of every angle and load, from cage and loads as they are at `time` (s).
+    ///
+    /// # Errors
+    /// [`SystemError`] for what is no missing equilibrium.
+    pub fn compute(
+        (structure, modes): (&Structure, &StructureModes),
+        setup: &BearingSetup,
+        time: f64,
+        watch: &impl Watch,
+    ) -> Result<Self, SystemError> {
+        watch.stage("ball pass");
+        let condition = StaticCondition::at(setup, time);
+        let point = |at: f64, condition: StaticCondition| {
+            let rest = match Equilibrium::find(structure, setup, condition) {
+                Err(SystemError::NoEquilibrium { .. }) => {
+                    return Ok(LoadedPoint { at, modes: None });
+                }
+                found => found?,
+            };
+            let modes = LoadedModes::at(structure, modes, setup, &rest)?;
+            Ok(LoadedPoint {
+                at,
+                modes: Some(modes),
+            })
+        };
+        let angle = |place: usize| {
+            let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
+            point(turned, condition.turned_by(setup, turned))
+        };
+        let load = |place: usize| {
+            let factor = 10_f64.powf(2.0 * place as f64 / (LOADS - 1) as f64 - 1.0);
+            point(factor, condition.loaded(factor))
+        };
+        let all =
+            |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, SystemError> + Sync)| {
+                (0..points)
+                    .into_par_iter()
+                    .map(at)
+                    .collect::<Result<Vec<_>, _>>()
+            };
+        Ok(Self {
+            over_angle: all(ANGLES, &angle)?,
+            over_load: all(LOADS, &load)?,
+        })
+    }
+}
