@@ -27,7 +27,7 @@
 mod flow;
 mod track;
 
-use super::driver::{Statistics, Stepper};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };

@@ -14,8 +14,8 @@
 //! impulse splitting does not. v* is the velocity under the held force; it enters through contact
 //! damping alone. With w = 0 this is the velocity Verlet method.
 
-use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };

@@ -16,8 +16,8 @@
 //! The iteration starts from `a1 = a0`. Its last correction is applied to the force by the tangent, at a change that no longer
 //! counts ([`TOLERANCE`](super::newton::TOLERANCE)), so that the force belongs to the state without another evaluation.
 
-use super::driver::{Statistics, Stepper};
 use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
     Tangent,

@@ -10,7 +10,7 @@
 //! lower it. In modal coordinates the method is the same as in nodal ones, step by step: it
 //! commutes with a change of basis.
 
-use super::driver::{Statistics, Stepper};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };

@@ -9,8 +9,8 @@
 //! equilibrium is not kept. What it keeps is `g = (2 w / h) tan(h w / 2) y`: between a large contact force and a large spring
 //! force the place of balance is wrong by `(h w)^2 / 12`, and at `h w = pi` no force moves it.
 
-use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };

@@ -15,7 +15,7 @@ mod dense;
 mod stages;
 mod tableau;
 
-use super::driver::{Statistics, Stepper};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };
