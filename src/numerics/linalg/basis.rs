@@ -198,7 +198,7 @@ fn orthonormalise(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pseudo_random;
+    use super::super::dense::pseudo_random;
     use super::*;
 
     /// A mass of 200 unequal entries.

@@ -1,9 +1,10 @@
 //! A factor with a measure of how good it is, in single precision where that serves.
 
+use super::LinalgError;
+use super::dense::pseudo_random;
 use super::numeric::{Kind, NumericFactor};
-use super::symbolic::Symbolic;
+use super::symbolic::{SMALL, Symbolic};
 use super::symmetric::SymmetricMatrix;
-use super::{LinalgError, pseudo_random};
 use faer::MatMut;
 use std::sync::Arc;
 
@@ -14,9 +15,6 @@ pub(super) const LARGEST_CONTRACTION: f64 = 0.1;
 /// Contraction of a factor in double precision above which the matrix is so ill-conditioned (1e8) that round-off in its
 /// lowest modes is felt: a shift helps.
 const DULL: f64 = 1e-8;
-
-/// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
-pub(super) const SMALL: usize = 1 << 22;
 
 /// Vectors with which the contraction is measured, and how often it is applied to them: the first time brings out
 /// the factor's worst directions, the second measures them.

@@ -6,9 +6,10 @@
 //! Blocks load the factor once for all their vectors: eight together cost 1.5 to 2.9 times one alone.
 
 use super::basis::{Basis, norms, times};
+use super::dense::pseudo_random;
 use super::factor::Factor;
 use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SymmetricSpectrum, pseudo_random, symmetric_eigen};
+use super::{DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, MatMut, Par};

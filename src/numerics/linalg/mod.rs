@@ -59,27 +59,3 @@ pub type DenseMatrix = faer::Mat<f64>;
 
 /// Dense column-major matrix of complex numbers.
 pub type ComplexMatrix = faer::Mat<faer::c64>;
-
-/// Makes faer run sequentially: sums are then formed in one order whatever the machine.
-fn run_sequentially() {
-    use std::sync::Once;
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| faer::set_global_parallelism(faer::Par::Seq));
-}
-
-/// Numbers in (-1/2, 1/2) without pattern (xorshift, Marsaglia, J. Stat. Soft. 8 (2003) 14), the same for the same
-/// `start`: no mode is orthogonal to them by accident, and every run repeats.
-fn pseudo_random(rows: usize, columns: usize, start: u64) -> DenseMatrix {
-    let mut state = 0x9e37_79b9_7f4a_7c15 ^ start.wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
-    let mut matrix = DenseMatrix::zeros(rows, columns);
-    for column in 0..columns {
-        matrix.col_as_slice_mut(column).fill_with(&mut next);
-    }
-    matrix
-}

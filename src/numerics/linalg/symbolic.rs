@@ -1,7 +1,6 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
 
 use super::error::FactorLimit;
-use super::factor::SMALL;
 use super::symmetric::SymmetricMatrix;
 use super::{LinalgError, memory};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -18,6 +17,9 @@ use faer::sparse::linalg::cholesky::supernodal::{
 /// Supernodes that are merged: so many columns with at most this fraction of zeros. Against faer's default 5 % faster on
 /// a solid of 60 000 degrees of freedom.
 const RELAXATION: &[(usize, f64)] = &[(8, 1.0), (24, 0.6), (64, 0.15), (usize::MAX, 0.05)];
+
+/// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
+pub(super) const SMALL: usize = 1 << 22;
 
 /// Where the factor's entries are, for one pattern.
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 //! Dense complex systems, solved with a measure of what round-off may change.
 
-use crate::numerics::linalg::{ComplexMatrix, LinalgError, pseudo_random, run_sequentially};
+use crate::numerics::linalg::dense::{pseudo_random, run_sequentially};
+use crate::numerics::linalg::{ComplexMatrix, LinalgError};
 use faer::c64;
 use faer::prelude::Solve;
 
