@@ -1,10 +1,9 @@
 //! The surface of one side of a link, and the point of it that is nearest to a given one.
 
 use super::domain::Domain;
-use super::joint::SideFace;
-use super::spread::surface_kind;
+use super::elements::surface_kind;
 use crate::fe::element::continuum::{SurfaceKind, surface_shape};
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{ElementKind, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
 /// Steps of the search for a foot; on a plane face one is enough, on a curved one each gains a factor of
@@ -13,6 +12,15 @@ const STEPS: usize = 40;
 
 /// How far a curved face may bulge beyond the box of its nodes, relative to the box.
 const BULGE: f64 = 0.25;
+
+/// An element of a side: a curve, a face or a point.
+#[derive(Debug, Clone)]
+pub(super) struct SideFace {
+    pub kind: ElementKind,
+    pub nodes: Vec<usize>,
+    /// gmsh's tag of the element, or of the one behind it.
+    pub tag: u64,
+}
 
 /// Curves (plane housings) or faces (solid ones), or as many single points.
 #[derive(Debug)]
@@ -258,7 +266,7 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::mesh::{ElementKind, MshFormat, MshVersion};
+    use crate::fe::mesh::{MshFormat, MshVersion};
     use std::path::PathBuf;
 
     fn mesh(nodes: &[[f64; 3]]) -> Mesh {

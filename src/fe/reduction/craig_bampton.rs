@@ -7,8 +7,9 @@
 //! (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319.) Static interface response is exact; frequencies converge from
 //! above.
 
+use super::basis_vectors::BasisChoice;
 use super::coupled_modes::reduced_matrices;
-use super::selection::{BasisChoice, choose_basis};
+use super::selection::choose_basis;
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
