@@ -12,8 +12,8 @@ use super::super::fade::{FLOOR_FADE, Fade};
 use super::super::rim::smoothstep;
 use super::super::stiffness::CurvatureStiffness;
 use super::super::vector::Vector;
+use super::minima::to_tube;
 use super::outline::Outline;
-use super::query::to_tube;
 
 /// The floor's section in the plane, as far as a ball can touch it.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,8 +11,8 @@ use super::super::stiffness::{self, CurvatureStiffness};
 use super::bottom::Bottom;
 use super::check;
 use super::edge;
+use super::minima::to_tube;
 use super::outline::Outline;
-use super::query::to_tube;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 
