@@ -7,7 +7,7 @@
 //! 5. `control`: how good a comb is by chance, from the same comb at hundreds of other orders.
 //! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`). `unexplained`: combs of no part.
 //!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
-//!    `seldom`: a part's lines that are every second or third of something else's.
+//!    `doubts`: lines of a part that may be something else's.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
 //! 8. [`line_changes`]: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
 //!    [`level_changes`]: the same of the vibration as a whole and in octaves.
@@ -28,8 +28,10 @@ mod cage_lines;
 mod change;
 mod comb;
 mod comb_power;
+mod compared_lines;
 mod compared_signal;
 mod control;
+mod doubts;
 mod error;
 mod explain;
 mod fault;
@@ -43,7 +45,7 @@ mod order_spectrum;
 mod ratio_interval;
 mod repeated;
 mod rounding;
-mod seldom;
+mod search;
 mod separation;
 mod shaft_speed;
 mod stretch_spectrum;
