@@ -1,6 +1,6 @@
 //! What the contacts of one ball with a race store, and what their damping takes.
 
-use super::{Damage, RaceContact, RacePlace};
+use super::contact::{Damage, RaceContact, RacePlace};
 use crate::bearing::HertzContact;
 
 /// Half the time over which energies are compared, s: at the speeds of balls a part of what any feature is long.

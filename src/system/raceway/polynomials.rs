@@ -3,9 +3,11 @@
 //! Inside an element the interpolation is smooth. A polynomial through Chebyshev points reproduces it to [`ACCURACY`]; each
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
-use super::Quintic;
 use crate::numerics::lanes::{LANES, Lanes, each};
 use std::f64::consts::PI;
+
+/// Coefficients of a polynomial in its local coordinate in [-1, 1], highest power first.
+pub(super) type Quintic = [Lanes; 6];
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.
 const ACCURACY: f64 = 1e-12;

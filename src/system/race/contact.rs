@@ -1,19 +1,15 @@
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 
-mod energy;
-
-use super::bearing_setup::BearingSetup;
+use super::super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use crate::numerics::lanes::{Lanes, each};
 use std::f64::consts::PI;
 
-pub(super) use energy::RaceEnergy;
-
 /// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential
 /// counter-clockwise).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct RaceForce {
+pub(in crate::system) struct RaceForce {
     /// Radial force on the race, N; negative on the inner one.
     pub radial: f64,
     /// Tangential force on the race, N.
@@ -29,7 +25,7 @@ pub(super) struct RaceForce {
 
 /// Where a ball stands to a race, and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct RacePlace {
+pub(in crate::system) struct RacePlace {
     /// Angle of the ball about the race's centre in the race's own frame, rad.
     pub angle: f64,
     /// How far the ball is pressed beyond touching the undamaged race, m.
@@ -46,7 +42,7 @@ pub(super) struct RacePlace {
 
 /// What damage a ball feels in one place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Damage {
+pub(in crate::system) enum Damage {
     /// None.
     #[default]
     None,
@@ -58,11 +54,11 @@ pub(super) enum Damage {
 
 /// One race of a bearing.
 #[derive(Debug, Clone)]
-pub(super) struct RaceContact {
+pub(in crate::system) struct RaceContact {
     race: Race,
     /// Outward on the outer race, inward on the inner one.
-    sign: f64,
-    plain: HertzContact,
+    pub(super) sign: f64,
+    pub(super) plain: HertzContact,
     /// Distance from the race's centre at which a ball touches it, m.
     touching_radius: f64,
     waviness: Waviness,
@@ -237,7 +233,7 @@ impl RaceContact {
 
     /// The place on a race without waves that has the same contacts.
     #[inline]
-    fn on_waves(&self, at: &RacePlace) -> RacePlace {
+    pub(super) fn on_waves(&self, at: &RacePlace) -> RacePlace {
         if self.waviness.is_empty() {
             return *at;
         }
@@ -261,7 +257,7 @@ impl RaceContact {
 
     /// Contacts on damage, and how fast (m/s) the ball's centre moves along what carries it.
     #[inline]
-    fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
+    pub(super) fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
         let radius = self.radius(at.penetration);
         match damage {
             Damage::None => None,
