@@ -15,10 +15,8 @@
 //! damping alone. With w = 0 this is the velocity Verlet method.
 
 use super::propagator::Propagator;
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{
-    Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use super::stepper::OneEvaluation;
+use crate::numerics::ode::SecondOrderSystem;
 
 /// Flow coefficients of every coordinate for one step length.
 #[derive(Debug)]
@@ -26,7 +24,6 @@ pub(super) struct Exponential {
     flow: Vec<Propagator>,
     predicted: Vec<f64>,
     next_force: Vec<f64>,
-    steps: u64,
 }
 
 impl Exponential {
@@ -41,12 +38,11 @@ impl Exponential {
             flow,
             predicted: vec![0.0; dof],
             next_force: vec![0.0; dof],
-            steps: 0,
         }
     }
 }
 
-impl<S: SecondOrderSystem> Stepper<S> for Exponential {
+impl<S: SecondOrderSystem> OneEvaluation<S> for Exponential {
     fn step(
         &mut self,
         system: &mut S,
@@ -54,7 +50,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
         y: &mut [f64],
         v: &mut [f64],
         g: &mut [f64],
-    ) -> Result<(), Divergence> {
+    ) {
         for i in 0..self.flow.len() {
             let p = &self.flow[i];
             let (y0, v0, g0) = (y[i], v[i], g[i]);
@@ -69,20 +65,5 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
             v[i] = self.predicted[i] + p.kick_after * (self.next_force[i] - g[i]);
             g[i] = self.next_force[i];
         }
-        self.steps += 1;
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics::of_single_evaluations(self.steps)
-    }
-
-    fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.steps);
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.steps = snapshot.count()?;
-        Ok(())
     }
 }

@@ -92,20 +92,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         let mut force = vec![0.0; state.y.len()];
         system.force_into(state.t, &state.y, &state.v, &mut force);
         observe(system, observer, 0, &state);
-        Ok(Self {
-            method,
-            schedule,
-            stepper,
-            good: std::array::from_fn(|_| state.clone()),
-            newest: 0,
-            earlier: std::array::from_fn(|_| state.clone()),
-            looks: 0,
-            start: state.t,
-            state,
-            force,
-            intervals: 0,
-            samples: 0,
-        })
+        Ok(Self::at(state, force, method, schedule, stepper))
     }
 
     /// Goes on where an integration of the same system, method and schedule was when it wrote this, to the last bit as if
@@ -135,6 +122,22 @@ impl<S: SecondOrderSystem> Integration<S> {
         let mut stepper = stepper(system, method, &schedule, start)?;
         stepper.recall(snapshot)?;
         Ok(Self {
+            start,
+            intervals,
+            samples,
+            ..Self::at(state, force, method, schedule, stepper)
+        })
+    }
+
+    /// About to take its first step from a state and the force there.
+    fn at(
+        state: State,
+        force: Vec<f64>,
+        method: Method,
+        schedule: Schedule,
+        stepper: Box<dyn Stepper<S>>,
+    ) -> Self {
+        Self {
             method,
             schedule,
             stepper,
@@ -142,12 +145,12 @@ impl<S: SecondOrderSystem> Integration<S> {
             newest: 0,
             earlier: std::array::from_fn(|_| state.clone()),
             looks: 0,
-            start,
+            start: state.t,
             state,
             force,
-            intervals,
-            samples,
-        })
+            intervals: 0,
+            samples: 0,
+        }
     }
 
     /// Writes all that the rest depends on, between two intervals.

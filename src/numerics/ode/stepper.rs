@@ -19,15 +19,6 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of so many steps with one evaluation each, and one before the first.
-    pub(super) fn of_single_evaluations(steps: u64) -> Self {
-        Self {
-            steps,
-            evaluations: steps + 1,
-            ..Self::default()
-        }
-    }
-
     /// Writes the counts.
     pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         for count in [
@@ -83,4 +74,57 @@ pub(super) trait Stepper<S> {
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
     fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError>;
+}
+
+/// A method of equal steps with one evaluation each, which remembers nothing.
+pub(super) trait OneEvaluation<S> {
+    /// As [`Stepper::step`]; every step can be taken.
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]);
+}
+
+/// Such a method with the count of its steps.
+#[derive(Debug)]
+pub(super) struct Counted<M> {
+    method: M,
+    steps: u64,
+}
+
+impl<M> Counted<M> {
+    /// Before its first step.
+    pub(super) fn new(method: M) -> Self {
+        Self { method, steps: 0 }
+    }
+}
+
+impl<S, M: OneEvaluation<S>> Stepper<S> for Counted<M> {
+    fn step(
+        &mut self,
+        system: &mut S,
+        t1: f64,
+        y: &mut [f64],
+        v: &mut [f64],
+        g: &mut [f64],
+    ) -> Result<(), Divergence> {
+        self.method.step(system, t1, y, v, g);
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics {
+            steps: self.steps,
+            // one before the first step
+            evaluations: self.steps + 1,
+            ..Statistics::default()
+        }
+    }
+
+    fn remember(&self, snapshot: &mut Snapshot) {
+        snapshot.count(self.steps);
+    }
+
+    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+        self.steps = snapshot.count()?;
+        Ok(())
+    }
 }

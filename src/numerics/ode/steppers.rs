@@ -9,7 +9,7 @@ use super::method::{LEAST_TOLERANCE, Method};
 use super::newmark::NewmarkExplicit;
 use super::schedule::Schedule;
 use super::splitting::Splitting;
-use super::stepper::Stepper;
+use super::stepper::{Counted, Stepper};
 use crate::numerics::ode::SecondOrderSystem;
 use std::f64::consts::TAU;
 
@@ -22,12 +22,12 @@ pub(super) fn stepper<S: SecondOrderSystem>(
 ) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
     Ok(match method {
-        Method::Exponential => Box::new(Exponential::new(system, h)),
+        Method::Exponential => Box::new(Counted::new(Exponential::new(system, h))),
         Method::ExponentialAdams { tolerance } => {
             tolerance.map_or(Ok(()), check_tolerance)?;
             Box::new(Adams::new(system, h, tolerance))
         }
-        Method::Splitting => Box::new(Splitting::new(system, h)),
+        Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
         Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
         Method::GeneralizedAlpha { spectral_radius } => {
             check_spectral_radius(spectral_radius)?;
@@ -39,7 +39,7 @@ pub(super) fn stepper<S: SecondOrderSystem>(
         }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
-            Box::new(NewmarkExplicit::new(system, h))
+            Box::new(Counted::new(NewmarkExplicit::new(system, h)))
         }
     })
 }
