@@ -8,8 +8,8 @@
 use super::circles::Circles;
 use super::curve::{self, CurvePoint};
 use super::fade::Fade;
-use super::profile::Profile;
 use super::spline::Piece;
+use super::spline::Profile;
 use super::vector::Vector;
 
 /// Longest stretch in ball radii: over it the distance to a ball changes by a few thousandths of the radius at

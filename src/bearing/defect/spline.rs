@@ -12,6 +12,10 @@
 //!
 //! closes the tridiagonal system for D'' at the samples in between (diagonally dominant: always solvable).
 
+use super::circles::Circles;
+use super::curve::CurvePoint;
+use super::vector::Vector;
+
 /// A cubic polynomial on one interval of the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
@@ -155,6 +159,27 @@ fn second_derivatives(knots: &[(f64, f64)]) -> Vec<f64> {
         bend[i] -= above[i] * bend[i + 1];
     }
     bend
+}
+
+/// A profile's curve: polynomials of the angle over a circle.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Profile {
+    pub circles: Circles,
+    pub pieces: Vec<Piece>,
+}
+
+impl Profile {
+    /// Point of `piece` at `angle` (rad) from the middle; the parameter is the angle.
+    #[inline]
+    pub fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
+        let [depth, slope, bend] = piece.at(angle);
+        let Circles { carrier, side, .. } = self.circles;
+        CurvePoint::polar(
+            Vector::radial(angle),
+            [carrier + side * depth, side * slope, side * bend],
+            [1.0, 0.0],
+        )
+    }
 }
 
 #[cfg(test)]

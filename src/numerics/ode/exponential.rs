@@ -43,14 +43,7 @@ impl Exponential {
 }
 
 impl<S: SecondOrderSystem> OneEvaluation<S> for Exponential {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         for i in 0..self.flow.len() {
             let p = &self.flow[i];
             let (y0, v0, g0) = (y[i], v[i], g[i]);

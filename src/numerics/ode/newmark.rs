@@ -42,14 +42,7 @@ impl NewmarkExplicit {
 }
 
 impl<S: SecondOrderSystem> OneEvaluation<S> for NewmarkExplicit {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         let h = self.h;
         for i in 0..self.linear.len() {
             let LinearCoordinate {

@@ -32,14 +32,7 @@ impl Splitting {
 }
 
 impl<S: SecondOrderSystem> OneEvaluation<S> for Splitting {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         for (i, p) in self.flow.iter().enumerate() {
             let (y0, v0) = (y[i], v[i] + self.half * g[i]);
             y[i] = p.position_position * y0 + p.position_velocity * v0;
