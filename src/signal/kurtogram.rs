@@ -246,8 +246,7 @@ fn figures(level: &[Vec<Complex<f64>>]) -> Vec<Figures> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
-    use crate::signal::reference::{items, load, numbers};
+    use crate::signal::samples::{gaussian, items, load, numbers};
 
     fn series(values: Vec<f64>) -> TimeSeries {
         TimeSeries::new(0.0, 2e-5, "m/s^2", values).expect("a valid series")

@@ -26,13 +26,11 @@ mod kurtosis_limit;
 mod lines;
 mod morlet;
 mod moving;
-#[cfg(test)]
-pub(crate) mod noise;
 mod peaks;
 mod raw_spectrum;
-#[cfg(test)]
-mod reference;
 mod ridge;
+#[cfg(test)]
+pub(crate) mod samples;
 mod scalogram;
 mod shaft_angle;
 mod spectral_kurtosis;

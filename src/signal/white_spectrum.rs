@@ -175,7 +175,7 @@ pub(crate) fn running_median(values: &[f64], reach: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use std::f64::consts::TAU;
 
     #[test]

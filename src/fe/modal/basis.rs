@@ -1,5 +1,6 @@
 //! Modes of a structure with everything that proves them.
 
+use crate::fe::assembly::SystemMatrices;
 use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, symmetric_eigen,
 };
@@ -276,6 +277,19 @@ impl ModalBasis {
 
 fn hz(eigenvalue: f64) -> f64 {
     eigenvalue.max(0.0).sqrt() / TAU
+}
+
+/// The `count` lowest modes over the free degrees of freedom. Whether the housing is held need not be said.
+///
+/// # Errors
+/// [`LinalgError`] of factorisation, iteration or proof.
+pub fn housing_modes(
+    matrices: &SystemMatrices,
+    free_dofs: &[usize],
+    count: usize,
+) -> Result<ModalBasis, LinalgError> {
+    let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, free_dofs)?;
+    ModalBasis::of(&problem, ModeRange::Count(count))
 }
 
 #[cfg(test)]

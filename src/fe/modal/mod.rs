@@ -11,7 +11,6 @@ mod element_work;
 mod energy_shares;
 mod energy_sums;
 mod error;
-mod housing_modes;
 mod mass_properties;
 mod mechanisms;
 mod membership;
@@ -22,7 +21,7 @@ mod samples;
 mod spring_rows;
 mod strain_products;
 
-pub use basis::{FrequencyCount, ModalBasis, ModeRange};
+pub use basis::{FrequencyCount, ModalBasis, ModeRange, housing_modes};
 pub use comparison::{
     ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet, PointMatch,
 };
@@ -31,7 +30,6 @@ pub use convergence::{
 };
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
-pub use housing_modes::housing_modes;
 pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
 pub use mechanisms::{Body, Joint, Mechanisms, Piece, pieces_at};
 pub use motions::{over_all_dofs, rigid_motions, ring_motions};

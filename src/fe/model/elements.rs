@@ -51,19 +51,8 @@ impl HousingElements {
 
 /// The element that computes the matrices of a mesh element, if it is a surface or a volume.
 pub(crate) fn continuum_kind(kind: ElementKind) -> Option<ContinuumKind> {
-    Some(match kind {
-        ElementKind::Point | ElementKind::Line2 | ElementKind::Line3 => return None,
-        ElementKind::Tri3 => ContinuumKind::Tri3,
-        ElementKind::Tri6 => ContinuumKind::Tri6,
-        ElementKind::Quad4 => ContinuumKind::Quad4,
-        ElementKind::Quad8 => ContinuumKind::Quad8,
-        ElementKind::Tet4 => ContinuumKind::Tet4,
-        ElementKind::Tet10 => ContinuumKind::Tet10,
-        ElementKind::Hex8 => ContinuumKind::Hex8,
-        ElementKind::Hex20 => ContinuumKind::Hex20,
-        ElementKind::Wedge6 => ContinuumKind::Wedge6,
-        ElementKind::Wedge15 => ContinuumKind::Wedge15,
-    })
+    let mut all = ContinuumKind::ALL.into_iter();
+    all.find(|&own| element_kind(own) == kind)
 }
 
 /// The mesh element whose matrices an element computes.

@@ -13,7 +13,6 @@ mod joint;
 mod link;
 mod nodal;
 mod overlap;
-mod partition;
 mod parts;
 mod ring;
 mod section_springs;
@@ -29,10 +28,9 @@ pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
-pub use interface::NodeInterface;
+pub use interface::{HousingPartition, NodeInterface};
 pub(crate) use nodal::{NodalMatrix, NodalSource};
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
-pub use partition::HousingPartition;
 pub use ring::{
     RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,
 };

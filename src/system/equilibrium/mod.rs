@@ -15,9 +15,8 @@
 mod condition;
 mod find;
 mod problem;
-mod rows;
 mod search;
 
 pub use condition::StaticCondition;
 pub use find::{BallLoad, Equilibrium};
-pub(super) use rows::contact_rows;
+pub(super) use problem::contact_rows;
