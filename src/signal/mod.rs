@@ -47,9 +47,8 @@ pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
 pub use envelope::{envelope, squared};
-pub use envelope_analysis::{
-    EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum, usual_high_pass_hz,
-};
+pub(crate) use envelope_analysis::usual_high_pass_hz;
+pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};
 pub use error::SignalError;
 pub(crate) use fourier::{Forward, fast_length};
 pub use frequency_axis::FrequencyAxis;

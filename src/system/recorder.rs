@@ -73,7 +73,7 @@ impl Recorder {
     }
 
     /// Takes these rows out.
-    pub fn take_confirmed(&mut self) -> RunRecord {
+    pub(crate) fn take_confirmed(&mut self) -> RunRecord {
         let rows = std::mem::take(&mut self.confirmed);
         self.queue.take_first(rows)
     }
@@ -104,7 +104,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(crate) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         let short = |_| SnapshotError::Short;
         self.begun = snapshot.count()?.try_into().map_err(short)?;
         for filter in &mut self.filters {

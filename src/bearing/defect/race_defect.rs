@@ -71,6 +71,12 @@ impl RaceDefect {
         self.profile().rise()
     }
 
+    /// See [`RaceProfile::contains`].
+    #[must_use]
+    pub fn contains(&self, angle: f64) -> bool {
+        self.profile().contains(angle)
+    }
+
     /// See [`RaceProfile::contacts_into`].
     #[inline]
     pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {

@@ -30,7 +30,7 @@ pub(super) struct Piece {
 impl Piece {
     /// D and its first two derivatives with respect to the angle.
     #[inline]
-    pub fn at(&self, angle: f64) -> [f64; 3] {
+    pub(super) fn at(&self, angle: f64) -> [f64; 3] {
         let x = angle - self.ends[0];
         let [c0, c1, c2, c3] = self.coefficients;
         [
@@ -171,7 +171,7 @@ pub(super) struct Profile {
 impl Profile {
     /// Point of `piece` at `angle` (rad) from the middle; the parameter is the angle.
     #[inline]
-    pub fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
+    pub(super) fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
         let [depth, slope, bend] = piece.at(angle);
         let Circles { carrier, side, .. } = self.circles;
         CurvePoint::polar(

@@ -31,7 +31,9 @@ pub use convergence::{
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
 pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
-pub use mechanisms::{Body, Joint, Mechanisms, Piece, pieces_at};
-pub use motions::{over_all_dofs, rigid_motions, ring_motions};
+pub(crate) use mechanisms::pieces_at;
+pub use mechanisms::{Body, Joint, Mechanisms, Piece};
+pub(crate) use motions::ring_motions;
+pub use motions::{over_all_dofs, rigid_motions};
 pub use participation::Participation;
 pub use strain_products::strain_products;

@@ -268,7 +268,7 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`], [`ModelError::GroupOrder`].
-    pub fn group_on_housing<'m>(
+    pub(crate) fn group_on_housing<'m>(
         &self,
         mesh: &'m Mesh,
         name: &str,

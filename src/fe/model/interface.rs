@@ -28,7 +28,7 @@ pub struct NodeInterface {
 
 impl NodeInterface {
     /// What holds or ties the displacements that are left out, in words.
-    pub fn holders(&self, model: &HousingModel) -> String {
+    pub(crate) fn holders(&self, model: &HousingModel) -> String {
         let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
         let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
         let groups = supports.iter().map(|&place| &model.supports[place].group);

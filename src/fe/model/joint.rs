@@ -31,7 +31,7 @@ impl Side {
     ///
     /// # Errors
     /// [`ModelError::LinkApart`] if nothing of one side is on the housing or on the other side.
-    pub fn both(
+    pub(super) fn both(
         mesh: &Mesh,
         groups: [&PhysicalGroup; 2],
         used: &[bool],
@@ -95,7 +95,7 @@ impl Side {
     }
 
     /// The search for the point of this side that is nearest to another one.
-    pub fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
+    pub(super) fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
         let [touching, whole] =
             [&self.faces, &self.boundary].map(|faces| Surface::new(mesh, faces));
         move |point| {

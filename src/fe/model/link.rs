@@ -276,7 +276,7 @@ impl HousingModel {
 
     /// The row of a displacement component at a node: pairs (degree of freedom, factor). `direction` is in the mesh's
     /// axes; its z does not count in the plane. A tied node moves with those that it follows.
-    pub fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
+    pub(crate) fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
         let d = self.dimension;
         let entries = self.tied_entries(node).into_iter();
         entries

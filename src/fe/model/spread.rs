@@ -117,7 +117,7 @@ impl Spread {
 
 impl Share {
     /// A node that carries everything by itself.
-    pub fn of_node(node: usize) -> Self {
+    pub(super) fn of_node(node: usize) -> Self {
         Self {
             nodes: vec![node],
             matrix: DMatrix::from_element(1, 1, 1.0),

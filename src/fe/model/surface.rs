@@ -55,7 +55,7 @@ pub(super) struct Foot {
 
 impl<'m> Surface<'m> {
     /// The surface that these faces make.
-    pub fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
+    pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
         let face = |face: &SideFace| Face::new(mesh, surface_kind(face.kind), &face.nodes);
         Self {
             mesh,
@@ -64,7 +64,7 @@ impl<'m> Surface<'m> {
     }
 
     /// The point nearest to `point` (m); `None` if the surface is empty.
-    pub fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
+    pub(super) fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
         let point = Vector3::from(point);
         let mut best: Option<(f64, &Face, [f64; 2])> = None;
         for face in &self.faces {

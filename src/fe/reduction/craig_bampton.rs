@@ -68,7 +68,7 @@ impl CraigBampton {
     }
 
     /// The same with the imaginary part of the stiffness of lossy parts [dof x dof], N/m.
-    pub fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
+    pub(crate) fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
         self.superelement.structural = Some(self.condensed(matrix));
         self
     }
@@ -123,7 +123,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub fn with_loads(
+    pub(crate) fn with_loads(
         self,
         loads: &DenseMatrix,
         weight: &DenseMatrix,
@@ -139,7 +139,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub fn with_forces(
+    pub(crate) fn with_forces(
         self,
         forces: DenseMatrix,
         weight: &DenseMatrix,

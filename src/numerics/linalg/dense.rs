@@ -68,7 +68,7 @@ impl DenseCholesky {
 ///
 /// # Errors
 /// [`LinalgError::DenseEigen`] if the iteration does not converge (values that are not finite).
-pub fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
+pub(crate) fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
     run_sequentially();
     let failed = || LinalgError::DenseEigen { order: a.nrows() };
     if a.nrows() == 0 {

@@ -57,7 +57,7 @@ impl Factor {
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
     /// the factor in double precision does not solve its own system either.
-    pub fn new(
+    pub(super) fn new(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -77,7 +77,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`], already if single precision does not suffice.
-    pub fn quick(
+    pub(super) fn quick(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -104,7 +104,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub fn double(
+    pub(super) fn double(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -118,7 +118,7 @@ impl Factor {
     ///
     /// # Errors
     /// [`LinalgError::Factorisation`], [`LinalgError::NotPositiveDefinite`].
-    pub fn unjudged(
+    pub(super) fn unjudged(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -135,7 +135,7 @@ impl Factor {
 
     /// A factor in single precision, however small it is.
     #[cfg(test)]
-    pub fn single_for_test(
+    pub(crate) fn single_for_test(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
     ) -> Result<Self, LinalgError> {
@@ -144,18 +144,18 @@ impl Factor {
     }
 
     /// Where its entries are.
-    pub fn symbolic(&self) -> &Arc<Symbolic> {
+    pub(super) fn symbolic(&self) -> &Arc<Symbolic> {
         &self.symbolic
     }
 
     /// Whether its entries are in double precision.
-    pub fn is_double(&self) -> bool {
+    pub(super) fn is_double(&self) -> bool {
         matches!(self.numbers, Numbers::Double(_))
     }
 
     /// This factor of `a` with its entries rounded to single precision, half as much to read for every solve; `None` if it is
     /// small, or no longer sharp.
-    pub fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
+    pub(super) fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
         match &self.numbers {
             Numbers::Double(numbers) if self.symbolic.entries() > SMALL => {
                 let rounded = Numbers::Single(numbers.rounded());
@@ -209,7 +209,7 @@ impl Factor {
     }
 
     /// Whether the matrix is well enough conditioned to iterate with.
-    pub fn is_sharp(&self) -> bool {
+    pub(super) fn is_sharp(&self) -> bool {
         match self.numbers {
             Numbers::Single(_) => self.contraction <= LARGEST_CONTRACTION,
             Numbers::Double(_) => self.contraction <= DULL,
@@ -217,7 +217,7 @@ impl Factor {
     }
 
     /// The memory of its entries, for another factor.
-    pub fn into_memory(self) -> FactorMemory {
+    pub(super) fn into_memory(self) -> FactorMemory {
         let mut memory = FactorMemory::default();
         match self.numbers {
             Numbers::Single(numbers) => memory.single = numbers.into_memory(),
@@ -227,7 +227,7 @@ impl Factor {
     }
 
     /// `F^-1 B` in place for `B` [n x k].
-    pub fn solve(&self, b: MatMut<'_, f64>) {
+    pub(super) fn solve(&self, b: MatMut<'_, f64>) {
         match &self.numbers {
             Numbers::Single(numbers) => numbers.solve(&self.symbolic, b),
             Numbers::Double(numbers) => numbers.solve(&self.symbolic, b),
@@ -235,7 +235,7 @@ impl Factor {
     }
 
     /// Number of negative eigenvalues of the matrix.
-    pub fn negative(&self) -> usize {
+    pub(super) fn negative(&self) -> usize {
         match &self.numbers {
             Numbers::Single(numbers) => numbers.negative(&self.symbolic),
             Numbers::Double(numbers) => numbers.negative(&self.symbolic),

@@ -24,7 +24,7 @@ impl SmallLu {
 
     /// Factorises what was filled in. Gives whether it could: not if a pivot is zero or not a number.
     #[must_use]
-    pub fn factorise(&mut self) -> bool {
+    pub(crate) fn factorise(&mut self) -> bool {
         let n = self.order;
         self.exchanged.clear();
         for k in 0..n {
@@ -58,7 +58,7 @@ impl SmallLu {
     }
 
     /// Overwrites `b` \[order\] by `A^-1 b`, after [`Self::factorise`].
-    pub fn solve_in_place(&self, b: &mut [f64]) {
+    pub(crate) fn solve_in_place(&self, b: &mut [f64]) {
         let n = self.order;
         for (k, &pivot) in self.exchanged.iter().enumerate() {
             b.swap(k, pivot);

@@ -34,7 +34,7 @@ impl Symbolic {
     /// # Errors
     /// [`LinalgError::TooLarge`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
     /// if memory does not suffice for the analysis.
-    pub fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
+    pub(super) fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
         let (offsets, rows) = upper_pattern(a);
@@ -59,7 +59,7 @@ impl Symbolic {
     }
 
     /// Entries of the factor.
-    pub fn entries(&self) -> usize {
+    pub(super) fn entries(&self) -> usize {
         self.supernodes.len_val()
     }
 }

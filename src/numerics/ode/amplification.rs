@@ -19,7 +19,7 @@ use crate::numerics::ode::SecondOrderSystem;
 pub const UNSTABLE: f64 = 5e-4;
 
 /// Steps from which the growth is taken.
-pub const STEPS: u32 = 1000;
+pub(super) const STEPS: u32 = 1000;
 
 /// Size at which a motion has grown beyond doubt, in units of the start's.
 const BEYOND_DOUBT: f64 = 1e30;

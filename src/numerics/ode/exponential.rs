@@ -27,7 +27,7 @@ pub(super) struct Exponential {
 }
 
 impl Exponential {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let flow: Vec<Propagator> = system
             .linear()
             .iter()

@@ -83,12 +83,12 @@ struct Known {
 }
 
 impl Implicit {
-    pub fn average_acceleration(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn average_acceleration(system: &impl SecondOrderSystem, h: f64) -> Self {
         Self::new(system, h, Family::AVERAGE_ACCELERATION)
     }
 
     /// `spectral_radius` at infinite frequency, 0 to 1.
-    pub fn generalized_alpha(
+    pub(super) fn generalized_alpha(
         system: &impl SecondOrderSystem,
         h: f64,
         spectral_radius: f64,

@@ -81,7 +81,7 @@ impl Method {
     }
 
     /// [`step_limit`](Self::step_limit) of a system that is linear already.
-    pub fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
+    pub(crate) fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
         if self.is_implicit() || matches!(self, Self::Dop853 { .. }) {
             return None;
         }

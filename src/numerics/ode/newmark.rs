@@ -24,7 +24,7 @@ pub(super) struct NewmarkExplicit {
 }
 
 impl NewmarkExplicit {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let linear = system.linear().to_vec();
         let implicit_damping = linear
             .iter()

@@ -20,7 +20,7 @@ pub(super) struct Splitting {
 }
 
 impl Splitting {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let coordinates = system.linear().iter();
         Self {
             half: 0.5 * h,

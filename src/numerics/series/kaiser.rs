@@ -69,7 +69,7 @@ impl KaiserLowPass {
     }
 
     /// Tap h_m, m counted from the middle; 0 outside the filter.
-    pub fn tap(&self, m: isize) -> f64 {
+    pub(crate) fn tap(&self, m: isize) -> f64 {
         self.half_taps.get(m.unsigned_abs()).copied().unwrap_or(0.0)
     }
 

@@ -73,11 +73,9 @@ pub use change::line_changes;
 pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
-pub use known::line_name;
 pub use level_change::{LevelChange, level_changes};
-pub use line_change::{
-    AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange, change_words,
-};
+pub(crate) use line_change::change_words;
+pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
 pub use verdict::{

@@ -34,7 +34,7 @@ pub(super) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// The problem, and the loads behind it: unit contact forces, then the weight [dof x 2 balls + 1].
-    pub fn new(
+    pub(super) fn new(
         structure: &Structure,
         setup: &'a BearingSetup,
         condition: StaticCondition,
@@ -70,18 +70,18 @@ impl<'a> Problem<'a> {
     }
 
     /// Distance of a ball that touches the outer race from the bearing's centre, m.
-    pub fn touching_radius(&self) -> f64 {
+    pub(super) fn touching_radius(&self) -> f64 {
         self.races.inner_race.touching_radius
     }
 
     /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
     /// bearing.
-    pub fn force_scale(&self) -> f64 {
+    pub(super) fn force_scale(&self) -> f64 {
         let [x, y] = self.condition.load;
         x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
     }
 
-    pub fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
+    pub(super) fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
         let balls = self.angles.len();
         let (outer, stiffness) = self.outer_forces(z);
         let mut gradient = DVector::zeros(2 + balls);

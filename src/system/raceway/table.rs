@@ -19,7 +19,7 @@ pub(in crate::system) struct RacewayTable {
 
 impl RacewayTable {
     /// Table of `component(rows) . phi` for the given modes.
-    pub fn new(
+    pub(crate) fn new(
         ring: &Ring,
         modes: &StructureModes,
         kept: &[usize],
@@ -41,7 +41,7 @@ impl RacewayTable {
 
     /// Table of the radial interpolation itself: six values over the polar components of an
     /// element's nodes, one element for all.
-    pub fn of_interpolation(ring: &Ring) -> Self {
+    pub(crate) fn of_interpolation(ring: &Ring) -> Self {
         let half = PI / ring.nodes() as f64;
         Self::fit(1, 6, &|_, xi| ring.polar_radial_row(xi * half).to_vec())
     }
@@ -59,19 +59,19 @@ impl RacewayTable {
 
     /// Groups of modes: the length of a row, at least one.
     #[inline(always)]
-    pub fn groups(&self) -> usize {
+    pub(crate) fn groups(&self) -> usize {
         self.groups
     }
 
     /// Where places in turns, 0 <= turn < 1, lie.
     #[inline(always)]
-    pub fn locate(&self, turns: &Lanes) -> Places {
+    pub(crate) fn locate(&self, turns: &Lanes) -> Places {
         Places::among(self.pieces, turns)
     }
 
     /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
     #[inline(always)]
-    pub fn values_into<'a>(
+    pub(crate) fn values_into<'a>(
         &self,
         at: Place,
         amplitudes: &[Lanes],
@@ -88,7 +88,7 @@ impl RacewayTable {
 
     /// Derivatives of all modes at a place, per turn times `scale`, into `out` \[groups\].
     #[inline(always)]
-    pub fn slopes_into(&self, at: Place, scale: f64, out: &mut [Lanes]) {
+    pub(crate) fn slopes_into(&self, at: Place, scale: f64, out: &mut [Lanes]) {
         let scale = 2.0 * self.pieces * scale;
         for (out, quintic) in out.iter_mut().zip(self.row(at.piece)) {
             let slope = slope(quintic, at.xi);
@@ -97,7 +97,7 @@ impl RacewayTable {
     }
 
     /// A bound of each mode's magnitude along the whole raceway \[groups\].
-    pub fn bounds(&self) -> Vec<Lanes> {
+    pub(crate) fn bounds(&self) -> Vec<Lanes> {
         let mut bounds = vec![[0.0; LANES]; self.groups];
         for row in self.quintics.chunks_exact(self.groups) {
             for (bound, quintic) in bounds.iter_mut().zip(row) {
@@ -144,7 +144,7 @@ pub(in crate::system) struct Places {
 impl Places {
     /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
     #[inline(always)]
-    pub fn among(pieces: f64, turns: &Lanes) -> Self {
+    pub(crate) fn among(pieces: f64, turns: &Lanes) -> Self {
         let (place, last) = (each(|l| turns[l] * pieces), pieces - 1.0);
         let whole = each(|l| nearest_whole(place[l] - 0.5));
         // also what is not a number gets a piece, and shows itself in the value
@@ -156,7 +156,7 @@ impl Places {
     }
 
     #[inline(always)]
-    pub fn get(&self, lane: usize) -> Place {
+    pub(crate) fn get(&self, lane: usize) -> Place {
         Place {
             piece: self.pieces[lane].to_bits() as u32 as usize,
             xi: self.xi[lane],

@@ -51,7 +51,7 @@ impl Places {
     }
 
     #[inline]
-    pub fn as_slice(&self) -> &[f64] {
+    pub(super) fn as_slice(&self) -> &[f64] {
         self.items.get(..self.count).unwrap_or(&self.items)
     }
 }

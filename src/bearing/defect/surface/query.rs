@@ -11,7 +11,7 @@ use super::weight;
 impl Surface {
     /// See [`super::SurfaceDent::contacts_into`]; `offset` (rad) within ±π from the middle.
     #[inline]
-    pub fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
+    pub(crate) fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
         let outline = &self.outline;
         found.clear();
         let plain = outline.circles.plain(distance);

@@ -77,7 +77,8 @@ fn on_simplex(kind: ContinuumKind, natural: [f64; 3]) -> (ShapeValues, ShapeDeri
     (values, derivatives)
 }
 
-/// Quadrilaterals and hexahedra: products of linear functions, and serendipity. With `u_d = xi_d a_d` for a node at `a`, in D directions: linear `2^-D prod (1 + u_d)`; serendipity corner
+/// Quadrilaterals and hexahedra: products of linear functions, and serendipity. With `u_d = xi_d a_d` for a node at `a`, in D directions:
+/// linear `2^-D prod (1 + u_d)`; serendipity corner
 /// `2^-D prod (1 + u_d) (sum u_d - D + 1)`; middle of an edge along m
 /// `2^(1-D) (1 - xi_m^2) prod_(d != m) (1 + u_d)`.
 fn on_tensor_product(kind: ContinuumKind, natural: [f64; 3]) -> (ShapeValues, ShapeDerivatives) {

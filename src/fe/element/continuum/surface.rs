@@ -103,7 +103,7 @@ impl SurfaceKind {
 
 /// Shape functions and their derivatives with respect to the two natural coordinates, dimensionless. Edges read
 /// the first coordinate alone.
-pub fn surface_shape(
+pub(crate) fn surface_shape(
     kind: SurfaceKind,
     [xi, eta]: [f64; 2],
 ) -> (SurfaceValues, SurfaceDerivatives) {
@@ -138,7 +138,10 @@ pub fn surface_shape(
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an edge or face
 /// without size.
-pub fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
+pub(crate) fn surface_weights(
+    kind: SurfaceKind,
+    coords: &[[f64; 3]],
+) -> Result<Vec<f64>, ElementError> {
     if coords.len() != kind.nodes() {
         return Err(ElementError::NodeCount {
             kind: kind.name(),
@@ -200,7 +203,7 @@ fn tangents(coords: &[[f64; 3]], derivatives: &SurfaceDerivatives) -> [[f64; 3];
 ///
 /// # Errors
 /// As [`surface_weights`].
-pub fn surface_matrix(
+pub(crate) fn surface_matrix(
     kind: SurfaceKind,
     coords: &[[f64; 3]],
 ) -> Result<DMatrix<f64>, ElementError> {

@@ -124,12 +124,12 @@ impl EigenProblem {
     }
 
     /// `K X` for `X` [n x k].
-    pub fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
         self.product(&self.stiffness, x)
     }
 
     /// `M X` for `X` [n x k].
-    pub fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
         self.product(&self.mass, x)
     }
 
