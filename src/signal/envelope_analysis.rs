@@ -126,7 +126,7 @@ impl EnvelopeAnalysis {
     ///
     /// # Errors
     /// As [`TimeSeries::window`] and [`amplitude_spectrum`].
-    pub(crate) fn window_of(
+    pub fn window_of(
         &self,
         envelope: &TimeSeries,
         from_s: f64,

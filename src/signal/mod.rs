@@ -59,7 +59,7 @@ pub use lines::{
 };
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
-pub use raw_spectrum::RawSpectrum;
+pub(crate) use raw_spectrum::RawSpectrum;
 pub use scalogram::{Scalogram, WaveletTransform};
 pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
@@ -68,6 +68,6 @@ pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
 pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
 pub(crate) use white_spectrum::running_median;
-pub use white_spectrum::{BandEnvelope, WhiteSpectrum};
+pub(crate) use white_spectrum::{BandEnvelope, WhiteSpectrum};
 pub use whitening::{Emphasis, whiten};
 pub use window_function::WindowFunction;

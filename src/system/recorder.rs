@@ -73,7 +73,7 @@ impl Recorder {
     }
 
     /// Takes these rows out.
-    pub(crate) fn take_confirmed(&mut self) -> RunRecord {
+    pub fn take_confirmed(&mut self) -> RunRecord {
         let rows = std::mem::take(&mut self.confirmed);
         self.queue.take_first(rows)
     }

@@ -127,7 +127,7 @@ impl InterfaceReduction {
     ///
     /// # Errors
     /// What the dense eigenvalue solver reports.
-    pub(crate) fn coupled_values(
+    pub fn coupled_values(
         &self,
         attached: Option<Attached<'_>>,
     ) -> Result<Vec<f64>, ReductionError> {

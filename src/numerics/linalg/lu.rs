@@ -5,7 +5,7 @@
 ///
 /// For orders of some tens inside a loop: nothing is allocated once the largest order was there.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SmallLu {
+pub(crate) struct SmallLu {
     order: usize,
     /// [order x order] by rows: U, below its diagonal L without its ones.
     factors: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct SmallLu {
 
 impl SmallLu {
     /// Gives a matrix of zeros [order x order], by rows, to be filled; then [`Self::factorise`].
-    pub fn fill(&mut self, order: usize) -> &mut [f64] {
+    pub(crate) fn fill(&mut self, order: usize) -> &mut [f64] {
         self.order = order;
         self.factors.clear();
         self.factors.resize(order * order, 0.0);

@@ -51,7 +51,7 @@ pub use harmonic::{
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub use idle::congruent;
 pub(crate) use idle::{acting_generalised_eigen, acting_motions};
-pub use lu::SmallLu;
+pub(crate) use lu::SmallLu;
 pub(crate) use sparse::scattered_rows;
 pub use sparse::{
     SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, submatrix,

@@ -138,10 +138,7 @@ pub(crate) fn surface_shape(
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an edge or face
 /// without size.
-pub(crate) fn surface_weights(
-    kind: SurfaceKind,
-    coords: &[[f64; 3]],
-) -> Result<Vec<f64>, ElementError> {
+pub fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
     if coords.len() != kind.nodes() {
         return Err(ElementError::NodeCount {
             kind: kind.name(),
