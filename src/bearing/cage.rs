@@ -97,7 +97,7 @@ impl Cage {
 
     /// Cage turns per shaft turn between two times (s); without slip where the shaft does not turn.
     #[must_use]
-    pub fn ratio_between(&self, from: f64, to: f64) -> f64 {
+    pub(crate) fn ratio_between(&self, from: f64, to: f64) -> f64 {
         let shaft = self.shaft.angle(to) - self.shaft.angle(from);
         let ratio = (self.rotation.at(to).angle - self.rotation.at(from).angle) / shaft;
         if ratio.is_finite() {
@@ -109,7 +109,7 @@ impl Cage {
 
     /// The first time (s) after `time` at which the motion of shaft or cage changes its law; infinity if there is none.
     #[must_use]
-    pub fn next_knot(&self, time: f64) -> f64 {
+    pub(crate) fn next_knot(&self, time: f64) -> f64 {
         self.rotation.next_knot(time)
     }
 

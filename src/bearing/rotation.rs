@@ -75,7 +75,7 @@ pub(super) struct Rotation {
 impl Rotation {
     /// A rotation by `angle_at_zero` (rad) at time zero from `pieces`, at least one, times ascending; the first one's speed
     /// holds before it.
-    pub fn new(first: SpeedPiece, rest: &[SpeedPiece], angle_at_zero: f64) -> Self {
+    pub(super) fn new(first: SpeedPiece, rest: &[SpeedPiece], angle_at_zero: f64) -> Self {
         let mut pieces: Vec<Piece> = Vec::with_capacity(1 + rest.len());
         for piece in std::iter::once(&first).chain(rest) {
             let angle = pieces.last().map_or(0.0, |last| last.at(piece.time).angle);
@@ -106,12 +106,12 @@ impl Rotation {
     }
 
     /// Times (s) of the knots.
-    pub fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(super) fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
         self.pieces.iter().map(|piece| piece.time)
     }
 
     /// The first knot after `time` (s), s; infinity if there is none. O(log n).
-    pub fn next_knot(&self, time: f64) -> f64 {
+    pub(super) fn next_knot(&self, time: f64) -> f64 {
         let started = self.pieces.partition_point(|piece| piece.time <= time);
         self.pieces
             .get(started)
@@ -120,7 +120,7 @@ impl Rotation {
 
     /// State at `time` (s); O(log n).
     #[inline]
-    pub fn at(&self, time: f64) -> RotationState {
+    pub(super) fn at(&self, time: f64) -> RotationState {
         let started = self.pieces.partition_point(|piece| piece.time <= time);
         self.piece(started).at(time)
     }
@@ -128,7 +128,7 @@ impl Rotation {
     /// State at `time` (s), searching from where `cursor` was left: constant cost for times that move in small steps,
     /// either way.
     #[inline]
-    pub fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+    pub(super) fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
         let mut started = cursor.piece.min(self.pieces.len());
         while started < self.pieces.len() && self.pieces[started].time <= time {
             started += 1;

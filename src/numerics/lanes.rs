@@ -100,6 +100,26 @@ pub(crate) fn dot<'a>(a: impl Iterator<Item = &'a Lanes>, b: &[Lanes]) -> f64 {
     total(&sums)
 }
 
+/// `a . b` of plain slices.
+#[inline]
+pub(crate) fn scalar_product(a: &[f64], b: &[f64]) -> f64 {
+    // four sums side by side: the order is fixed, and the compiler can use vector registers
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4
+        .remainder()
+        .iter()
+        .zip(b4.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    for (x, y) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 /// `sum += factor * row`.
 #[inline(always)]
 pub(crate) fn add_scaled(sum: &mut [Lanes], factor: f64, row: &[Lanes]) {

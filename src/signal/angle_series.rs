@@ -206,7 +206,7 @@ impl AngleSeries {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use crate::signal::{SpeedPoint, peak_near};
     use std::f64::consts::PI;
 

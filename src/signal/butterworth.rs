@@ -178,7 +178,7 @@ impl Butterworth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::reference::{items, load, numbers, worst};
+    use crate::signal::samples::{items, load, numbers, worst};
     use realfft::num_complex::Complex;
     use std::f64::consts::PI;
 

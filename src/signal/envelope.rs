@@ -50,7 +50,7 @@ pub(super) fn quadrature(x: &[f64]) -> Result<Vec<f64>, SignalError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::reference::{items, load, numbers, worst};
+    use crate::signal::samples::{items, load, numbers, worst};
     use std::f64::consts::PI;
 
     fn series(values: Vec<f64>) -> TimeSeries {

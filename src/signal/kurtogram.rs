@@ -83,7 +83,7 @@ impl Kurtogram {
 
     /// Of these bands alone. The limits stay, which are for all: on the safe side.
     #[must_use]
-    pub fn of_those(&self, wanted: impl Fn(&KurtogramBand) -> bool) -> Self {
+    pub(crate) fn of_those(&self, wanted: impl Fn(&KurtogramBand) -> bool) -> Self {
         let bands = self.bands.iter().copied();
         Self {
             bands: bands.filter(wanted).collect(),
@@ -246,8 +246,7 @@ fn figures(level: &[Vec<Complex<f64>>]) -> Vec<Figures> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
-    use crate::signal::reference::{items, load, numbers};
+    use crate::signal::samples::{gaussian, items, load, numbers};
 
     fn series(values: Vec<f64>) -> TimeSeries {
         TimeSeries::new(0.0, 2e-5, "m/s^2", values).expect("a valid series")

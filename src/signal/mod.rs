@@ -26,13 +26,11 @@ mod kurtosis_limit;
 mod lines;
 mod morlet;
 mod moving;
-#[cfg(test)]
-pub(crate) mod noise;
 mod peaks;
 mod raw_spectrum;
-#[cfg(test)]
-mod reference;
 mod ridge;
+#[cfg(test)]
+pub(crate) mod samples;
 mod scalogram;
 mod shaft_angle;
 mod spectral_kurtosis;
@@ -49,9 +47,8 @@ pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub use compare::relative_difference;
 pub use envelope::{envelope, squared};
-pub use envelope_analysis::{
-    EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum, usual_high_pass_hz,
-};
+pub(crate) use envelope_analysis::usual_high_pass_hz;
+pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};
 pub use error::SignalError;
 pub(crate) use fourier::{Forward, fast_length};
 pub use frequency_axis::FrequencyAxis;
@@ -62,7 +59,7 @@ pub use lines::{
 };
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
-pub use raw_spectrum::RawSpectrum;
+pub(crate) use raw_spectrum::RawSpectrum;
 pub use scalogram::{Scalogram, WaveletTransform};
 pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
@@ -71,6 +68,6 @@ pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
 pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
 pub(crate) use white_spectrum::running_median;
-pub use white_spectrum::{BandEnvelope, WhiteSpectrum};
+pub(crate) use white_spectrum::{BandEnvelope, WhiteSpectrum};
 pub use whitening::{Emphasis, whiten};
 pub use window_function::WindowFunction;

@@ -12,7 +12,7 @@ use crate::numerics::series::TimeSeries;
 /// Bands have straight edges: no bin beyond them counts. So the same band of two signals is the same whatever their sampling rates, as
 /// long as both reach its upper edge.
 #[derive(Debug, Clone)]
-pub struct RawSpectrum {
+pub(crate) struct RawSpectrum {
     bins: Vec<Complex<f64>>,
     points: usize,
     start_s: f64,
@@ -24,7 +24,7 @@ impl RawSpectrum {
     ///
     /// # Errors
     /// [`SignalError::Transform`], which no valid series causes.
-    pub fn of(series: &TimeSeries) -> Result<Self, SignalError> {
+    pub(crate) fn of(series: &TimeSeries) -> Result<Self, SignalError> {
         let points = fast_length(series.values().len().min(MOST_POINTS));
         let mean = series.mean();
         let centred: Vec<f64> = series.values().iter().map(|value| value - mean).collect();
@@ -47,7 +47,7 @@ impl RawSpectrum {
     ///
     /// The series is taken as periodic: cut a window out of a longer stretch where its ends matter.
     #[must_use]
-    pub fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
+    pub(crate) fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
         band_envelope(&self.bins, self.points, self.start_s, self.step_s, band_hz)
     }
 }

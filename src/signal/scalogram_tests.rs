@@ -1,8 +1,7 @@
 //! The wavelet transform against convolution in time, tones, chirps and its own parts.
 
 use super::*;
-use crate::signal::noise::gaussian;
-use crate::signal::reference::{items, load, numbers, worst};
+use crate::signal::samples::{gaussian, items, load, numbers, worst};
 
 fn series(samples: usize, rate_hz: f64, x: impl Fn(f64) -> f64) -> TimeSeries {
     let step_s = 1.0 / rate_hz;

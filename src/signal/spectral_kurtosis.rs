@@ -114,7 +114,7 @@ fn segment_worth(window: &[f64], hop: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use std::f64::consts::PI;
 
     fn kurtosis(values: Vec<f64>, confidence: f64) -> SpectralKurtosis {

@@ -155,7 +155,7 @@ fn remove(values: &mut [f64], direction: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use crate::signal::{AngleSeries, WindowFunction};
     use std::f64::consts::PI;
 

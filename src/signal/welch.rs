@@ -126,7 +126,7 @@ impl Welch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::reference::{items, load, numbers, worst};
+    use crate::signal::samples::{items, load, numbers, worst};
 
     const HANN: Welch = Welch {
         window_function: WindowFunction::Hann,

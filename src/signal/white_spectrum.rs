@@ -26,7 +26,7 @@ const LIMIT: f64 = 3.0;
 /// pre-whitening for the diagnosis of bearing faults under variable speed conditions, Mechanical Systems and Signal Processing 36 (2013)
 /// 370-384, which loses the strength of a resonance's bins with their phase kept; the bound of three keeps more of weak impacts.
 #[derive(Debug, Clone)]
-pub struct WhiteSpectrum {
+pub(crate) struct WhiteSpectrum {
     bins: Vec<Complex<f64>>,
     /// Amplitude of each bin over the median about it, before it is bounded.
     over_median: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct WhiteSpectrum {
 
 /// Squared envelope of a band at equal steps.
 #[derive(Debug, Clone)]
-pub struct BandEnvelope {
+pub(crate) struct BandEnvelope {
     /// Instant of the first value, s.
     pub start_s: f64,
     /// Step, s.
@@ -51,7 +51,7 @@ impl WhiteSpectrum {
     ///
     /// # Errors
     /// [`SignalError::Transform`], which no valid series causes.
-    pub fn of(series: &TimeSeries) -> Result<Self, SignalError> {
+    pub(crate) fn of(series: &TimeSeries) -> Result<Self, SignalError> {
         let points = fast_length(series.values().len().min(MOST_POINTS));
         let mean = series.mean();
         let centred: Vec<f64> = series.values().iter().map(|value| value - mean).collect();
@@ -86,7 +86,7 @@ impl WhiteSpectrum {
     ///
     /// # Errors
     /// A series that is too short for a kurtosis.
-    pub fn impulsive(&self, series: &TimeSeries) -> Result<Self, SignalError> {
+    pub(crate) fn impulsive(&self, series: &TimeSeries) -> Result<Self, SignalError> {
         let (hz, gains) = impulsive_gains(series)?;
         let bin_hz = 1.0 / (self.step_s * self.points as f64);
         let last = gains.len() - 1;
@@ -112,7 +112,7 @@ impl WhiteSpectrum {
     /// Squared envelope of the band between two frequencies (Hz), at a rate of about four times the band's width: twice what its
     /// spectrum needs.
     #[must_use]
-    pub fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
+    pub(crate) fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
         band_envelope(&self.bins, self.points, self.start_s, self.step_s, band_hz)
     }
 }
@@ -175,7 +175,7 @@ pub(crate) fn running_median(values: &[f64], reach: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use std::f64::consts::TAU;
 
     #[test]

@@ -130,7 +130,7 @@ fn overlap(segment_samples: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::noise::gaussian;
+    use crate::signal::samples::gaussian;
     use std::f64::consts::TAU;
 
     const RATE: f64 = 100e3;

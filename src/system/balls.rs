@@ -68,7 +68,7 @@ pub(super) struct BallGroup {
 
 impl Balls {
     /// The balls of a bearing on so many groups of modes, without the bounds.
-    pub fn new(setup: &BearingSetup, mode_groups: usize) -> Self {
+    pub(super) fn new(setup: &BearingSetup, mode_groups: usize) -> Self {
         let count = setup.balls();
         let columns = |f: &dyn Fn(usize) -> f64, rest: f64| {
             let values: Vec<f64> = (0..count).map(f).collect();
@@ -102,31 +102,31 @@ impl Balls {
 
     /// What ball `j` has of something.
     #[inline]
-    pub fn get(&self, j: usize, of: impl Fn(&BallGroup) -> &Lanes) -> f64 {
+    pub(super) fn get(&self, j: usize, of: impl Fn(&BallGroup) -> &Lanes) -> f64 {
         of(&self.groups[j / LANES])[j % LANES]
     }
 
     /// Gives ball `j` a value of something.
     #[inline]
-    pub fn set(&mut self, j: usize, of: impl Fn(&mut BallGroup) -> &mut Lanes, value: f64) {
+    pub(super) fn set(&mut self, j: usize, of: impl Fn(&mut BallGroup) -> &mut Lanes, value: f64) {
         of(&mut self.groups[j / LANES])[j % LANES] = value;
     }
 
     /// What each ball has of something.
-    pub fn all(&self, of: impl Fn(&BallGroup) -> &Lanes) -> impl Iterator<Item = f64> {
+    pub(super) fn all(&self, of: impl Fn(&BallGroup) -> &Lanes) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |j| self.get(j, &of))
     }
 
     /// Unit vector towards ball `j` from the bearing's centre.
     #[inline]
-    pub fn direction_of(&self, j: usize) -> [f64; 2] {
+    pub(super) fn direction_of(&self, j: usize) -> [f64; 2] {
         let group = &self.groups[j / LANES];
         group.direction.map(|component| component[j % LANES])
     }
 
     /// Where ball `j` stands to the inner race.
     #[inline]
-    pub fn inner_gap(&self, j: usize) -> InnerGap {
+    pub(super) fn inner_gap(&self, j: usize) -> InnerGap {
         let (group, lane) = (&self.groups[j / LANES], j % LANES);
         InnerGap {
             penetration: group.penetration[lane],

@@ -96,7 +96,7 @@ impl BearingSetup {
 
     /// How much larger than nominal the radius of a ball is, m.
     #[inline]
-    pub fn oversize(&self, ball: usize) -> f64 {
+    pub(crate) fn oversize(&self, ball: usize) -> f64 {
         self.oversizes.get(ball).copied().unwrap_or(0.0)
     }
 

@@ -34,7 +34,7 @@ pub(super) struct InnerGaps {
 }
 
 impl InnerRace {
-    pub fn new(geometry: &BearingGeometry) -> Self {
+    pub(super) fn new(geometry: &BearingGeometry) -> Self {
         Self {
             touching_radius: geometry.outer_race_radius() - geometry.ball_radius(),
             play: geometry.radial_play(),
@@ -42,7 +42,7 @@ impl InnerRace {
     }
 
     /// Gap for a ball in direction `e` at outward displacement `s`, the inner race at `centre`.
-    pub fn gap(&self, e: [f64; 2], s: f64, centre: [f64; 2]) -> InnerGap {
+    pub(super) fn gap(&self, e: [f64; 2], s: f64, centre: [f64; 2]) -> InnerGap {
         let [cos, sin] = e.map(|component| [component; LANES]);
         let gaps = self.gaps([&cos, &sin], &[s; LANES], centre);
         InnerGap {
@@ -55,7 +55,7 @@ impl InnerRace {
     /// Not less than the penetration of balls in directions (`cos`, `sin`) at outward displacements `s`: what it would be in
     /// front of a plane.
     #[inline(always)]
-    pub fn penetration_bounds(
+    pub(super) fn penetration_bounds(
         &self,
         [cos, sin]: [&Lanes; 2],
         s: &Lanes,
@@ -69,7 +69,7 @@ impl InnerRace {
     /// `delta_i = r + rho_b - chi = -(play + s) + (rho - chi)` with
     /// `rho - chi = (2 rho e.centre - |centre|^2) / (rho + chi)`: no difference of large numbers.
     #[inline(always)]
-    pub fn gaps(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, centre: [f64; 2]) -> InnerGaps {
+    pub(super) fn gaps(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, centre: [f64; 2]) -> InnerGaps {
         let [x, y] = centre;
         let square = x * x + y * y;
         let rho = each(|l| self.touching_radius + s[l]);

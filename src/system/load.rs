@@ -27,7 +27,7 @@ impl LoadProfile {
     }
 
     /// The first time (s) after `time` at which the slope jumps; infinity if there is none.
-    pub fn next_knot(&self, time: f64) -> f64 {
+    pub(crate) fn next_knot(&self, time: f64) -> f64 {
         let after = self.points.partition_point(|point| point.0 <= time);
         self.points
             .get(after)

@@ -2,8 +2,8 @@
 //! contact forces.
 
 use super::coupled::CoupledSystem;
-use super::force::dot;
 use super::run_record::{Column, RunRecord};
+use crate::numerics::lanes::scalar_product;
 use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
 use crate::numerics::series::{Decimator, DecimatorState, SeriesError};
 
@@ -104,7 +104,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(crate) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         let short = |_| SnapshotError::Short;
         self.begun = snapshot.count()?.try_into().map_err(short)?;
         for filter in &mut self.filters {
@@ -144,7 +144,7 @@ impl Observer<CoupledSystem> for Recorder {
     fn observe(&mut self, system: &CoupledSystem, now: Instant<'_>) {
         let modes = system.modes;
         for (sensor, filter) in self.filters.iter_mut().enumerate() {
-            let modal = dot(&system.sensors[sensor].1, &now.y[..modes]);
+            let modal = scalar_product(&system.sensors[sensor].1, &now.y[..modes]);
             let residual = system.residual.as_ref().map_or(0.0, |residual| {
                 residual.at_sensor(sensor, system.balls.all(|ball| &ball.outer_radial))
             });

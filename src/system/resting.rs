@@ -35,7 +35,7 @@ pub(super) fn in_the_plane(force: &RaceForce, distance: f64) -> [f64; 3] {
 }
 
 impl RestingRaces {
-    pub fn new(setup: &BearingSetup, shaft_angle: f64) -> Self {
+    pub(super) fn new(setup: &BearingSetup, shaft_angle: f64) -> Self {
         Self {
             inner_race: InnerRace::new(&setup.geometry),
             inner: RaceContact::new(setup, Race::Inner).undamped(),
@@ -52,12 +52,18 @@ impl RestingRaces {
 
     /// Force of `ball` at the angle `angle` (rad) on the outer race that is displaced along increasing angle by `shift`
     /// (rad); derivatives by the ball's position relative to the race.
-    pub fn outer_force(&self, ball: usize, angle: f64, shift: f64, penetration: f64) -> RaceForce {
+    pub(super) fn outer_force(
+        &self,
+        ball: usize,
+        angle: f64,
+        shift: f64,
+        penetration: f64,
+    ) -> RaceForce {
         self.force(&self.outer, ball, angle - shift, shift, penetration)
     }
 
     /// Force of `ball` at `angle` (rad) about the bearing's centre on the inner race.
-    pub fn inner_force(&self, ball: usize, angle: f64, gap: &InnerGap) -> RaceForce {
+    pub(super) fn inner_force(&self, ball: usize, angle: f64, gap: &InnerGap) -> RaceForce {
         let [x, y] = gap.normal;
         let (sin, cos) = angle.sin_cos();
         let turned = (cos * y - sin * x).atan2(cos * x + sin * y);

@@ -69,7 +69,7 @@ impl Column {
 
 impl RunRecord {
     /// A record without rows.
-    pub fn blank(sensors: impl IntoIterator<Item = String>, balls: usize) -> Self {
+    pub(crate) fn blank(sensors: impl IntoIterator<Item = String>, balls: usize) -> Self {
         Self {
             sensors: sensors.into_iter().map(|name| (name, Vec::new())).collect(),
             balls,

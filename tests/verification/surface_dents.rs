@@ -14,7 +14,7 @@
 
 use plummer::bearing::Race;
 use plummer::bearing::defect::{
-    CurvatureReading, Dent, DentShape, PolarPosition, RaceDefect, SurfaceDent,
+    CurvatureReading, Dent, DentShape, PolarPosition, RaceDefect, RaceProfile, SurfaceDent,
 };
 use plummer::system::{BearingSetup, Equilibrium, Formulation, StaticCondition};
 

@@ -1,6 +1,6 @@
 //! Cross-section of an outer ring: a rectangle less the groove.
 
-use super::{CatalogueBearing, GROOVES};
+use super::entry::{CatalogueBearing, GROOVES};
 
 /// Cross-section of an outer ring, without chamfers and seal grooves.
 #[derive(Debug, Clone, Copy, PartialEq)]

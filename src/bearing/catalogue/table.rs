@@ -1,7 +1,7 @@
 //! The numbers, as printed: millimetres, kilograms; Timken's balls in inches. GMN's 609 is left out: the mass printed for it is more
 //! than that of full steel.
 
-use super::{CatalogueBearing, Source};
+use super::entry::{CatalogueBearing, Source};
 
 const INCH: f64 = 25.4;
 
@@ -43,7 +43,7 @@ macro_rules! timken {
     };
 }
 
-pub(super) const BEARINGS: [CatalogueBearing; 34] = [
+const BEARINGS: [CatalogueBearing; 34] = [
     gmn!("625", 5.0, 16.0, 5.0, 10.0, 3.175, 6, 12.50, 0.005),
     gmn!("626", 6.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
     gmn!("607", 7.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
@@ -79,3 +79,37 @@ pub(super) const BEARINGS: [CatalogueBearing; 34] = [
     timken!("6309", 45.0, 100.0, 25.0, 8, 11.0 / 16.0, 0.807),
     timken!("6310", 50.0, 110.0, 27.0, 8, 3.0 / 4.0, 1.052),
 ];
+
+impl CatalogueBearing {
+    /// Every bearing, by series and bore.
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        &BEARINGS
+    }
+
+    /// The bearing of this designation; suffixes after a blank, a hyphen or a slash (`6205-2RS`, `6205/C3`) count for nothing.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        let wanted = name.trim().split([' ', '-', '/']).next()?;
+        Self::all().iter().find(|bearing| bearing.name == wanted)
+    }
+
+    /// The bearings whose outer diameter is nearest to a length in m, with the relative difference; those of equal difference in
+    /// the order of the table. Empty for a length that is not above 0.
+    #[must_use]
+    pub fn nearest(outer_diameter: f64) -> Vec<(&'static Self, f64)> {
+        if !(outer_diameter.is_finite() && outer_diameter > 0.0) {
+            return Vec::new();
+        }
+        let off = |bearing: &Self| bearing.outer_diameter / outer_diameter - 1.0;
+        let least = Self::all()
+            .iter()
+            .map(|bearing| off(bearing).abs())
+            .fold(f64::INFINITY, f64::min);
+        let near = Self::all().iter().filter(|bearing| {
+            // equal diameters are equal numbers of the table
+            off(bearing).abs() <= least * (1.0 + 1e-9)
+        });
+        near.map(|bearing| (bearing, off(bearing))).collect()
+    }
+}

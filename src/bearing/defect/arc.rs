@@ -30,7 +30,7 @@ pub(super) struct Arc {
 impl Arc {
     /// Arc of `radius`, larger than `carrier`, `depth` below it at the middle; a flat that would take more than
     /// half of the circle has ψ = π/2 or more.
-    pub fn new(carrier: f64, radius: f64, depth: f64, loss: f64) -> Self {
+    pub(super) fn new(carrier: f64, radius: f64, depth: f64, loss: f64) -> Self {
         let centre_depth = radius - carrier + depth;
         let square = depth * (2.0 * radius + depth) / (4.0 * carrier * centre_depth);
         let half_angle = 2.0 * square.clamp(0.0, 1.0).sqrt().asin();
@@ -44,7 +44,7 @@ impl Arc {
     }
 
     #[inline]
-    pub fn at(&self, t: f64) -> CurvePoint {
+    pub(super) fn at(&self, t: f64) -> CurvePoint {
         let out = Vector::radial(t).scaled(self.radius);
         CurvePoint {
             point: Vector {
@@ -58,14 +58,14 @@ impl Arc {
 
     /// Parameter of the foot of `centre` and the point there, for a convex (`sign` +1) or concave (−1) roller.
     #[inline]
-    pub fn foot(&self, centre: Vector, sign: f64) -> (f64, CurvePoint) {
+    pub(super) fn foot(&self, centre: Vector, sign: f64) -> (f64, CurvePoint) {
         let along = sign * centre.along;
         let t = along.atan2(sign * (centre.outward + self.centre_depth));
         (t, self.at(t))
     }
 
     /// Distance (m) from the ball's centre at `offset` (rad) from the middle.
-    pub fn polar_radius(&self, offset: f64) -> f64 {
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         let (sin, cos) = offset.sin_cos();
         let across = self.centre_depth * sin;
         (self.radius * self.radius - across * across)

@@ -8,8 +8,8 @@
 use super::circles::Circles;
 use super::curve::{self, CurvePoint};
 use super::fade::Fade;
-use super::profile::Profile;
 use super::spline::Piece;
+use super::spline::Profile;
 use super::vector::Vector;
 
 /// Longest stretch in ball radii: over it the distance to a ball changes by a few thousandths of the radius at
@@ -55,7 +55,7 @@ pub(super) fn fade(circles: &Circles) -> Fade {
 
 impl Brackets {
     /// Finds the stretches of `profile`, whose ends lie `profile_angle` (rad) from its middle.
-    pub fn new(profile: &Profile, profile_angle: f64) -> Self {
+    pub(super) fn new(profile: &Profile, profile_angle: f64) -> Self {
         let mut nodes = Vec::new();
         for (number, piece) in profile.pieces.iter().enumerate() {
             for stretch in touchable(profile, piece) {
@@ -99,7 +99,7 @@ impl Brackets {
     /// Calls `touched` for every foot of `centre`, which lies at `offset` (rad) within the half angle, in order;
     /// feet that are seen to be out of the ball's reach are left out.
     #[inline]
-    pub fn feet(
+    pub(super) fn feet(
         &self,
         profile: &Profile,
         centre: Vector,

@@ -42,7 +42,7 @@ impl Circles {
     /// A race that carries the defect, and a ball.
     ///
     /// The inner race's radius is the effective one, which δ needs; curvatures for k take the nominal one.
-    pub fn race(bearing: &BearingGeometry, race: Race, stiffness: ContactStiffness) -> Self {
+    pub(super) fn race(bearing: &BearingGeometry, race: Race, stiffness: ContactStiffness) -> Self {
         let (carrier, side) = match race {
             Race::Inner => (bearing.effective_inner_race_radius(), -1.0),
             Race::Outer => (bearing.outer_race_radius(), 1.0),
@@ -57,7 +57,7 @@ impl Circles {
     }
 
     /// A ball that carries the defect, and the race that meets it.
-    pub fn ball(bearing: &BearingGeometry, race: Race, stiffness: ContactStiffness) -> Self {
+    pub(super) fn ball(bearing: &BearingGeometry, race: Race, stiffness: ContactStiffness) -> Self {
         let roller = match race {
             Race::Inner => bearing.effective_inner_race_radius(),
             Race::Outer => -bearing.outer_race_radius(),
@@ -73,33 +73,33 @@ impl Circles {
 
     /// +1 for a convex roller, −1 for a concave one.
     #[inline]
-    pub fn sign(&self) -> f64 {
+    pub(super) fn sign(&self) -> f64 {
         self.roller.signum()
     }
 
     /// Curvature of the carrier, 1/m, concave positive.
     #[inline]
-    pub fn carrier_concavity(&self) -> f64 {
+    pub(super) fn carrier_concavity(&self) -> f64 {
         self.side / self.carrier
     }
 
     /// Curvature of the roller, 1/m, convex positive: a profile more concave than this cannot be touched.
     #[inline]
-    pub fn roller_curvature(&self) -> f64 {
+    pub(super) fn roller_curvature(&self) -> f64 {
         1.0 / self.roller
     }
 
     /// Direction in which the undamaged carrier is touched at `offset` from the defect's middle, and the
     /// roller's centre at `distance` from the carrier's.
     #[inline]
-    pub fn centre(&self, distance: f64, offset: f64) -> (Vector, Vector) {
+    pub(super) fn centre(&self, distance: f64, offset: f64) -> (Vector, Vector) {
         let direction = Vector::radial(offset);
         (direction, direction.scaled(self.sign() * distance))
     }
 
     /// Contact beside the defect.
     #[inline]
-    pub fn plain(&self, distance: f64) -> DefectContact {
+    pub(super) fn plain(&self, distance: f64) -> DefectContact {
         let outward = self.side * self.sign();
         DefectContact {
             feature: Feature::Plain,
@@ -116,7 +116,7 @@ impl Circles {
     /// A ball that carries the defect is seen from the race's centre with both radius vector and normal
     /// turned round, which for a concave roller leaves one sign.
     #[inline]
-    pub fn contact(
+    pub(super) fn contact(
         &self,
         feature: Feature,
         delta: f64,

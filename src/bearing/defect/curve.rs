@@ -26,7 +26,7 @@ impl CurvePoint {
     /// `P = R e(φ)` from e, `[R, R', R'']` and `[φ', φ'']`:
     /// `P' = R' e + R φ' e_φ`, `P'' = (R'' − R φ'²) e + (2 R' φ' + R φ'') e_φ`.
     #[inline]
-    pub fn polar(e: Vector, radius: [f64; 3], angle: [f64; 2]) -> Self {
+    pub(super) fn polar(e: Vector, radius: [f64; 3], angle: [f64; 2]) -> Self {
         let [r, r_1, r_2] = radius;
         let [phi_1, phi_2] = angle;
         let e_phi = e.tangent();
@@ -41,20 +41,20 @@ impl CurvePoint {
 
     /// Curvature, 1/m, positive where the material on `side` of the curve is concave.
     #[inline]
-    pub fn concavity(&self, side: f64) -> f64 {
+    pub(super) fn concavity(&self, side: f64) -> f64 {
         let speed_squared = self.first.dot(self.first);
         -side * self.second.dot(self.first.normal()) / (speed_squared * speed_squared.sqrt())
     }
 
     /// Unit tangent, counter-clockwise.
     #[inline]
-    pub fn tangent(&self) -> Vector {
+    pub(super) fn tangent(&self) -> Vector {
         self.first.scaled(1.0 / self.first.length())
     }
 
     /// Unit normal m into the material on `side`.
     #[inline]
-    pub fn inward(&self, side: f64) -> Vector {
+    pub(super) fn inward(&self, side: f64) -> Vector {
         self.tangent().normal().scaled(side)
     }
 }

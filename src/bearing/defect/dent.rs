@@ -1,12 +1,13 @@
 //! An elliptical dent in a race.
 
-use super::angle::{offset_from, reduced, within};
+use super::angle::{offset_from, reduced};
 use super::circles::Circles;
 use super::contacts::DefectContacts;
 use super::depression::Depression;
 use super::ellipse::Ellipse;
 use super::error::{DefectError, finite_angle, positive};
 use super::floor::Floor;
+use super::race_profile::{PolarPosition, RaceProfile};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 
@@ -72,16 +73,6 @@ impl DentShape {
     }
 }
 
-/// Position of a ball's centre relative to a race's (displaced) centre.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PolarPosition {
-    /// Distance from the race's centre, m: ρ on the outer race, χ on the inner one.
-    pub radius: f64,
-    /// Angle in the race's own frame, counter-clockwise, rad; any number of turns. On the outer race from x,
-    /// on the inner race less the shaft's angle.
-    pub angle: f64,
-}
-
 /// A dent in one race of one bearing, ready for contact queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dent {
@@ -129,79 +120,50 @@ impl Dent {
         &self.shape
     }
 
-    /// The race that carries the dent.
-    #[must_use]
-    pub fn race(&self) -> Race {
-        self.race
-    }
-
-    /// Half the arc that is not race any more, rims included, rad.
-    #[must_use]
-    pub fn half_angle(&self) -> f64 {
-        self.profile.rim.angle
-    }
-
-    /// Half the arc within which a ball can press on a rim or the floor, rad: [`Self::half_angle`], or more
-    /// when a dent is so short that a ball beside it, pressed into the race, overlaps the far rim.
-    #[must_use]
-    pub fn contact_half_angle(&self) -> f64 {
-        self.profile.contact_angle
-    }
-
     /// Curvature of the floor at its middle, 1/m, convex positive: `±1/R − b/a²`, whichever reading the
     /// stiffness takes.
     #[must_use]
     pub fn bottom_curvature(&self) -> f64 {
         -self.profile.circles.carrier_concavity() - self.profile.floor.loss(0.0)
     }
+}
 
-    /// How far, m, a ball at the dent's middle sinks beyond its place on the race: the depth, or less
-    /// when the rims hold it.
-    #[must_use]
-    pub fn ball_drop(&self) -> f64 {
-        self.profile.ball_drop()
+impl RaceProfile for Dent {
+    fn race(&self) -> Race {
+        self.race
     }
 
-    /// Distance (m) from the race's centre to the profile at `angle` (rad, any turn, in the race's frame).
-    #[must_use]
-    pub fn profile_radius(&self, angle: f64) -> f64 {
+    fn angle(&self) -> f64 {
+        self.shape.angle
+    }
+
+    /// Rims included.
+    fn half_angle(&self) -> f64 {
+        self.profile.rim.angle
+    }
+
+    /// More than [`Self::half_angle`] for a dent so short that a ball beside it, pressed into the race, overlaps the far rim.
+    fn contact_half_angle(&self) -> f64 {
+        self.profile.contact_angle
+    }
+
+    fn profile_radius(&self, angle: f64) -> f64 {
         self.profile.polar_radius(self.offset(angle))
     }
 
-    /// Whether a ball at `angle` (rad, any turn, in the race's frame) can touch anything but the race: half-open
-    /// arc `[φ_D − φ, φ_D + φ)` with φ the [`Self::contact_half_angle`].
-    ///
-    /// Outside it the race contact alone holds, and [`Self::contacts`] need not be asked.
-    #[must_use]
-    #[inline]
-    pub fn contains(&self, angle: f64) -> bool {
-        within(self.offset(angle), self.profile.contact_angle)
+    fn ball_drop(&self) -> f64 {
+        self.profile.ball_drop()
     }
 
-    /// All contacts of a ball with the profile, in order of angle, gaps included (δ < 0).
-    ///
-    /// One on the race if the ball is not over the dent; beside it on the far rim if that is within reach.
-    /// Gaps are reported where a contact may come to press; the list of pressing contacts is complete, and
-    /// empty if the ball does not reach the undamaged race: the whole profile lies there or beyond.
-    /// No allocation; a few tenths of a microsecond over the dent.
-    #[must_use]
-    #[inline]
-    pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
-        let mut found = DefectContacts::none();
-        self.contacts_into(ball, &mut found);
-        found
-    }
-
-    /// [`Self::contacts`] in the place of what was found before.
-    #[inline]
-    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
-        let offset = self.offset(ball.angle);
-        self.profile.contacts_into(ball.radius, offset, found);
-    }
-
-    /// Angle from the dent's middle, within ±π.
     #[inline]
     fn offset(&self, angle: f64) -> f64 {
         offset_from(angle, self.middle)
+    }
+
+    /// A few tenths of a microsecond over the dent.
+    #[inline]
+    fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+        let offset = self.offset(ball.angle);
+        self.profile.contacts_into(ball.radius, offset, found);
     }
 }

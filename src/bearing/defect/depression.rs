@@ -62,7 +62,7 @@ impl Depression {
     ///
     /// # Errors
     /// [`DefectError`]: rims too large; more than a quarter of the circle; a curvature that Hertz theory refuses.
-    pub fn new(
+    pub(super) fn new(
         bearing: &BearingGeometry,
         race: Race,
         circles: Circles,
@@ -124,13 +124,13 @@ impl Depression {
 
     /// Relative curvature on the floor in the rolling plane, 1/m, in the chosen reading.
     #[inline]
-    pub fn floor_curvature(&self, t: f64) -> f64 {
+    pub(super) fn floor_curvature(&self, t: f64) -> f64 {
         self.floor_base - self.floor.loss(t)
     }
 
     /// How far, m, a roller at the middle sinks beyond its place on the undamaged circle: the depth, or less
     /// when the rims hold it.
-    pub fn ball_drop(&self) -> f64 {
+    pub(super) fn ball_drop(&self) -> f64 {
         let circles = &self.circles;
         let depth = circles.side * (self.floor.at(0.0).point.outward - circles.carrier);
         let bridged = self.rim.bridged(circles);
@@ -138,7 +138,7 @@ impl Depression {
     }
 
     /// Distance (m) from the carrier's centre to the profile at `offset` (rad) from the middle.
-    pub fn polar_radius(&self, offset: f64) -> f64 {
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         let offset = offset.abs();
         if offset >= self.rim.angle {
             self.circles.carrier

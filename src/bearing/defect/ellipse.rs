@@ -23,10 +23,10 @@ pub(super) struct Ellipse {
 
 impl Ellipse {
     /// Parameter at which the floor ends in a wall.
-    pub const WALL: f64 = FRAC_PI_2;
+    pub(super) const WALL: f64 = FRAC_PI_2;
 
     #[inline]
-    pub fn at(&self, t: f64) -> CurvePoint {
+    pub(super) fn at(&self, t: f64) -> CurvePoint {
         let (sin_t, cos_t) = t.sin_cos();
         let along = self.half_length / self.carrier;
         let sag = self.side * self.depth * cos_t;
@@ -37,7 +37,7 @@ impl Ellipse {
 
     /// κ_D of the ellipse, 1/m, the source's (24): `a b / (a² cos² t + b² sin² t)^{3/2}`; b/a² at the middle.
     #[inline]
-    pub fn curvature(&self, t: f64) -> f64 {
+    pub(super) fn curvature(&self, t: f64) -> f64 {
         let (sin_t, cos_t) = t.sin_cos();
         let (a, b) = (self.half_length, self.depth);
         let sum = (a * cos_t) * (a * cos_t) + (b * sin_t) * (b * sin_t);
@@ -46,7 +46,7 @@ impl Ellipse {
 
     /// Parameter in `[−limit, limit]` of the foot of `centre`, and the point there; see [`curve::foot`].
     #[inline]
-    pub fn foot(&self, centre: Vector, limit: f64) -> (f64, CurvePoint) {
+    pub(super) fn foot(&self, centre: Vector, limit: f64) -> (f64, CurvePoint) {
         let bottom = self.carrier + self.side * self.depth;
         let concavity =
             self.side / self.carrier + self.depth / (self.half_length * self.half_length);
@@ -58,7 +58,7 @@ impl Ellipse {
     }
 
     /// Distance (m) from the circle's centre at `offset` (rad) from the middle.
-    pub fn polar_radius(&self, offset: f64) -> f64 {
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         let x = self.carrier * offset / self.half_length;
         self.carrier + self.side * self.depth * (1.0 - x * x).max(0.0).sqrt()
     }

@@ -19,7 +19,7 @@ pub(super) struct Fade {
 
 impl Fade {
     /// Gone `early` (1/m) before the roller's own curvature.
-    pub fn new(circles: &Circles, early: f64) -> Self {
+    pub(super) fn new(circles: &Circles, early: f64) -> Self {
         let roller = circles.roller_curvature();
         Self {
             gone: roller - early,
@@ -28,13 +28,13 @@ impl Fade {
     }
 
     /// Whether a profile of this concave curvature is touched at all.
-    pub fn touchable(&self, concavity: f64) -> bool {
+    pub(super) fn touchable(&self, concavity: f64) -> bool {
         concavity < self.gone
     }
 
     /// 1 where the profile is flat enough, 0 where it is curved like the roller.
     #[inline]
-    pub fn weight(&self, concavity: f64) -> f64 {
+    pub(super) fn weight(&self, concavity: f64) -> f64 {
         smoothstep((self.gone - concavity) / self.width)
     }
 }

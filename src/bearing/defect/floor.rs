@@ -27,7 +27,7 @@ pub(super) struct Reach {
 
 impl Floor {
     #[inline]
-    pub fn at(&self, t: f64) -> CurvePoint {
+    pub(super) fn at(&self, t: f64) -> CurvePoint {
         match self {
             Self::Ellipse(ellipse) => ellipse.at(t),
             Self::Arc(arc) => arc.at(t),
@@ -35,7 +35,7 @@ impl Floor {
     }
 
     /// Parameter at which the floor would meet the carrier's circle if it had no rim.
-    pub fn wall(&self) -> f64 {
+    pub(super) fn wall(&self) -> f64 {
         match self {
             Self::Ellipse(_) => Ellipse::WALL,
             Self::Arc(arc) => arc.wall,
@@ -43,7 +43,7 @@ impl Floor {
     }
 
     /// Length along the carrier's circle without rims, m.
-    pub fn length(&self, circles: &Circles) -> f64 {
+    pub(super) fn length(&self, circles: &Circles) -> f64 {
         match self {
             Self::Ellipse(ellipse) => 2.0 * ellipse.half_length,
             Self::Arc(arc) => 2.0 * arc.half_angle * circles.carrier,
@@ -52,7 +52,7 @@ impl Floor {
 
     /// By how much the floor is less convex (or more concave) than its carrier, as the stiffness takes it, 1/m.
     #[inline]
-    pub fn loss(&self, t: f64) -> f64 {
+    pub(super) fn loss(&self, t: f64) -> f64 {
         match self {
             Self::Ellipse(ellipse) => ellipse.curvature(t),
             Self::Arc(arc) => arc.loss,
@@ -61,7 +61,7 @@ impl Floor {
 
     /// Foot of the roller's `centre`, which lies within the reach `limit`.
     #[inline]
-    pub fn foot(&self, circles: &Circles, centre: Vector, limit: f64) -> (f64, CurvePoint) {
+    pub(super) fn foot(&self, circles: &Circles, centre: Vector, limit: f64) -> (f64, CurvePoint) {
         match self {
             Self::Ellipse(ellipse) => ellipse.foot(centre, limit),
             Self::Arc(arc) => arc.foot(centre, circles.sign()),
@@ -69,7 +69,7 @@ impl Floor {
     }
 
     /// Distance (m) from the carrier's centre at `offset` (rad) from the middle.
-    pub fn polar_radius(&self, offset: f64) -> f64 {
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         match self {
             Self::Ellipse(ellipse) => ellipse.polar_radius(offset),
             Self::Arc(arc) => arc.polar_radius(offset),
@@ -77,7 +77,7 @@ impl Floor {
     }
 
     /// The part less concave than the roller is convex: up to the joint, up to some parameter, or none.
-    pub fn reach(&self, circles: &Circles, joint: f64) -> Option<Reach> {
+    pub(super) fn reach(&self, circles: &Circles, joint: f64) -> Option<Reach> {
         let touchable = |t: f64| self.at(t).concavity(circles.side) < circles.roller_curvature();
         if !touchable(0.0) {
             return None;

@@ -6,13 +6,12 @@ use super::angle::{offset_from, reduced, within};
 use super::brackets::{self, Brackets};
 use super::circles::Circles;
 use super::contacts::{DefectContacts, Feature};
-use super::dent::PolarPosition;
 use super::error::{DefectError, finite_angle};
 use super::fade::Fade;
-use super::profile::Profile;
+use super::race_profile::{PolarPosition, RaceProfile};
 use super::samples_check;
 use super::sinking;
-use super::spline::{self, Piece};
+use super::spline::{self, Piece, Profile};
 use super::stiffness::CurvatureStiffness;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
@@ -81,35 +80,29 @@ impl MeasuredProfile {
             profile,
         })
     }
+}
 
-    /// The race that carries the profile.
-    #[must_use]
-    pub fn race(&self) -> Race {
+impl RaceProfile for MeasuredProfile {
+    fn race(&self) -> Race {
         self.race
     }
 
-    /// Angle of the middle within ±π, rad.
-    #[must_use]
-    pub fn angle(&self) -> f64 {
+    /// Within ±π.
+    fn angle(&self) -> f64 {
         self.middle
     }
 
-    /// Half the arc from the first to the last sample, rad.
-    #[must_use]
-    pub fn half_angle(&self) -> f64 {
+    /// From the first to the last sample.
+    fn half_angle(&self) -> f64 {
         self.half_angle
     }
 
-    /// Half the arc within which a ball can press on the profile, rad; more than [`Self::half_angle`] where the
-    /// profile leans outwards.
-    #[must_use]
-    pub fn contact_half_angle(&self) -> f64 {
+    /// More than [`Self::half_angle`] where the profile leans outwards.
+    fn contact_half_angle(&self) -> f64 {
         self.brackets.half_angle
     }
 
-    /// Distance (m) from the race's centre to the profile at `angle` (rad, any turn, in the race's frame).
-    #[must_use]
-    pub fn profile_radius(&self, angle: f64) -> f64 {
+    fn profile_radius(&self, angle: f64) -> f64 {
         let offset = self.offset(angle);
         let Circles { carrier, side, .. } = self.profile.circles;
         let pieces = &self.profile.pieces;
@@ -120,16 +113,12 @@ impl MeasuredProfile {
         }
     }
 
-    /// How far, m, a ball sinks beyond its place on the race at the angle where it sinks deepest; searched anew
-    /// on every call, in milliseconds.
-    #[must_use]
-    pub fn ball_drop(&self) -> f64 {
+    /// Searched anew on every call, in milliseconds.
+    fn ball_drop(&self) -> f64 {
         sinking::deepest(&self.profile, self.half_angle)
     }
 
-    /// How far, m, the profile rises above the race at most.
-    #[must_use]
-    pub fn rise(&self) -> f64 {
+    fn rise(&self) -> f64 {
         let risen = |piece: &Piece| {
             let heights = (0..=LOOKS).map(|i| -piece.at(between(piece.ends, i))[0]);
             heights.fold(0.0, f64::max)
@@ -139,30 +128,15 @@ impl MeasuredProfile {
         1.01 * seen
     }
 
-    /// Whether a ball at `angle` (rad, any turn, in the race's frame) can touch anything but the race: half-open
-    /// arc with the [`Self::contact_half_angle`].
-    #[must_use]
     #[inline]
-    pub fn contains(&self, angle: f64) -> bool {
-        within(self.offset(angle), self.brackets.half_angle)
+    fn offset(&self, angle: f64) -> f64 {
+        offset_from(angle, self.middle)
     }
 
-    /// All pressing contacts of a ball with the profile, in order of angle; of more than
-    /// [`super::MOST_CONTACTS`] those with the largest overlaps. Beside the profile the contact with the race
-    /// (gap included) is among them.
-    ///
-    /// No allocation; about a microsecond over the profile.
-    #[must_use]
+    /// Of more than [`super::MOST_CONTACTS`] those with the largest overlaps. Beside the profile the contact with the race (gap included)
+    /// is among them. About a microsecond over the profile.
     #[inline]
-    pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
-        let mut found = DefectContacts::none();
-        self.contacts_into(ball, &mut found);
-        found
-    }
-
-    /// [`Self::contacts`] in the place of what was found before.
-    #[inline]
-    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+    fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
         let offset = self.offset(ball.angle);
         let circles = &self.profile.circles;
         found.clear();
@@ -187,11 +161,6 @@ impl MeasuredProfile {
         if offset >= self.half_angle {
             found.push(circles.plain(ball.radius));
         }
-    }
-
-    #[inline]
-    fn offset(&self, angle: f64) -> f64 {
-        offset_from(angle, self.middle)
     }
 }
 

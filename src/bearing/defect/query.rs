@@ -12,7 +12,7 @@ impl Depression {
     ///
     /// One beside the defect if the roller is not over it, and then one on the far rim if that is within reach.
     #[inline]
-    pub fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
+    pub(super) fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
         let circles = &self.circles;
         found.clear();
         if !within(offset, self.contact_angle) {

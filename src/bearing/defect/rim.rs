@@ -57,7 +57,7 @@ pub(super) struct RimContact {
 
 impl Rim {
     /// Solves the arc between circle and floor.
-    pub fn new(circles: &Circles, floor: &Floor, radius: f64) -> Self {
+    pub(super) fn new(circles: &Circles, floor: &Floor, radius: f64) -> Self {
         let side = circles.side;
         let centre = |t: f64| {
             let at = floor.at(t);
@@ -89,13 +89,13 @@ impl Rim {
 
     /// Whether the foot of a roller's `centre` on the profile near the joint lies on the floor's side of it.
     #[inline]
-    pub fn beyond_joint(&self, circles: &Circles, centre: Vector) -> bool {
+    pub(super) fn beyond_joint(&self, circles: &Circles, centre: Vector) -> bool {
         circles.sign() * self.joint_point.minus(centre).dot(self.joint_tangent) > 0.0
     }
 
     /// Contact of a roller whose angle is not beyond φ_c, if its foot lies on the arc.
     #[inline]
-    pub fn contact(&self, circles: &Circles, centre: Vector) -> Option<RimContact> {
+    pub(super) fn contact(&self, circles: &Circles, centre: Vector) -> Option<RimContact> {
         if self.beyond_joint(circles, centre) {
             return None;
         }
@@ -117,13 +117,13 @@ impl Rim {
     }
 
     /// Angle from the defect's middle, on the other side of it, beyond which no roller presses on this arc, rad.
-    pub fn farthest_centre(&self, circles: &Circles) -> f64 {
+    pub(super) fn farthest_centre(&self, circles: &Circles) -> f64 {
         farthest_centre(circles, self.radius, self.sine_end) - self.angle
     }
 
     /// Distance from the carrier's centre to the arc at `offset` from the defect's middle, m; `None` where
     /// the profile is floor.
-    pub fn polar_radius(&self, circles: &Circles, offset: f64) -> Option<f64> {
+    pub(super) fn polar_radius(&self, circles: &Circles, offset: f64) -> Option<f64> {
         if offset < self.joint_angle {
             return None;
         }
@@ -137,7 +137,7 @@ impl Rim {
 
     /// How far, m, a roller at the defect's middle that just touches both rims is beyond its place on the
     /// undamaged circle, if they are near enough to hold it.
-    pub fn bridged(&self, circles: &Circles) -> Option<f64> {
+    pub(super) fn bridged(&self, circles: &Circles) -> Option<f64> {
         let side = circles.side;
         let reach = circles.roller + self.radius;
         let along = self.centre.along;

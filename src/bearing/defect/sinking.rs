@@ -1,6 +1,6 @@
 //! How deep a ball sinks into a measured profile: for the report, not for the hot loop.
 
-use super::profile::Profile;
+use super::spline::Profile;
 use super::vector::Vector;
 
 /// Ball positions that are tried first.

@@ -12,6 +12,10 @@
 //!
 //! closes the tridiagonal system for D'' at the samples in between (diagonally dominant: always solvable).
 
+use super::circles::Circles;
+use super::curve::CurvePoint;
+use super::vector::Vector;
+
 /// A cubic polynomial on one interval of the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
@@ -26,7 +30,7 @@ pub(super) struct Piece {
 impl Piece {
     /// D and its first two derivatives with respect to the angle.
     #[inline]
-    pub fn at(&self, angle: f64) -> [f64; 3] {
+    pub(super) fn at(&self, angle: f64) -> [f64; 3] {
         let x = angle - self.ends[0];
         let [c0, c1, c2, c3] = self.coefficients;
         [
@@ -155,6 +159,27 @@ fn second_derivatives(knots: &[(f64, f64)]) -> Vec<f64> {
         bend[i] -= above[i] * bend[i + 1];
     }
     bend
+}
+
+/// A profile's curve: polynomials of the angle over a circle.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Profile {
+    pub circles: Circles,
+    pub pieces: Vec<Piece>,
+}
+
+impl Profile {
+    /// Point of `piece` at `angle` (rad) from the middle; the parameter is the angle.
+    #[inline]
+    pub(super) fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
+        let [depth, slope, bend] = piece.at(angle);
+        let Circles { carrier, side, .. } = self.circles;
+        CurvePoint::polar(
+            Vector::radial(angle),
+            [carrier + side * depth, side * slope, side * bend],
+            [1.0, 0.0],
+        )
+    }
 }
 
 #[cfg(test)]

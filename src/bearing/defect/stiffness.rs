@@ -49,7 +49,7 @@ impl CurvatureStiffness {
     ///
     /// # Errors
     /// [`HertzError`] if Hertz theory refuses a node.
-    pub fn new(
+    pub(super) fn new(
         bearing: &BearingGeometry,
         race: Race,
         circles: &Circles,
@@ -63,7 +63,7 @@ impl CurvatureStiffness {
     ///
     /// # Errors
     /// [`HertzError`] if Hertz theory refuses a node.
-    pub fn for_pairs(
+    pub(super) fn for_pairs(
         bearing: &BearingGeometry,
         race: Race,
         circles: &Circles,
@@ -111,7 +111,7 @@ impl CurvatureStiffness {
 
     /// k at relative curvature `curvature` (1/m), held at the ends of the table; N/m^{3/2}.
     #[inline]
-    pub fn at(&self, curvature: f64) -> f64 {
+    pub(super) fn at(&self, curvature: f64) -> f64 {
         let place = (curvature.clamp(self.least, self.most).ln() - self.log_least) * self.per_log;
         let index = (place as usize).min(INTERVALS - 1);
         let x = place - index as f64;
@@ -124,7 +124,7 @@ impl CurvatureStiffness {
     /// k of two relative principal curvatures (1/m, in any order), N/m^{3/2}; the lesser counts as no less than
     /// [`LEAST_RELATIVE`] of the groove's. It is that of the curvatures `c` times as large times `sqrt(c)`.
     #[inline]
-    pub fn of_pair(&self, [one, other]: [f64; 2]) -> f64 {
+    pub(super) fn of_pair(&self, [one, other]: [f64; 2]) -> f64 {
         let less = one.min(other).max(LEAST_RELATIVE * self.across);
         let ratio = self.across / less;
         self.at(one.max(other).max(less) * ratio) * ratio.sqrt()

@@ -10,14 +10,14 @@ pub(super) struct Vector {
 impl Vector {
     /// Unit vector from the centre at `angle` (rad) from the defect's middle.
     #[inline]
-    pub fn radial(angle: f64) -> Self {
+    pub(super) fn radial(angle: f64) -> Self {
         let (along, outward) = angle.sin_cos();
         Self { along, outward }
     }
 
     /// A quarter turn clockwise: the counter-clockwise tangent of a radial vector.
     #[inline]
-    pub fn tangent(self) -> Self {
+    pub(super) fn tangent(self) -> Self {
         Self {
             along: self.outward,
             outward: -self.along,
@@ -26,7 +26,7 @@ impl Vector {
 
     /// A quarter turn counter-clockwise: the outward normal of a tangent.
     #[inline]
-    pub fn normal(self) -> Self {
+    pub(super) fn normal(self) -> Self {
         Self {
             along: -self.outward,
             outward: self.along,
@@ -34,7 +34,7 @@ impl Vector {
     }
 
     #[inline]
-    pub fn scaled(self, factor: f64) -> Self {
+    pub(super) fn scaled(self, factor: f64) -> Self {
         Self {
             along: factor * self.along,
             outward: factor * self.outward,
@@ -42,7 +42,7 @@ impl Vector {
     }
 
     #[inline]
-    pub fn plus(self, other: Self) -> Self {
+    pub(super) fn plus(self, other: Self) -> Self {
         Self {
             along: self.along + other.along,
             outward: self.outward + other.outward,
@@ -50,7 +50,7 @@ impl Vector {
     }
 
     #[inline]
-    pub fn minus(self, other: Self) -> Self {
+    pub(super) fn minus(self, other: Self) -> Self {
         Self {
             along: self.along - other.along,
             outward: self.outward - other.outward,
@@ -58,18 +58,18 @@ impl Vector {
     }
 
     #[inline]
-    pub fn dot(self, other: Self) -> f64 {
+    pub(super) fn dot(self, other: Self) -> f64 {
         self.along * other.along + self.outward * other.outward
     }
 
     #[inline]
-    pub fn length(self) -> f64 {
+    pub(super) fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
 
     /// Mirror image in the defect's middle.
     #[inline]
-    pub fn mirrored(self) -> Self {
+    pub(super) fn mirrored(self) -> Self {
         Self {
             along: -self.along,
             outward: self.outward,

@@ -13,7 +13,7 @@ pub(super) struct NodeGraph {
 impl NodeGraph {
     /// Couples all nodes of each group of `groups`. Nodes in no group keep themselves, so that a matrix has
     /// every degree of freedom on its diagonal.
-    pub fn new(nodes: usize, groups: &[&[usize]]) -> Self {
+    pub(super) fn new(nodes: usize, groups: &[&[usize]]) -> Self {
         let mut starts = vec![0_usize; nodes + 1];
         for group in groups {
             for &node in *group {
@@ -103,7 +103,7 @@ pub(super) struct Local<'a> {
 }
 
 impl<'g> BlockMatrix<'g> {
-    pub fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
+    pub(super) fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
         let entries = dimension * rows_a_neighbour(dimension, coupling) * graph.neighbours.len();
         Self {
             graph,
@@ -115,7 +115,7 @@ impl<'g> BlockMatrix<'g> {
 
     /// Adds matrices in their order. The columns are shared out among threads, every entry is summed by one of
     /// them in the order of `locals`: the result does not depend on how many there are.
-    pub fn add(&mut self, locals: &[Local<'_>]) {
+    pub(super) fn add(&mut self, locals: &[Local<'_>]) {
         let per_node = self.dimension * rows_a_neighbour(self.dimension, self.coupling);
         let (graph, dimension, coupling) = (self.graph, self.dimension, self.coupling);
         let mut rest = self.values.as_mut_slice();
@@ -146,7 +146,7 @@ impl<'g> BlockMatrix<'g> {
     }
 
     /// The matrix in compressed columns.
-    pub fn into_matrix(self) -> SparseMatrix {
+    pub(super) fn into_matrix(self) -> SparseMatrix {
         let (d, graph) = (self.dimension, self.graph);
         let order = d * graph.nodes();
         let mut offsets = Vec::with_capacity(order + 1);

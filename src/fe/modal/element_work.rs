@@ -24,7 +24,7 @@ pub(super) struct ElementWork {
 }
 
 impl ElementWork {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             stiffness: vec![0.0; MAX_DOF * MAX_DOF],
             mass: vec![0.0; MAX_NODES * MAX_NODES],
@@ -36,7 +36,7 @@ impl ElementWork {
     }
 
     /// Degrees of freedom of the element.
-    pub fn dof(&self) -> usize {
+    pub(super) fn dof(&self) -> usize {
         self.dof
     }
 
@@ -44,7 +44,7 @@ impl ElementWork {
     ///
     /// # Errors
     /// [`ModelError::Element`] with its tag if it is inverted or degenerate.
-    pub fn load(
+    pub(super) fn load(
         &mut self,
         model: &HousingModel,
         element: &HousingElement,
@@ -83,7 +83,7 @@ impl ElementWork {
     }
 
     /// Displacements of the element's nodes in a mode.
-    pub fn moves(
+    pub(super) fn moves(
         &self,
         model: &HousingModel,
         element: &HousingElement,
@@ -98,7 +98,7 @@ impl ElementWork {
 
     /// Takes the mean translation and the mean turn out: K_e does not resist them, and round-off of what is left
     /// is relative to the element's own deformation.
-    pub fn take_rigid_out(&self, d: usize, moves: &mut [f64; MAX_DOF]) {
+    pub(super) fn take_rigid_out(&self, d: usize, moves: &mut [f64; MAX_DOF]) {
         for i in 0..d {
             let mean = (0..self.nodes).map(|a| moves[d * a + i]).sum::<f64>() / self.nodes as f64;
             (0..self.nodes).for_each(|a| moves[d * a + i] -= mean);
@@ -119,7 +119,7 @@ impl ElementWork {
     }
 
     /// `K_e u`.
-    pub fn force(&self, moves: &[f64; MAX_DOF], force: &mut [f64; MAX_DOF]) {
+    pub(super) fn force(&self, moves: &[f64; MAX_DOF], force: &mut [f64; MAX_DOF]) {
         let moves = &moves[..self.dof];
         let columns = self.stiffness[..self.dof * self.dof].chunks_exact(self.dof);
         for (to, column) in force.iter_mut().zip(columns) {
@@ -128,7 +128,7 @@ impl ElementWork {
     }
 
     /// `[phi_e^T K_e phi_e, phi_e^T M_e phi_e]`.
-    pub fn energies(
+    pub(super) fn energies(
         &self,
         model: &HousingModel,
         element: &HousingElement,

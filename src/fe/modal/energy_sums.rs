@@ -34,7 +34,7 @@ impl Sums {
         self.parts + self.groups
     }
 
-    pub fn of_mode(&self, mode: usize) -> Rows<'_> {
+    pub(super) fn of_mode(&self, mode: usize) -> Rows<'_> {
         Rows {
             sums: self,
             first: 2 * self.width() * mode,
@@ -58,19 +58,19 @@ impl<'s> Rows<'s> {
             .copied()
     }
 
-    pub fn strain_parts(self) -> impl Iterator<Item = f64> + 's {
+    pub(super) fn strain_parts(self) -> impl Iterator<Item = f64> + 's {
         self.slice(0, self.sums.parts)
     }
 
-    pub fn strain_groups(self) -> impl Iterator<Item = f64> + 's {
+    pub(super) fn strain_groups(self) -> impl Iterator<Item = f64> + 's {
         self.slice(self.sums.parts, self.sums.groups)
     }
 
-    pub fn kinetic_parts(self) -> impl Iterator<Item = f64> + 's {
+    pub(super) fn kinetic_parts(self) -> impl Iterator<Item = f64> + 's {
         self.slice(self.sums.width(), self.sums.parts)
     }
 
-    pub fn kinetic_groups(self) -> impl Iterator<Item = f64> + 's {
+    pub(super) fn kinetic_groups(self) -> impl Iterator<Item = f64> + 's {
         self.slice(self.sums.width() + self.sums.parts, self.sums.groups)
     }
 }

@@ -1,8 +1,9 @@
 //! Modes of a housing, a ring, or both over the free degrees of freedom of their matrices.
 
-use super::{ModalBasis, ModalError, ModeRange, Participation};
-use crate::fe::assembly::{CoupledMatrices, CoupledMotions};
-use crate::numerics::Watch;
+use super::{ModalBasis, ModalError, ModeRange, Participation, strain_products};
+use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
+use crate::fe::model::HousingModel;
+use crate::numerics::{Unwatched, Watch};
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows, sparse_times_dense};
 
 /// Modes of a housing, a ring, or both.
@@ -152,4 +153,21 @@ impl FullModes {
     pub fn over_all_rows(&self) -> DenseMatrix {
         self.rows.all(&self.basis.shapes)
     }
+}
+
+/// Modes over the free degrees of freedom, those near zero by the energies of elements: the frequencies of `plummer modes`. Whether
+/// the housing is held need not be said.
+///
+/// # Errors
+/// [`ModalError`] of factorisation, iteration, proof or elements; [`ModalError::NoModes`] for a range without any.
+pub fn housing_modes(
+    model: &HousingModel,
+    matrices: SystemMatrices,
+    range: ModeRange,
+) -> Result<ModalBasis, ModalError> {
+    let matrices = CoupledMatrices::of_housing(matrices, model);
+    let products = |motions: &CoupledMotions, all: &DenseMatrix| {
+        strain_products(model, &motions.housing(model, all))
+    };
+    Ok(FullModes::sharpened(matrices, range, products, &Unwatched)?.basis)
 }

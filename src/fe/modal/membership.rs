@@ -17,7 +17,7 @@ pub(super) struct Membership {
 impl Membership {
     /// A model takes the elements of the highest dimension in the mesh's order, so that counting them block by
     /// block gives their place in it.
-    pub fn new(mesh: &Mesh, model: &HousingModel) -> Result<Self, ModalError> {
+    pub(super) fn new(mesh: &Mesh, model: &HousingModel) -> Result<Self, ModalError> {
         let mut first = Vec::with_capacity(mesh.blocks.len());
         let mut count = 0;
         for block in &mesh.blocks {
@@ -53,7 +53,7 @@ impl Membership {
     }
 
     /// Groups of an element, as places in `names`.
-    pub fn of(&self, element: usize) -> &[usize] {
+    pub(super) fn of(&self, element: usize) -> &[usize] {
         let range = self.starts[element]..self.starts[element + 1];
         &self.groups[range]
     }

@@ -67,7 +67,7 @@ pub fn over_all_dofs(
 
 /// Unit rigid motions of a ring's nodes [ring dof x 3 or 6] in the order of [`rigid_motions`]: along the mesh's axes and
 /// about axes along them through `about` (m), for a ring that sits at `frame`.
-pub fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
+pub(crate) fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
     let centre = frame.centre();
     let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
     let motion = |translation: [f64; 3], rotation: [f64; 3]| {

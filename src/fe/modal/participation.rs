@@ -55,7 +55,7 @@ impl Participation {
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the numbers of rows differ.
-    pub fn of_normalised(
+    pub(crate) fn of_normalised(
         moved: &DenseMatrix,
         shapes: &DenseMatrix,
         rigid: &DenseMatrix,

@@ -1,7 +1,8 @@
 //! Supports and point masses on the nodes of a housing.
 
 use super::ModelError;
-use super::housing::{HousingModel, NodalMatrix, NodalSource};
+use super::housing::HousingModel;
+use super::nodal::{NodalMatrix, NodalSource};
 use super::spread::{Share, shares};
 use super::support::{Constraint, PointMass, SpringStiffness, SupportShare};
 use crate::fe::mesh::Mesh;

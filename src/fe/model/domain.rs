@@ -11,7 +11,7 @@ pub(super) struct Domain {
 }
 
 impl Domain {
-    pub fn of(kind: SurfaceKind) -> Self {
+    pub(super) fn of(kind: SurfaceKind) -> Self {
         const ENDS: [[[f64; 2]; 2]; 2] = [[[-1.0, 0.0]; 2], [[1.0, 0.0]; 2]];
         const TRIANGLE: [[[f64; 2]; 2]; 3] = [
             [[0.0, 0.0], [1.0, 0.0]],
@@ -47,12 +47,12 @@ impl Domain {
     }
 
     /// Inside or on the boundary, but for round-off.
-    pub fn contains(&self, natural: [f64; 2]) -> bool {
+    pub(super) fn contains(&self, natural: [f64; 2]) -> bool {
         self.within(natural, 1e-12)
     }
 
     /// Not so far out that a search from there could still end inside.
-    pub fn near(&self, natural: [f64; 2]) -> bool {
+    pub(super) fn near(&self, natural: [f64; 2]) -> bool {
         self.within(natural, 1.0)
     }
 }

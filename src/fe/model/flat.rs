@@ -7,7 +7,7 @@
 //! the two: without these bubbles a flat one locks in bending, by `1 / (1 + (L / H)^2 / 2)`.
 
 use super::elements::element_kind;
-use super::housing::NodalSource;
+use super::nodal::NodalSource;
 use super::{HousingElement, HousingModel};
 use crate::fe::element::continuum::{ContinuumKind, LinearFormulation};
 use nalgebra::Vector3;

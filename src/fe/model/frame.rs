@@ -70,7 +70,7 @@ impl RingFrame {
 
     /// Unit vectors (radial, tangential, axial) at a point (m, mesh axes), in the mesh's axes as rows; radial
     /// is the frame's x on the axis itself.
-    pub fn polar_axes(&self, point: [f64; 3]) -> [[f64; 3]; 3] {
+    pub(crate) fn polar_axes(&self, point: [f64; 3]) -> [[f64; 3]; 3] {
         let [x, y, _] = self.point(point);
         let (sin, cos) = y.atan2(x).sin_cos();
         [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]].map(|v| self.vector_to_mesh(v))

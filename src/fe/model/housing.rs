@@ -1,14 +1,14 @@
 //! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::elements::{HousingElements, highest_dimension};
-use super::link::TiedNodes;
+use super::elements::HousingElements;
+use super::nodal::{NodalMatrix, NodalSource, TiedNodes};
+use super::parts::highest_dimension;
 use super::support::{HousingSupport, Link, PointMass};
 use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
-use nalgebra::DMatrix;
 
 /// A group of elements and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,23 +47,6 @@ pub struct HousingDescription {
     pub overlap: OverlapRule,
     /// Where the bearing sits.
     pub frame: RingFrame,
-}
-
-/// A symmetric matrix on some nodes: springs, or the share of a point mass.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NodalMatrix {
-    pub nodes: Vec<usize>,
-    pub matrix: DMatrix<f64>,
-    /// What asked for it.
-    pub source: NodalSource,
-}
-
-/// What a nodal matrix belongs to; indices into the lists of the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum NodalSource {
-    Support(usize),
-    Link(usize),
-    Mass(usize),
 }
 
 /// A housing with everything that its matrices need.
@@ -285,7 +268,7 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`], [`ModelError::GroupOrder`].
-    pub fn group_on_housing<'m>(
+    pub(crate) fn group_on_housing<'m>(
         &self,
         mesh: &'m Mesh,
         name: &str,

@@ -1,8 +1,19 @@
-//! Nodes of the mesh as the interface of a condensed housing.
+//! How the degrees of freedom of a housing split at its interface, and nodes of the mesh as one.
 
-use super::{HousingModel, HousingPartition};
-use crate::numerics::linalg::TripletBuilder;
+use super::HousingModel;
+use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
 use std::collections::BTreeSet;
+
+/// Degrees of freedom of a housing seen from its interface.
+#[derive(Debug, Clone)]
+pub struct HousingPartition {
+    /// Degrees of freedom that the tie drives.
+    pub driven: Vec<usize>,
+    /// Degrees of freedom that stay free, neither driven nor fixed, ascending.
+    pub interior: Vec<usize>,
+    /// T: displacements of `driven` from the interface coordinates [driven x interface].
+    pub tie: SparseMatrix,
+}
 
 /// Nodes as an interface, and what could not be part of it.
 #[derive(Debug, Clone)]
@@ -17,7 +28,7 @@ pub struct NodeInterface {
 
 impl NodeInterface {
     /// What holds or ties the displacements that are left out, in words.
-    pub fn holders(&self, model: &HousingModel) -> String {
+    pub(crate) fn holders(&self, model: &HousingModel) -> String {
         let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
         let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
         let groups = supports.iter().map(|&place| &model.supports[place].group);

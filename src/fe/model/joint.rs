@@ -1,8 +1,8 @@
 //! The two sides of a link: which faces and nodes of two groups are connected.
 
 use super::ModelError;
-use super::surface::{Foot, Surface};
-use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
+use super::surface::{Foot, SideFace, Surface};
+use crate::fe::mesh::{Mesh, PhysicalGroup};
 
 /// Distance up to which faces of two bodies count as lying on each other, in sizes of the face: the sagitta of an arc
 /// of 60 degrees over its chord.
@@ -11,15 +11,6 @@ const TOUCH: f64 = 0.134;
 /// Distance from the faces of a body that lie on the other side, in sizes of the face, from which on the others are looked
 /// at too: those that reach over the edge of the other side.
 const BESIDE: f64 = 1e-6;
-
-/// An element of a side: a curve, a face or a point.
-#[derive(Debug, Clone)]
-pub(super) struct SideFace {
-    pub kind: ElementKind,
-    pub nodes: Vec<usize>,
-    /// gmsh's tag of the element, or of the one behind it.
-    pub tag: u64,
-}
 
 /// What of a group is connected.
 #[derive(Debug, Clone)]
@@ -40,7 +31,7 @@ impl Side {
     ///
     /// # Errors
     /// [`ModelError::LinkApart`] if nothing of one side is on the housing or on the other side.
-    pub fn both(
+    pub(super) fn both(
         mesh: &Mesh,
         groups: [&PhysicalGroup; 2],
         used: &[bool],
@@ -104,7 +95,7 @@ impl Side {
     }
 
     /// The search for the point of this side that is nearest to another one.
-    pub fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
+    pub(super) fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
         let [touching, whole] =
             [&self.faces, &self.boundary].map(|faces| Surface::new(mesh, faces));
         move |point| {

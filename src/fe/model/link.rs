@@ -1,32 +1,20 @@
 //! Connections between two groups of a housing: springs, and ties of surfaces that do not match.
 
-use super::housing::{HousingModel, NodalMatrix, NodalSource};
+use super::housing::HousingModel;
 use super::joint::Side;
+use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes};
 use super::overlap::Tied;
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
-use super::{Apart, ModelError, OverlapRule, elements::dimension_name};
+use super::{Apart, ModelError, OverlapRule, parts::dimension_name};
 use crate::fe::mesh::Mesh;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
-use nalgebra::{DMatrix, Matrix3};
-use std::collections::BTreeMap;
+use nalgebra::DMatrix;
 
 /// Largest gap of a tie, in sizes of the face that the node is tied to: the sagitta of two coarse arcs is an eighth
 /// of it, a part that was drawn elsewhere is many.
 const LARGEST_GAP: f64 = 0.5;
-
-/// A node that moves with a face: `u = sum_i follow_i u_i`.
-#[derive(Debug, Clone)]
-pub(crate) struct TiedNode {
-    pub nodes: Vec<usize>,
-    pub follow: Vec<Matrix3<f64>>,
-    /// The nearest point of the face, m, and the face's size, m.
-    pub foot: [f64; 3],
-    pub size: f64,
-    /// Index of the link.
-    pub link: usize,
-}
 
 impl HousingModel {
     /// Adds what a link asks for.
@@ -288,7 +276,7 @@ impl HousingModel {
 
     /// The row of a displacement component at a node: pairs (degree of freedom, factor). `direction` is in the mesh's
     /// axes; its z does not count in the plane. A tied node moves with those that it follows.
-    pub fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
+    pub(crate) fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
         let d = self.dimension;
         let entries = self.tied_entries(node).into_iter();
         entries
@@ -337,6 +325,3 @@ impl Side {
         )
     }
 }
-
-/// Tied nodes by their index.
-pub(super) type TiedNodes = BTreeMap<usize, TiedNode>;

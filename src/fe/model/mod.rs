@@ -11,8 +11,9 @@ mod housing;
 mod interface;
 mod joint;
 mod link;
+mod nodal;
 mod overlap;
-mod partition;
+mod parts;
 mod ring;
 mod section_springs;
 mod solid_ring;
@@ -22,20 +23,18 @@ mod surface;
 mod tie;
 
 pub use elements::{HousingElement, HousingElements};
-pub(crate) use elements::{continuum_kind, element_kind};
+pub(crate) use elements::{continuum_kind, element_kind, surface_kind};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
-pub(crate) use housing::{NodalMatrix, NodalSource};
-pub use interface::NodeInterface;
+pub use interface::{HousingPartition, NodeInterface};
+pub(crate) use nodal::{NodalMatrix, NodalSource};
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
-pub use partition::HousingPartition;
 pub use ring::{
     RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,
 };
 pub use solid_ring::{MeshedRing, SolidRing};
-pub(crate) use spread::surface_kind;
 pub use support::{
     Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare,
 };

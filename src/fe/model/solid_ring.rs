@@ -64,7 +64,7 @@ impl SolidRing {
     ///
     /// `frame` says where the axis is; that of a plane ring is along the mesh's z, and all nodes take the z of the mesh's
     /// first node. Middle nodes lie on the circles themselves.
-    pub fn added_to(&self, mesh: &Mesh, frame: &RingFrame, dimension: usize) -> MeshedRing {
+    pub(crate) fn added_to(&self, mesh: &Mesh, frame: &RingFrame, dimension: usize) -> MeshedRing {
         let grid = Grid::new(self, mesh, frame, dimension);
         let mut mesh = mesh.clone();
         let first_tag = mesh.node_tags.iter().max().map_or(1, |tag| tag + 1);

@@ -4,7 +4,7 @@
 //! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
-use super::elements::continuum_kind;
+use super::elements::{continuum_kind, surface_kind};
 use crate::fe::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;
@@ -115,22 +115,9 @@ impl Spread {
     }
 }
 
-/// The curve or surface element of a mesh element; `None` for points and volumes.
-pub(crate) fn surface_kind(kind: ElementKind) -> Option<SurfaceKind> {
-    match kind {
-        ElementKind::Line2 => Some(SurfaceKind::Line2),
-        ElementKind::Line3 => Some(SurfaceKind::Line3),
-        ElementKind::Tri3 => Some(SurfaceKind::Tri3),
-        ElementKind::Tri6 => Some(SurfaceKind::Tri6),
-        ElementKind::Quad4 => Some(SurfaceKind::Quad4),
-        ElementKind::Quad8 => Some(SurfaceKind::Quad8),
-        _ => None,
-    }
-}
-
 impl Share {
     /// A node that carries everything by itself.
-    pub fn of_node(node: usize) -> Self {
+    pub(super) fn of_node(node: usize) -> Self {
         Self {
             nodes: vec![node],
             matrix: DMatrix::from_element(1, 1, 1.0),

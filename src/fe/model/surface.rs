@@ -1,10 +1,9 @@
 //! The surface of one side of a link, and the point of it that is nearest to a given one.
 
 use super::domain::Domain;
-use super::joint::SideFace;
-use super::spread::surface_kind;
+use super::elements::surface_kind;
 use crate::fe::element::continuum::{SurfaceKind, surface_shape};
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{ElementKind, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
 /// Steps of the search for a foot; on a plane face one is enough, on a curved one each gains a factor of
@@ -13,6 +12,15 @@ const STEPS: usize = 40;
 
 /// How far a curved face may bulge beyond the box of its nodes, relative to the box.
 const BULGE: f64 = 0.25;
+
+/// An element of a side: a curve, a face or a point.
+#[derive(Debug, Clone)]
+pub(super) struct SideFace {
+    pub kind: ElementKind,
+    pub nodes: Vec<usize>,
+    /// gmsh's tag of the element, or of the one behind it.
+    pub tag: u64,
+}
 
 /// Curves (plane housings) or faces (solid ones), or as many single points.
 #[derive(Debug)]
@@ -47,7 +55,7 @@ pub(super) struct Foot {
 
 impl<'m> Surface<'m> {
     /// The surface that these faces make.
-    pub fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
+    pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
         let face = |face: &SideFace| Face::new(mesh, surface_kind(face.kind), &face.nodes);
         Self {
             mesh,
@@ -56,7 +64,7 @@ impl<'m> Surface<'m> {
     }
 
     /// The point nearest to `point` (m); `None` if the surface is empty.
-    pub fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
+    pub(super) fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
         let point = Vector3::from(point);
         let mut best: Option<(f64, &Face, [f64; 2])> = None;
         for face in &self.faces {
@@ -258,7 +266,7 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::mesh::{ElementKind, MshFormat, MshVersion};
+    use crate::fe::mesh::{MshFormat, MshVersion};
     use std::path::PathBuf;
 
     fn mesh(nodes: &[[f64; 3]]) -> Mesh {

@@ -122,7 +122,7 @@ impl RingTie {
 
     /// The row of a displacement component at a node, in the partition's displacements:
     /// pairs (degree of freedom, factor). `direction` is in the mesh's axes; its z does not count in the plane.
-    pub fn displacement_row(
+    pub(crate) fn displacement_row(
         &self,
         housing: &HousingModel,
         node: usize,

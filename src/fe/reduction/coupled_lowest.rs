@@ -55,7 +55,7 @@ struct Bordered {
 }
 
 impl<'a> CoupledProblem<'a> {
-    pub fn new(interface: &'a CharacteristicModes) -> Self {
+    pub(super) fn new(interface: &'a CharacteristicModes) -> Self {
         let rigid = interface.vectors.subcols(0, interface.rigid());
         let held = rigid.transpose() * &interface.stiffness * &interface.vectors;
         Self {
@@ -68,7 +68,7 @@ impl<'a> CoupledProblem<'a> {
     ///
     /// # Errors
     /// What the dense solvers report.
-    pub fn lowest(
+    pub(super) fn lowest(
         &self,
         basis: &InteriorBasis,
         count: usize,

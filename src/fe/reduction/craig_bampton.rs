@@ -7,8 +7,9 @@
 //! (Craig and Bampton, AIAA Journal 6 (1968) 1313-1319.) Static interface response is exact; frequencies converge from
 //! above.
 
+use super::basis_vectors::BasisChoice;
 use super::coupled_modes::reduced_matrices;
-use super::selection::{BasisChoice, choose_basis};
+use super::selection::choose_basis;
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
@@ -67,7 +68,7 @@ impl CraigBampton {
     }
 
     /// The same with the imaginary part of the stiffness of lossy parts [dof x dof], N/m.
-    pub fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
+    pub(crate) fn with_structural(mut self, matrix: &SparseMatrix) -> Self {
         self.superelement.structural = Some(self.condensed(matrix));
         self
     }
@@ -122,7 +123,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub fn with_loads(
+    pub(crate) fn with_loads(
         self,
         loads: &DenseMatrix,
         weight: &DenseMatrix,
@@ -138,7 +139,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub fn with_forces(
+    pub(crate) fn with_forces(
         self,
         forces: DenseMatrix,
         weight: &DenseMatrix,

@@ -93,7 +93,7 @@ impl InteriorBasis {
     ///
     /// # Errors
     /// [`ReductionError::Linalg`] for vectors that are not finite.
-    pub fn extended(
+    pub(crate) fn extended(
         &self,
         substructure: &Substructure,
         mut z: DenseMatrix,

@@ -1,6 +1,7 @@
 //! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
 //! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
+mod basis_vectors;
 mod characteristic_modes;
 mod checks;
 mod coupled_lowest;
@@ -21,6 +22,7 @@ mod smallest_basis;
 mod substructure;
 mod superelement;
 
+pub use basis_vectors::{BasisChoice, BasisSize};
 pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
 pub use checks::{
     Bound, Check, RigidMotions, check_craig_bampton, check_interface_reduction, check_matrices,
@@ -34,7 +36,7 @@ pub use interior_basis::InteriorBasis;
 pub use residual_flexibility::ResidualFlexibility;
 pub(crate) use response_estimate::UNCOUPLED;
 pub use response_estimate::{InteriorDamping, ResponseEstimate};
-pub use selection::{BasisChoice, BasisSize, choose_basis};
+pub use selection::choose_basis;
 pub use size_study::{ReducedSize, SizeErrors, size_study};
 pub use substructure::Substructure;
 pub use superelement::Superelement;

@@ -94,13 +94,13 @@ fn left_out(
 impl CraigBampton {
     /// `B p` for motions in columns [order x k]: what the interior needs for their inertia, per unit of squared frequency
     /// [interior x k].
-    pub fn inertia_of(&self, motions: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn inertia_of(&self, motions: &DenseMatrix) -> DenseMatrix {
         interior_inertia(&self.substructure, &self.basis, motions)
     }
 
     /// `S p` for motions in columns [order x k]: what a matrix over the housing's degrees of freedom takes of the interior
     /// [interior x k].
-    pub fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
         let whole = sparse_times_dense(matrix, &self.field(motions, matrix.rows()));
         let interior = &self.substructure.partition().interior;
         DenseMatrix::from_fn(interior.len(), whole.ncols(), |row, column| {

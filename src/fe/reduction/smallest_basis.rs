@@ -1,7 +1,7 @@
 //! The smallest basis of which the estimated error in a band is below a target.
 
+use super::basis_vectors::{BasisChoice, modes, modes_to, with_residuals};
 use super::coupled_modes::{Attached, coupled_modes};
-use super::selection::{BasisChoice, modes, modes_to, with_residuals};
 use super::{ErrorEstimate, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::SymmetricSpectrum;
 use std::f64::consts::TAU;

@@ -159,18 +159,18 @@ impl Substructure {
     ///
     /// # Errors
     /// [`LinalgError::Shape`].
-    pub fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+    pub(crate) fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
         self.factor.solve_columns(&mut r)?;
         Ok(r)
     }
 
     /// `K_ii X` for `X` [interior x k].
-    pub fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
         self.interior.stiffness_times(x)
     }
 
     /// `M_ii X` for `X` [interior x k].
-    pub fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
         self.interior.mass_times(x)
     }
 
@@ -181,7 +181,7 @@ impl Substructure {
     }
 
     /// `A^T X` for `X` [interior x k].
-    pub fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
         self.constraint_modes.transpose() * self.mass_times(x)
             + transpose_times_dense(&self.mass_ib, x)
     }
@@ -192,14 +192,6 @@ impl Substructure {
     /// What the eigenvalue iteration reports.
     pub fn lowest_modes(&self, count: usize) -> Result<EigenPairs, ReductionError> {
         Ok(self.interior.lowest(count)?)
-    }
-
-    /// Fixed-interface modes below an eigenvalue, 1/s^2.
-    ///
-    /// # Errors
-    /// What the eigenvalue iteration reports.
-    pub fn modes_below(&self, value: f64) -> Result<EigenPairs, ReductionError> {
-        Ok(self.interior.below(value)?)
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) struct Basis<'p> {
 
 impl<'p> Basis<'p> {
     /// An empty basis with room for so many vectors.
-    pub fn new(mass: &'p SymmetricMatrix, room: usize) -> Self {
+    pub(super) fn new(mass: &'p SymmetricMatrix, room: usize) -> Self {
         Self {
             mass,
             vectors: DenseMatrix::zeros(mass.order(), room),
@@ -39,17 +39,17 @@ impl<'p> Basis<'p> {
     }
 
     /// Number of vectors.
-    pub fn size(&self) -> usize {
+    pub(super) fn size(&self) -> usize {
         self.size
     }
 
     /// How many more vectors it can hold.
-    pub fn room(&self) -> usize {
+    pub(super) fn room(&self) -> usize {
         self.vectors.ncols() - self.size
     }
 
     /// V [n x size].
-    pub fn vectors(&self) -> MatRef<'_, f64> {
+    pub(super) fn vectors(&self) -> MatRef<'_, f64> {
         self.vectors.as_ref().subcols(0, self.size)
     }
 
@@ -58,7 +58,7 @@ impl<'p> Basis<'p> {
     ///
     /// # Errors
     /// [`LinalgError::DenseEigen`] for values that are not finite.
-    pub fn extend(
+    pub(super) fn extend(
         &mut self,
         mut w: MatMut<'_, f64>,
         mut product: MatMut<'_, f64>,
@@ -108,7 +108,7 @@ impl<'p> Basis<'p> {
     }
 
     /// Replaces the basis by the combinations `V y`, y [size x k] with orthonormal columns.
-    pub fn rotate(&mut self, y: MatRef<'_, f64>) {
+    pub(super) fn rotate(&mut self, y: MatRef<'_, f64>) {
         let vectors = times(self.vectors(), y);
         self.size = y.ncols();
         self.vectors
@@ -198,7 +198,7 @@ fn orthonormalise(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pseudo_random;
+    use super::super::dense::pseudo_random;
     use super::*;
 
     /// A mass of 200 unequal entries.

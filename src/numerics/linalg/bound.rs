@@ -37,7 +37,7 @@ impl Quality {
     /// parts `c_j v_j` of x, and `r^T F^-1 r = sum c_j^2 (lambda_j - lambda)^2 / (lambda_j - sigma)`: it is at most
     /// `r^T F^-1 r (lambda_j - sigma) / |lambda_j - lambda|` for the nearest other eigenvalue `lambda_j`; of a cluster all
     /// residuals count together. The error of F enters by its contraction c, as a factor `1 / (1 - c)`.
-    pub fn of(
+    pub(super) fn of(
         stiffness: &SymmetricMatrix,
         mass: &SymmetricMatrix,
         factor: &Factor,

@@ -5,6 +5,7 @@ use super::factor::{Factor, FactorMemory};
 use super::numeric::Kind;
 use super::symbolic::Symbolic;
 use super::symmetric::SymmetricMatrix;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Where in a gap eigenvalues are counted, one place after the other until the factor is good.
@@ -21,6 +22,17 @@ pub struct CountCheck {
     pub counted: usize,
     /// Eigenvalues below it that were found.
     pub found: usize,
+}
+
+impl CountCheck {
+    /// The error of a count that does not agree.
+    pub(super) fn missing(self) -> LinalgError {
+        LinalgError::MissingModes {
+            below_hz: self.below.max(0.0).sqrt() / TAU,
+            counted: self.counted,
+            found: self.found,
+        }
+    }
 }
 
 /// Number of eigenvalues of `K x = lambda M x` below `value`; `symbolic` is the analysis of their common pattern.

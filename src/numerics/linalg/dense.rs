@@ -1,6 +1,6 @@
 //! Dense symmetric and general eigenvalue problems, by faer.
 
-use super::{DenseMatrix, LinalgError, run_sequentially};
+use super::{DenseMatrix, LinalgError};
 use faer::linalg::solvers::Llt;
 use faer::prelude::Solve;
 use faer::{Side, c64};
@@ -68,7 +68,7 @@ impl DenseCholesky {
 ///
 /// # Errors
 /// [`LinalgError::DenseEigen`] if the iteration does not converge (values that are not finite).
-pub fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
+pub(crate) fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
     run_sequentially();
     let failed = || LinalgError::DenseEigen { order: a.nrows() };
     if a.nrows() == 0 {
@@ -194,6 +194,30 @@ pub fn general_spectrum(a: &DenseMatrix) -> Result<GeneralSpectrum, LinalgError>
         values: eigen.S().column_vector().iter().copied().collect(),
         vectors: eigen.U().to_owned(),
     })
+}
+
+/// Makes faer run sequentially: sums are then formed in one order whatever the machine.
+pub(super) fn run_sequentially() {
+    use std::sync::Once;
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| faer::set_global_parallelism(faer::Par::Seq));
+}
+
+/// Numbers in (-1/2, 1/2) without pattern (xorshift, Marsaglia, J. Stat. Soft. 8 (2003) 14), the same for the same
+/// `start`: no mode is orthogonal to them by accident, and every run repeats.
+pub(super) fn pseudo_random(rows: usize, columns: usize, start: u64) -> DenseMatrix {
+    let mut state = 0x9e37_79b9_7f4a_7c15 ^ start.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut matrix = DenseMatrix::zeros(rows, columns);
+    for column in 0..columns {
+        matrix.col_as_slice_mut(column).fill_with(&mut next);
+    }
+    matrix
 }
 
 #[cfg(test)]

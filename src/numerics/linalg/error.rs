@@ -216,13 +216,4 @@ impl LinalgError {
                 | Self::Arpack { .. }
         )
     }
-
-    /// The error of a count that does not agree.
-    pub(super) fn missing(check: super::CountCheck) -> Self {
-        Self::MissingModes {
-            below_hz: check.below.max(0.0).sqrt() / std::f64::consts::TAU,
-            counted: check.counted,
-            found: check.found,
-        }
-    }
 }

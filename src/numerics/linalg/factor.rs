@@ -1,9 +1,10 @@
 //! A factor with a measure of how good it is, in single precision where that serves.
 
+use super::LinalgError;
+use super::dense::pseudo_random;
 use super::numeric::{Kind, NumericFactor};
-use super::symbolic::Symbolic;
+use super::symbolic::{SMALL, Symbolic};
 use super::symmetric::SymmetricMatrix;
-use super::{LinalgError, pseudo_random};
 use faer::MatMut;
 use std::sync::Arc;
 
@@ -14,9 +15,6 @@ pub(super) const LARGEST_CONTRACTION: f64 = 0.1;
 /// Contraction of a factor in double precision above which the matrix is so ill-conditioned (1e8) that round-off in its
 /// lowest modes is felt: a shift helps.
 const DULL: f64 = 1e-8;
-
-/// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
-pub(super) const SMALL: usize = 1 << 22;
 
 /// Vectors with which the contraction is measured, and how often it is applied to them: the first time brings out
 /// the factor's worst directions, the second measures them.
@@ -59,7 +57,7 @@ impl Factor {
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
     /// the factor in double precision does not solve its own system either.
-    pub fn new(
+    pub(super) fn new(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -79,7 +77,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`], already if single precision does not suffice.
-    pub fn quick(
+    pub(super) fn quick(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -106,7 +104,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub fn double(
+    pub(super) fn double(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -120,7 +118,7 @@ impl Factor {
     ///
     /// # Errors
     /// [`LinalgError::Factorisation`], [`LinalgError::NotPositiveDefinite`].
-    pub fn unjudged(
+    pub(super) fn unjudged(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -137,7 +135,7 @@ impl Factor {
 
     /// A factor in single precision, however small it is.
     #[cfg(test)]
-    pub fn single_for_test(
+    pub(crate) fn single_for_test(
         symbolic: &Arc<Symbolic>,
         a: &SymmetricMatrix,
     ) -> Result<Self, LinalgError> {
@@ -146,18 +144,18 @@ impl Factor {
     }
 
     /// Where its entries are.
-    pub fn symbolic(&self) -> &Arc<Symbolic> {
+    pub(super) fn symbolic(&self) -> &Arc<Symbolic> {
         &self.symbolic
     }
 
     /// Whether its entries are in double precision.
-    pub fn is_double(&self) -> bool {
+    pub(super) fn is_double(&self) -> bool {
         matches!(self.numbers, Numbers::Double(_))
     }
 
     /// This factor of `a` with its entries rounded to single precision, half as much to read for every solve; `None` if it is
     /// small, or no longer sharp.
-    pub fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
+    pub(super) fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
         match &self.numbers {
             Numbers::Double(numbers) if self.symbolic.entries() > SMALL => {
                 let rounded = Numbers::Single(numbers.rounded());
@@ -211,7 +209,7 @@ impl Factor {
     }
 
     /// Whether the matrix is well enough conditioned to iterate with.
-    pub fn is_sharp(&self) -> bool {
+    pub(super) fn is_sharp(&self) -> bool {
         match self.numbers {
             Numbers::Single(_) => self.contraction <= LARGEST_CONTRACTION,
             Numbers::Double(_) => self.contraction <= DULL,
@@ -219,7 +217,7 @@ impl Factor {
     }
 
     /// The memory of its entries, for another factor.
-    pub fn into_memory(self) -> FactorMemory {
+    pub(super) fn into_memory(self) -> FactorMemory {
         let mut memory = FactorMemory::default();
         match self.numbers {
             Numbers::Single(numbers) => memory.single = numbers.into_memory(),
@@ -229,7 +227,7 @@ impl Factor {
     }
 
     /// `F^-1 B` in place for `B` [n x k].
-    pub fn solve(&self, b: MatMut<'_, f64>) {
+    pub(super) fn solve(&self, b: MatMut<'_, f64>) {
         match &self.numbers {
             Numbers::Single(numbers) => numbers.solve(&self.symbolic, b),
             Numbers::Double(numbers) => numbers.solve(&self.symbolic, b),
@@ -237,7 +235,7 @@ impl Factor {
     }
 
     /// Number of negative eigenvalues of the matrix.
-    pub fn negative(&self) -> usize {
+    pub(super) fn negative(&self) -> usize {
         match &self.numbers {
             Numbers::Single(numbers) => numbers.negative(&self.symbolic),
             Numbers::Double(numbers) => numbers.negative(&self.symbolic),

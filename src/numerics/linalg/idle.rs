@@ -15,7 +15,7 @@ const IDLE: f64 = 1e-11;
 ///
 /// # Errors
 /// [`LinalgError::DenseEigen`] for values that are not finite.
-pub fn acting_motions(
+pub(crate) fn acting_motions(
     k: &DenseMatrix,
     m: &DenseMatrix,
 ) -> Result<Option<DenseMatrix>, LinalgError> {
@@ -79,7 +79,7 @@ fn cancelling(k: &DenseMatrix, silent: &DenseMatrix) -> Result<DenseMatrix, Lina
 ///
 /// # Errors
 /// As [`symmetric_generalised_eigen`].
-pub fn acting_generalised_eigen(
+pub(crate) fn acting_generalised_eigen(
     k: &DenseMatrix,
     m: &DenseMatrix,
 ) -> Result<SymmetricSpectrum, LinalgError> {

@@ -6,9 +6,10 @@
 //! Blocks load the factor once for all their vectors: eight together cost 1.5 to 2.9 times one alone.
 
 use super::basis::{Basis, norms, times};
+use super::dense::pseudo_random;
 use super::factor::Factor;
 use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SymmetricSpectrum, pseudo_random, symmetric_eigen};
+use super::{DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, MatMut, Par};
@@ -110,7 +111,7 @@ fn krylov_size(pursued: usize) -> usize {
 
 impl<'p> Search<'p> {
     /// Prepares a search for `wanted` pairs and a rough idea of `beyond` more; `shift` is that of the factor.
-    pub fn new(
+    pub(super) fn new(
         stiffness: &'p SymmetricMatrix,
         mass: &'p SymmetricMatrix,
         shift: f64,
@@ -140,7 +141,7 @@ impl<'p> Search<'p> {
     ///
     /// # Errors
     /// [`LinalgError::DenseEigen`].
-    pub fn explore(&mut self, factor: &Factor) -> Result<(), LinalgError> {
+    pub(super) fn explore(&mut self, factor: &Factor) -> Result<(), LinalgError> {
         if self.basis.size() + 2 * BLOCK > self.krylov {
             self.restart(self.pursued)?;
         }
@@ -217,7 +218,7 @@ impl<'p> Search<'p> {
     ///
     /// # Errors
     /// [`LinalgError::TooManyModes`] if the space is smaller, which then is that of all motions with mass.
-    pub fn value(&self, place: usize) -> Result<f64, LinalgError> {
+    pub(super) fn value(&self, place: usize) -> Result<f64, LinalgError> {
         let values = self.ritz()?.values;
         values.get(place).copied().ok_or(LinalgError::TooManyModes {
             asked: place + 1,
@@ -241,7 +242,7 @@ impl<'p> Search<'p> {
     ///
     /// # Errors
     /// [`LinalgError::DenseEigen`].
-    pub fn approach(&mut self, factor: &Factor) -> Result<Vec<f64>, LinalgError> {
+    pub(super) fn approach(&mut self, factor: &Factor) -> Result<Vec<f64>, LinalgError> {
         self.correct(factor)?;
         let mut values = self.ritz()?.values;
         values.truncate(self.pursued);
@@ -252,7 +253,7 @@ impl<'p> Search<'p> {
     ///
     /// # Errors
     /// [`LinalgError::NotConverged`], [`LinalgError::DenseEigen`].
-    pub fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
+    pub(super) fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
         for _ in 0..CORRECTIONS {
             if let Some(pairs) = self.correct(factor)? {
                 return Ok(pairs);

@@ -5,7 +5,7 @@
 ///
 /// For orders of some tens inside a loop: nothing is allocated once the largest order was there.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SmallLu {
+pub(crate) struct SmallLu {
     order: usize,
     /// [order x order] by rows: U, below its diagonal L without its ones.
     factors: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct SmallLu {
 
 impl SmallLu {
     /// Gives a matrix of zeros [order x order], by rows, to be filled; then [`Self::factorise`].
-    pub fn fill(&mut self, order: usize) -> &mut [f64] {
+    pub(crate) fn fill(&mut self, order: usize) -> &mut [f64] {
         self.order = order;
         self.factors.clear();
         self.factors.resize(order * order, 0.0);
@@ -24,7 +24,7 @@ impl SmallLu {
 
     /// Factorises what was filled in. Gives whether it could: not if a pivot is zero or not a number.
     #[must_use]
-    pub fn factorise(&mut self) -> bool {
+    pub(crate) fn factorise(&mut self) -> bool {
         let n = self.order;
         self.exchanged.clear();
         for k in 0..n {
@@ -58,7 +58,7 @@ impl SmallLu {
     }
 
     /// Overwrites `b` \[order\] by `A^-1 b`, after [`Self::factorise`].
-    pub fn solve_in_place(&self, b: &mut [f64]) {
+    pub(crate) fn solve_in_place(&self, b: &mut [f64]) {
         let n = self.order;
         for (k, &pivot) in self.exchanged.iter().enumerate() {
             b.swap(k, pivot);

@@ -30,7 +30,7 @@ pub(super) struct Graph {
 
 impl Graph {
     /// Number of nodes.
-    pub fn nodes(&self) -> usize {
+    pub(super) fn nodes(&self) -> usize {
         self.weights.len()
     }
 }

@@ -37,21 +37,25 @@ mod symmetric;
 
 pub use cholesky::SparseCholesky;
 pub use count::CountCheck;
+pub(crate) use dense::symmetric_eigen;
 pub use dense::{
-    DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum, symmetric_eigen,
+    DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum,
     symmetric_generalised_eigen,
 };
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::{FactorLimit, LinalgError};
 pub use harmonic::{
     ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution,
-    HarmonicTimes, complex_columns, complex_solve,
+    HarmonicTimes,
 };
-pub use idle::{acting_generalised_eigen, acting_motions, congruent};
-pub use lu::SmallLu;
+pub(crate) use harmonic::{complex_columns, complex_solve};
+pub use idle::congruent;
+pub(crate) use idle::{acting_generalised_eigen, acting_motions};
+pub(crate) use lu::SmallLu;
+pub(crate) use sparse::scattered_rows;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, placed, scattered_rows, sparse_times_dense,
-    submatrix, transpose_times_dense,
+    SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, submatrix,
+    transpose_times_dense,
 };
 
 /// Dense column-major matrix of `f64`.
@@ -59,27 +63,3 @@ pub type DenseMatrix = faer::Mat<f64>;
 
 /// Dense column-major matrix of complex numbers.
 pub type ComplexMatrix = faer::Mat<faer::c64>;
-
-/// Makes faer run sequentially: sums are then formed in one order whatever the machine.
-fn run_sequentially() {
-    use std::sync::Once;
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| faer::set_global_parallelism(faer::Par::Seq));
-}
-
-/// Numbers in (-1/2, 1/2) without pattern (xorshift, Marsaglia, J. Stat. Soft. 8 (2003) 14), the same for the same
-/// `start`: no mode is orthogonal to them by accident, and every run repeats.
-fn pseudo_random(rows: usize, columns: usize, start: u64) -> DenseMatrix {
-    let mut state = 0x9e37_79b9_7f4a_7c15 ^ start.wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
-    let mut matrix = DenseMatrix::zeros(rows, columns);
-    for column in 0..columns {
-        matrix.col_as_slice_mut(column).fill_with(&mut next);
-    }
-    matrix
-}

@@ -56,7 +56,7 @@ impl<T: Precision> NumericFactor<T> {
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`] for [`Kind::Definite`], [`LinalgError::Factorisation`].
-    pub fn new(
+    pub(super) fn new(
         symbolic: &Symbolic,
         a: &SymmetricMatrix,
         kind: Kind,
@@ -152,7 +152,7 @@ impl<T: Precision> NumericFactor<T> {
     }
 
     /// The same with every entry rounded to another precision.
-    pub fn rounded<S: Precision>(&self) -> NumericFactor<S> {
+    pub(super) fn rounded<S: Precision>(&self) -> NumericFactor<S> {
         let round = |values: &[T]| values.iter().map(|&v| S::rounded(v.exact())).collect();
         NumericFactor {
             values: round(&self.values),
@@ -166,12 +166,12 @@ impl<T: Precision> NumericFactor<T> {
     }
 
     /// The memory of its entries, for another factor.
-    pub fn into_memory(self) -> Vec<T> {
+    pub(super) fn into_memory(self) -> Vec<T> {
         self.values
     }
 
     /// `A^-1 B` in place for `B` [n x k]. Threads share the columns.
-    pub fn solve(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
+    pub(super) fn solve(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
         let width = b.ncols().div_ceil(rayon::current_num_threads()).max(1);
         b.par_col_chunks_mut(width)
             .for_each(|columns| self.solve_columns(symbolic, columns));
@@ -233,7 +233,7 @@ impl<T: Precision> NumericFactor<T> {
     }
 
     /// Number of negative eigenvalues of the factorised matrix (Sylvester's law of inertia).
-    pub fn negative(&self, symbolic: &Symbolic) -> usize {
+    pub(super) fn negative(&self, symbolic: &Symbolic) -> usize {
         let Some(pivots) = &self.pivots else {
             return 0;
         };

@@ -29,7 +29,7 @@ impl Ordering {
     ///
     /// # Errors
     /// As [`Ordering::of_part`].
-    pub fn of(a: &SparseMatrix) -> Result<Self, LinalgError> {
+    pub(super) fn of(a: &SparseMatrix) -> Result<Self, LinalgError> {
         let all: Vec<usize> = (0..a.rows()).collect();
         Self::of_part(a, &all)
     }
@@ -38,7 +38,7 @@ impl Ordering {
     ///
     /// # Errors
     /// [`LinalgError::Factorisation`] for a matrix with more than 2^31 entries or when METIS gives up.
-    pub fn of_part(a: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
+    pub(super) fn of_part(a: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
         let order = a.rows();
         let failed = |reason| LinalgError::Factorisation { order, reason };
         let runs = Runs::of(a, kept);
@@ -65,7 +65,7 @@ impl Ordering {
     }
 
     /// The rows of `x` (those kept, ascending) in this order.
-    pub fn forward(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(super) fn forward(&self, x: &DenseMatrix) -> DenseMatrix {
         let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
         for column in 0..x.ncols() {
             let (to, from) = (y.col_as_slice_mut(column), x.col_as_slice(column));
@@ -77,7 +77,7 @@ impl Ordering {
     }
 
     /// The rows of `y`, which are in this order, as those kept, ascending.
-    pub fn backward(&self, y: &DenseMatrix, x: &mut DenseMatrix) {
+    pub(super) fn backward(&self, y: &DenseMatrix, x: &mut DenseMatrix) {
         for column in 0..y.ncols() {
             let (to, from) = (x.col_as_slice_mut(column), y.col_as_slice(column));
             for (&unknown, entry) in self.kept.iter().zip(to) {

@@ -85,7 +85,7 @@ pub fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
 }
 
 /// The rows of `part` [rows x k] at the given places of `order` rows, the others zero.
-pub fn scattered_rows(part: &DenseMatrix, rows: &[usize], order: usize) -> DenseMatrix {
+pub(crate) fn scattered_rows(part: &DenseMatrix, rows: &[usize], order: usize) -> DenseMatrix {
     let mut whole = DenseMatrix::zeros(order, part.ncols());
     for column in 0..part.ncols() {
         for (row, &at) in rows.iter().enumerate() {

@@ -1,10 +1,11 @@
 //! Substitution with factors of both kinds in blocks of every width.
 
+use super::super::dense::pseudo_random;
 use super::super::numeric::{Kind, NumericFactor};
 use super::super::ordering::Ordering;
 use super::super::symbolic::Symbolic;
 use super::super::symmetric::SymmetricMatrix;
-use super::super::{DenseMatrix, TripletBuilder, pseudo_random};
+use super::super::{DenseMatrix, TripletBuilder};
 use super::*;
 
 const SIDE: usize = 8;

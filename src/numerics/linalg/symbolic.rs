@@ -1,7 +1,6 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
 
 use super::error::FactorLimit;
-use super::factor::SMALL;
 use super::symmetric::SymmetricMatrix;
 use super::{LinalgError, memory};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -19,6 +18,9 @@ use faer::sparse::linalg::cholesky::supernodal::{
 /// a solid of 60 000 degrees of freedom.
 const RELAXATION: &[(usize, f64)] = &[(8, 1.0), (24, 0.6), (64, 0.15), (usize::MAX, 0.05)];
 
+/// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
+pub(super) const SMALL: usize = 1 << 22;
+
 /// Where the factor's entries are, for one pattern.
 #[derive(Debug)]
 pub(super) struct Symbolic {
@@ -32,7 +34,7 @@ impl Symbolic {
     /// # Errors
     /// [`LinalgError::TooLarge`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
     /// if memory does not suffice for the analysis.
-    pub fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
+    pub(super) fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
         let (offsets, rows) = upper_pattern(a);
@@ -57,7 +59,7 @@ impl Symbolic {
     }
 
     /// Entries of the factor.
-    pub fn entries(&self) -> usize {
+    pub(super) fn entries(&self) -> usize {
         self.supernodes.len_val()
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct SymmetricMatrix {
 
 impl SymmetricMatrix {
     /// The matrix `a` [n x n], both triangles stored, in another order and without what that leaves out.
-    pub fn permuted(a: &SparseMatrix, ordering: &Ordering) -> Self {
+    pub(super) fn permuted(a: &SparseMatrix, ordering: &Ordering) -> Self {
         let part = ordering.old.len() as f64 / a.cols().max(1) as f64;
         let stored = (part * (a.nnz() / 2 + a.cols()) as f64) as usize;
         let mut matrix = Self {
@@ -56,19 +56,19 @@ impl SymmetricMatrix {
     }
 
     /// Number of rows.
-    pub fn order(&self) -> usize {
+    pub(super) fn order(&self) -> usize {
         self.offsets.len() - 1
     }
 
     /// Entries of a column from the diagonal down.
-    pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
+    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
         let range = self.offsets[column] as usize..self.offsets[column + 1] as usize;
         let rows = self.rows[range.clone()].iter().map(|&row| row as usize);
         rows.zip(self.values[range].iter().copied())
     }
 
     /// Diagonal [n].
-    pub fn diagonal(&self) -> Vec<f64> {
+    pub(super) fn diagonal(&self) -> Vec<f64> {
         let first = |column: usize| self.column(column).next().filter(|entry| entry.0 == column);
         (0..self.order())
             .map(|column| first(column).map_or(0.0, |entry| entry.1))
@@ -76,7 +76,7 @@ impl SymmetricMatrix {
     }
 
     /// `self - sigma other`; the pattern is that of both.
-    pub fn shifted(&self, sigma: f64, other: &Self) -> Self {
+    pub(super) fn shifted(&self, sigma: f64, other: &Self) -> Self {
         let mut sum = Self {
             offsets: vec![0],
             rows: Vec::with_capacity(self.rows.len()),
@@ -105,7 +105,7 @@ impl SymmetricMatrix {
     }
 
     /// Whether every entry of another matrix has a place in this one.
-    pub fn covers(&self, other: &Self) -> bool {
+    pub(super) fn covers(&self, other: &Self) -> bool {
         (0..self.order()).all(|column| {
             let mut places = self.column(column);
             other
@@ -115,7 +115,7 @@ impl SymmetricMatrix {
     }
 
     /// `A X` for `X` [n x k].
-    pub fn times(&self, x: MatRef<'_, f64>) -> DenseMatrix {
+    pub(super) fn times(&self, x: MatRef<'_, f64>) -> DenseMatrix {
         let mut y = DenseMatrix::zeros(self.order(), x.ncols());
         self.times_into(x, y.as_mut());
         y
@@ -123,7 +123,7 @@ impl SymmetricMatrix {
 
     /// `Y = A X` for `X` and `Y` [n x k]. Blocks of columns are independent: the result does not depend on the number of
     /// threads.
-    pub fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    pub(super) fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
         x.par_col_chunks(LANES)
             .zip(y.par_col_chunks_mut(LANES))
             .for_each(|(x, y)| SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y, scratch)));
@@ -131,7 +131,7 @@ impl SymmetricMatrix {
 
     /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x` for every column of `X` [n x k]: its
     /// round-off, in units of that of one entry, when the entries' errors are independent.
-    pub fn energy_scatters(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+    pub(super) fn energy_scatters(&self, x: MatRef<'_, f64>) -> Vec<f64> {
         let squared = Self {
             offsets: self.offsets.clone(),
             rows: self.rows.clone(),

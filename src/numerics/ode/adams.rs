@@ -27,7 +27,7 @@
 mod flow;
 mod track;
 
-use super::driver::{Statistics, Stepper};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };
@@ -60,7 +60,7 @@ pub(super) struct Adams {
 
 impl Adams {
     /// Equal steps h (s), or with a `tolerance` such steps halved where it asks for it.
-    pub fn new(system: &impl SecondOrderSystem, h: f64, tolerance: Option<f64>) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64, tolerance: Option<f64>) -> Self {
         let halvings = tolerance.map_or(0, |_| MOST_HALVINGS);
         let coordinates = system.linear();
         let held = track::held(coordinates);

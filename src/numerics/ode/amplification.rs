@@ -7,9 +7,11 @@
 //! formula of a method is needed, and damping, modes and what a method remembers count as they do in a run.
 
 use super::adams::Adams;
-use super::driver::{Method, Schedule, stepper};
 use super::error::TransientError;
 use super::linearised::Linearised;
+use super::method::Method;
+use super::schedule::Schedule;
+use super::steppers::stepper;
 use crate::numerics::ode::SecondOrderSystem;
 
 /// Growth a step, `ln rho`, above which a method is unstable: a motion then becomes e times as large in 2000 steps. What beats
@@ -17,7 +19,7 @@ use crate::numerics::ode::SecondOrderSystem;
 pub const UNSTABLE: f64 = 5e-4;
 
 /// Steps from which the growth is taken.
-pub const STEPS: u32 = 1000;
+pub(super) const STEPS: u32 = 1000;
 
 /// Size at which a motion has grown beyond doubt, in units of the start's.
 const BEYOND_DOUBT: f64 = 1e30;

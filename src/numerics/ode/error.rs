@@ -1,7 +1,7 @@
 //! What can go wrong in a time integration.
 
-use super::driver::{Method, Statistics};
-use super::limit::{Resonance, StepLimit};
+use super::method::{Method, Resonance, StepLimit};
+use super::stepper::Statistics;
 use crate::numerics::ode::{Divergence, SnapshotError};
 use std::fmt;
 use thiserror::Error;

@@ -14,11 +14,9 @@
 //! impulse splitting does not. v* is the velocity under the held force; it enters through contact
 //! damping alone. With w = 0 this is the velocity Verlet method.
 
-use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
-use crate::numerics::ode::{
-    Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use super::stepper::OneEvaluation;
+use crate::numerics::ode::SecondOrderSystem;
 
 /// Flow coefficients of every coordinate for one step length.
 #[derive(Debug)]
@@ -26,11 +24,10 @@ pub(super) struct Exponential {
     flow: Vec<Propagator>,
     predicted: Vec<f64>,
     next_force: Vec<f64>,
-    steps: u64,
 }
 
 impl Exponential {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let flow: Vec<Propagator> = system
             .linear()
             .iter()
@@ -41,20 +38,12 @@ impl Exponential {
             flow,
             predicted: vec![0.0; dof],
             next_force: vec![0.0; dof],
-            steps: 0,
         }
     }
 }
 
-impl<S: SecondOrderSystem> Stepper<S> for Exponential {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+impl<S: SecondOrderSystem> OneEvaluation<S> for Exponential {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         for i in 0..self.flow.len() {
             let p = &self.flow[i];
             let (y0, v0, g0) = (y[i], v[i], g[i]);
@@ -69,20 +58,5 @@ impl<S: SecondOrderSystem> Stepper<S> for Exponential {
             v[i] = self.predicted[i] + p.kick_after * (self.next_force[i] - g[i]);
             g[i] = self.next_force[i];
         }
-        self.steps += 1;
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics::of_single_evaluations(self.steps)
-    }
-
-    fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.steps);
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.steps = snapshot.count()?;
-        Ok(())
     }
 }

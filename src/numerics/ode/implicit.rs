@@ -16,8 +16,8 @@
 //! The iteration starts from `a1 = a0`. Its last correction is applied to the force by the tangent, at a change that no longer
 //! counts ([`TOLERANCE`](super::newton::TOLERANCE)), so that the force belongs to the state without another evaluation.
 
-use super::driver::{Statistics, Stepper};
 use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
     Tangent,
@@ -83,12 +83,12 @@ struct Known {
 }
 
 impl Implicit {
-    pub fn average_acceleration(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn average_acceleration(system: &impl SecondOrderSystem, h: f64) -> Self {
         Self::new(system, h, Family::AVERAGE_ACCELERATION)
     }
 
     /// `spectral_radius` at infinite frequency, 0 to 1.
-    pub fn generalized_alpha(
+    pub(super) fn generalized_alpha(
         system: &impl SecondOrderSystem,
         h: f64,
         spectral_radius: f64,

@@ -1,12 +1,12 @@
 //! Stability, energy and damping of the implicit methods, and contacts solved by them.
 
-use super::driver::{Method, Schedule, Statistics, Stepping, integrate};
 use super::error::TransientError;
 use super::tests::Oscillator;
 use crate::numerics::linalg::SmallLu;
 use crate::numerics::ode::{
     Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State, Tangent,
 };
+use crate::numerics::ode::{Method, Schedule, Statistics, Stepping, integrate};
 
 const FREE: LinearCoordinate = LinearCoordinate {
     squared_frequency: 0.0,

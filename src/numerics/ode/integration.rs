@@ -1,8 +1,10 @@
 //! A system on its way through a schedule, one interval at a time.
 
-use super::driver::{Method, Schedule, Statistics, Stepper, stepper};
 use super::error::{BlowUp, TransientError};
-use super::limit::StepLimit;
+use super::method::{Method, StepLimit};
+use super::schedule::Schedule;
+use super::stepper::{Statistics, Stepper};
+use super::steppers::stepper;
 use crate::numerics::ode::{
     Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State,
 };
@@ -17,6 +19,44 @@ const KEPT: usize = 4;
 
 /// Every so many looks one is kept for longer: the last ones before a blow-up may be far from where it began.
 const APART: u64 = 64;
+
+/// Whether to go on after an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stepping {
+    /// Go on.
+    Continue,
+    /// Stop here; the state is that of this instant.
+    Stop,
+}
+
+/// Integrates `system` from `state`, which is left at the end or at the last good instant.
+///
+/// `observer` sees every sample, `schedule.steps_per_interval` an interval: the steps of a method that has none of its own.
+/// `after_interval(done, total)` is called between intervals and may stop the run.
+///
+/// # Errors
+/// [`TransientError::Unstable`] and [`TransientError::Schedule`] before the first step, [`TransientError::BlewUp`] with the last
+/// good state and the records of the steps before it left in place.
+pub fn integrate<S: SecondOrderSystem>(
+    system: &mut S,
+    method: Method,
+    schedule: &Schedule,
+    state: &mut State,
+    observer: &mut impl Observer<S>,
+    mut after_interval: impl FnMut(u64, u64) -> Stepping,
+) -> Result<Statistics, TransientError> {
+    let mut integration = Integration::begin(system, method, *schedule, state.clone(), observer)?;
+    let mut ended = Ok(());
+    while ended.is_ok() && !integration.is_complete() {
+        ended = integration.advance(system, observer);
+        let done = integration.intervals();
+        if ended.is_ok() && after_interval(done, schedule.intervals) == Stepping::Stop {
+            break;
+        }
+    }
+    state.clone_from(integration.state());
+    ended.map(|()| integration.statistics())
+}
 
 /// An integration under way: the method with what it remembers, the state, and what of the schedule is done.
 pub struct Integration<S> {
@@ -52,20 +92,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         let mut force = vec![0.0; state.y.len()];
         system.force_into(state.t, &state.y, &state.v, &mut force);
         observe(system, observer, 0, &state);
-        Ok(Self {
-            method,
-            schedule,
-            stepper,
-            good: std::array::from_fn(|_| state.clone()),
-            newest: 0,
-            earlier: std::array::from_fn(|_| state.clone()),
-            looks: 0,
-            start: state.t,
-            state,
-            force,
-            intervals: 0,
-            samples: 0,
-        })
+        Ok(Self::at(state, force, method, schedule, stepper))
     }
 
     /// Goes on where an integration of the same system, method and schedule was when it wrote this, to the last bit as if
@@ -95,6 +122,22 @@ impl<S: SecondOrderSystem> Integration<S> {
         let mut stepper = stepper(system, method, &schedule, start)?;
         stepper.recall(snapshot)?;
         Ok(Self {
+            start,
+            intervals,
+            samples,
+            ..Self::at(state, force, method, schedule, stepper)
+        })
+    }
+
+    /// About to take its first step from a state and the force there.
+    fn at(
+        state: State,
+        force: Vec<f64>,
+        method: Method,
+        schedule: Schedule,
+        stepper: Box<dyn Stepper<S>>,
+    ) -> Self {
+        Self {
             method,
             schedule,
             stepper,
@@ -102,12 +145,12 @@ impl<S: SecondOrderSystem> Integration<S> {
             newest: 0,
             earlier: std::array::from_fn(|_| state.clone()),
             looks: 0,
-            start,
+            start: state.t,
             state,
             force,
-            intervals,
-            samples,
-        })
+            intervals: 0,
+            samples: 0,
+        }
     }
 
     /// Writes all that the rest depends on, between two intervals.

@@ -5,8 +5,8 @@
 //! [`Resonance`] is told apart from the limit by what grows.
 
 use super::amplification::{Growth, STEPS, growth};
-use super::driver::Method;
 use super::linearised::Linearised;
+use super::method::{Method, Resonance, StepLimit};
 use crate::numerics::linalg::{DenseMatrix, general_spectrum};
 use crate::numerics::ode::{SecondOrderSystem, State, Tangent};
 use std::f64::consts::{PI, TAU};
@@ -25,24 +25,6 @@ const NEAR: f64 = 0.25;
 /// Steps of a growth reach over so many radians of the contacts' fastest motion, with this many at most.
 const RADIANS: f64 = 200.0;
 const MOST_STEPS: f64 = 20_000.0;
-
-/// How long a step may be at a state.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepLimit {
-    /// Largest step below which no small motion about the state grows, resonances left out, s.
-    pub step_s: f64,
-    /// Highest frequency of what the method meets explicitly there, Hz.
-    pub highest_hz: f64,
-}
-
-/// A mode that grows because its phase in a step is near a multiple of pi.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Resonance {
-    /// Frequency of the mode, Hz.
-    pub mode_hz: f64,
-    /// Of pi, at least 1.
-    pub multiple: u32,
-}
 
 impl Resonance {
     /// The resonance that a growth of a system in steps of `h` (s) is, if it is one: what grows has most of its kinetic energy in
@@ -99,7 +81,7 @@ impl Method {
     }
 
     /// [`step_limit`](Self::step_limit) of a system that is linear already.
-    pub fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
+    pub(crate) fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
         if self.is_implicit() || matches!(self, Self::Dop853 { .. }) {
             return None;
         }

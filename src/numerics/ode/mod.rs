@@ -23,33 +23,37 @@
 mod adams;
 mod amplification;
 mod dop853;
-mod driver;
 mod error;
 mod exponential;
 mod implicit;
 mod integration;
 mod limit;
 mod linearised;
+mod method;
 mod newmark;
 mod newton;
 mod propagator;
+mod schedule;
 mod snapshot;
 mod splitting;
+mod stepper;
+mod steppers;
 mod system;
 mod tangent;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub use amplification::{Growth, UNSTABLE, growth};
-pub use driver::{
-    LEAST_TOLERANCE, MOST_STEPS_PER_INTERVAL, Method, Schedule, Statistics, Stepping, integrate,
-};
 pub use error::{BlowUp, TransientError};
-pub use integration::Integration;
-pub use limit::{Resonance, StepLimit, fastest};
+pub use integration::{Integration, Stepping, integrate};
+pub use limit::fastest;
 pub use linearised::Linearised;
+pub use method::{LEAST_TOLERANCE, Method, Resonance, StepLimit};
+pub use schedule::{MOST_STEPS_PER_INTERVAL, Schedule};
 pub use snapshot::{Snapshot, SnapshotError, SnapshotReader};
+pub use stepper::Statistics;
+pub(crate) use system::all_finite;
 pub use system::{
-    Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State, all_finite,
+    Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State,
 };
 pub use tangent::{Tangent, TangentTerm};
 

@@ -10,10 +10,8 @@
 //! lower it. In modal coordinates the method is the same as in nodal ones, step by step: it
 //! commutes with a change of basis.
 
-use super::driver::{Statistics, Stepper};
-use crate::numerics::ode::{
-    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use super::stepper::OneEvaluation;
+use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem};
 
 #[derive(Debug)]
 pub(super) struct NewmarkExplicit {
@@ -23,11 +21,10 @@ pub(super) struct NewmarkExplicit {
     implicit_damping: Vec<f64>,
     predicted: Vec<f64>,
     half_velocity: Vec<f64>,
-    steps: u64,
 }
 
 impl NewmarkExplicit {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let linear = system.linear().to_vec();
         let implicit_damping = linear
             .iter()
@@ -40,20 +37,12 @@ impl NewmarkExplicit {
             implicit_damping,
             predicted: vec![0.0; dof],
             half_velocity: vec![0.0; dof],
-            steps: 0,
         }
     }
 }
 
-impl<S: SecondOrderSystem> Stepper<S> for NewmarkExplicit {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+impl<S: SecondOrderSystem> OneEvaluation<S> for NewmarkExplicit {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         let h = self.h;
         for i in 0..self.linear.len() {
             let LinearCoordinate {
@@ -70,20 +59,5 @@ impl<S: SecondOrderSystem> Stepper<S> for NewmarkExplicit {
             let pull = g[i] - self.linear[i].squared_frequency * y[i];
             v[i] = self.implicit_damping[i] * (self.half_velocity[i] + 0.5 * h * pull);
         }
-        self.steps += 1;
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics::of_single_evaluations(self.steps)
-    }
-
-    fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.steps);
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.steps = snapshot.count()?;
-        Ok(())
     }
 }

@@ -54,7 +54,7 @@ pub(super) struct NewtonMatrix {
 }
 
 impl NewtonMatrix {
-    pub fn new(diagonal: Vec<f64>, weights: Weights) -> Self {
+    pub(super) fn new(diagonal: Vec<f64>, weights: Weights) -> Self {
         Self {
             weights,
             diagonal,
@@ -67,7 +67,7 @@ impl NewtonMatrix {
 
     /// Takes a tangent in, the cheaper way. Gives whether the matrix is regular.
     #[must_use]
-    pub fn factorise(&mut self, tangent: &Tangent) -> bool {
+    pub(super) fn factorise(&mut self, tangent: &Tangent) -> bool {
         let way = if tangent.terms() <= tangent.dof() {
             Way::Terms
         } else {
@@ -130,7 +130,7 @@ impl NewtonMatrix {
     }
 
     /// Overwrites `b` \[dof\] by `J^-1 b`; the tangent is that of the last factorisation.
-    pub fn solve_in_place(&mut self, tangent: &Tangent, b: &mut [f64]) {
+    pub(super) fn solve_in_place(&mut self, tangent: &Tangent, b: &mut [f64]) {
         match self.way {
             Way::Coordinates => self.lu.solve_in_place(b),
             Way::Terms => {
@@ -172,7 +172,7 @@ impl Progress {
     ///
     /// # Errors
     /// [`Divergence::NotFinite`], [`Divergence::NotSolved`].
-    pub fn judge(&mut self, change: f64) -> Result<Verdict, Divergence> {
+    pub(super) fn judge(&mut self, change: f64) -> Result<Verdict, Divergence> {
         self.iterations += 1;
         if !change.is_finite() {
             return Err(Divergence::NotFinite);
@@ -194,7 +194,7 @@ impl Progress {
     }
 
     /// What to say when a correction has no solution.
-    pub fn failed(&self) -> Divergence {
+    pub(super) fn failed(&self) -> Divergence {
         Divergence::NotSolved {
             iterations: self.iterations,
             change: self.last.unwrap_or(1.0),

@@ -44,7 +44,7 @@ const LEAST_SINE: f64 = 1e-6;
 const SERIES_LIMIT: f64 = 0.5;
 
 impl Propagator {
-    pub fn new(coordinate: LinearCoordinate, h: f64) -> Self {
+    pub(super) fn new(coordinate: LinearCoordinate, h: f64) -> Self {
         let (w2, c) = (coordinate.squared_frequency, coordinate.damping);
         let mut flow = Self::flow(w2, c, h);
         let s = flow.position_velocity;

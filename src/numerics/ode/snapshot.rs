@@ -163,7 +163,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Short`], [`SnapshotError::Other`] if they are more or fewer.
-    pub fn numbers_into(
+    pub(crate) fn numbers_into(
         &mut self,
         what: &'static str,
         values: &mut [f64],

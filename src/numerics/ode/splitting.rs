@@ -9,41 +9,30 @@
 //! equilibrium is not kept. What it keeps is `g = (2 w / h) tan(h w / 2) y`: between a large contact force and a large spring
 //! force the place of balance is wrong by `(h w)^2 / 12`, and at `h w = pi` no force moves it.
 
-use super::driver::{Statistics, Stepper};
 use super::propagator::Propagator;
-use crate::numerics::ode::{
-    Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use super::stepper::OneEvaluation;
+use crate::numerics::ode::SecondOrderSystem;
 
 #[derive(Debug)]
 pub(super) struct Splitting {
     half: f64,
     flow: Vec<Propagator>,
-    steps: u64,
 }
 
 impl Splitting {
-    pub fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let coordinates = system.linear().iter();
         Self {
             half: 0.5 * h,
             flow: coordinates
                 .map(|&coordinate| Propagator::new(coordinate, h))
                 .collect(),
-            steps: 0,
         }
     }
 }
 
-impl<S: SecondOrderSystem> Stepper<S> for Splitting {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+impl<S: SecondOrderSystem> OneEvaluation<S> for Splitting {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         for (i, p) in self.flow.iter().enumerate() {
             let (y0, v0) = (y[i], v[i] + self.half * g[i]);
             y[i] = p.position_position * y0 + p.position_velocity * v0;
@@ -53,20 +42,5 @@ impl<S: SecondOrderSystem> Stepper<S> for Splitting {
         for (v, g) in v.iter_mut().zip(g.iter()) {
             *v += self.half * g;
         }
-        self.steps += 1;
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics::of_single_evaluations(self.steps)
-    }
-
-    fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.steps);
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.steps = snapshot.count()?;
-        Ok(())
     }
 }

@@ -93,7 +93,7 @@ pub trait SecondOrderSystem {
 }
 
 /// Whether all values are numbers. All are looked at, which several at a time makes faster than to stop at the first.
-pub fn all_finite(values: &[f64]) -> bool {
+pub(crate) fn all_finite(values: &[f64]) -> bool {
     values
         .iter()
         .fold(true, |finite, value| finite & value.is_finite())

@@ -188,7 +188,7 @@ impl Decimator {
     ///
     /// # Errors
     /// [`SeriesError::State`] if the state has another number of accumulators or a phase beyond the ratio.
-    pub fn with_state(mut self, state: &DecimatorState) -> Result<Self, SeriesError> {
+    pub(crate) fn with_state(mut self, state: &DecimatorState) -> Result<Self, SeriesError> {
         let mismatch = || SeriesError::State {
             accumulators: state.accumulators.len(),
             expected: ACCUMULATORS,

@@ -13,7 +13,7 @@ use super::SeriesError;
 ///
 /// Pass-band ripple and stop-band level are equal, 10^(-A/20) for an attenuation of A dB, and the gain at fc is 1/2.
 #[derive(Debug, Clone, PartialEq)]
-pub struct KaiserLowPass {
+pub(crate) struct KaiserLowPass {
     half_taps: Vec<f64>,
 }
 
@@ -23,7 +23,7 @@ impl KaiserLowPass {
     ///
     /// # Errors
     /// [`SeriesError::Step`]; [`SeriesError::LowPassEdges`] unless 0 < pass < stop <= 1 / (2 step).
-    pub fn new(
+    pub(crate) fn new(
         step_s: f64,
         pass_hz: f64,
         stop_hz: f64,
@@ -64,17 +64,18 @@ impl KaiserLowPass {
     }
 
     /// Taps on each side of the middle one: the filter has 2 half + 1 taps, and reaches half samples to each side.
-    pub fn half_length(&self) -> usize {
+    pub(crate) fn half_length(&self) -> usize {
         self.half_taps.len() - 1
     }
 
     /// Tap h_m, m counted from the middle; 0 outside the filter.
-    pub fn tap(&self, m: isize) -> f64 {
+    pub(crate) fn tap(&self, m: isize) -> f64 {
         self.half_taps.get(m.unsigned_abs()).copied().unwrap_or(0.0)
     }
 
     /// Gain at `cycles_per_sample` = frequency x step: h_0 + 2 sum h_m cos(2 pi f m). Real: the phase is zero.
-    pub fn gain(&self, cycles_per_sample: f64) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn gain(&self, cycles_per_sample: f64) -> f64 {
         self.half_taps[0]
             + 2.0
                 * self.half_taps[1..]
@@ -89,7 +90,7 @@ impl KaiserLowPass {
 /// a transition from 0.4 to 0.6 of the sampling rate. What lies below 0.4 of it is interpolated within 1e-9 of its
 /// amplitude (Oppenheim & Schafer eq. (7.76): 192 dB).
 #[derive(Debug, Clone, PartialEq)]
-pub struct KaiserInterpolation {
+pub(crate) struct KaiserInterpolation {
     beta: f64,
     scale: f64,
 }
@@ -103,7 +104,7 @@ impl KaiserInterpolation {
         clippy::new_without_default,
         reason = "a kernel is not a default value"
     )]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let beta = beta(attenuation_db(INTERPOLATION_REACH, 2.0 * PI * 0.2));
         Self {
             beta,
@@ -112,12 +113,12 @@ impl KaiserInterpolation {
     }
 
     /// Samples to each side that a value is made of.
-    pub fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         INTERPOLATION_REACH as f64
     }
 
     /// h at a distance in samples.
-    pub fn value(&self, distance: f64) -> f64 {
+    pub(crate) fn value(&self, distance: f64) -> f64 {
         let part = distance / self.reach();
         let inside = 1.0 - part * part;
         if inside <= 0.0 {

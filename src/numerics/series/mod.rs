@@ -12,6 +12,6 @@ mod time_series;
 
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
 pub use error::SeriesError;
-pub use kaiser::{KaiserInterpolation, KaiserLowPass};
+pub(crate) use kaiser::{KaiserInterpolation, KaiserLowPass};
 pub(crate) use statistics::root_mean_square;
 pub use time_series::{TimeSeries, TimeWindow};

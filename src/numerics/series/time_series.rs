@@ -45,7 +45,7 @@ impl TimeWindow {
     ///
     /// # Errors
     /// [`SeriesError::WindowOrder`], [`SeriesError::WindowOutside`].
-    pub fn check_inside(
+    pub(crate) fn check_inside(
         self,
         start_s: f64,
         step_s: f64,

@@ -6,9 +6,9 @@
 //! cage's harmonics and hardly any of the ball's.
 
 use super::comb::{Masked, best_fit};
-use super::explain::{Candidate, Search};
 use super::fault::Fault;
 use super::known::{KnownLine, Strikes, shaft_lines};
+use super::search::{Candidate, Search};
 use super::unexplained::has_teeth_between;
 use super::verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB,

@@ -5,19 +5,18 @@
 //! impacts as they were, where those of the envelope itself would sink in it. A line's amplitude in it is a power, so that the
 //! root of that is the level, and ten decibels of change are ten decibels of the impacts' amplitude.
 
+use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
 use super::comb_power::{Comb, Sought, Tooth};
+use super::compared_lines::{COMPARED_HARMONICS, Compared};
 use super::compared_signal::ComparedSignal;
 use super::known::{Strikes, shaft_lines};
 use super::line_change::{ChangeConclusion, LineChange};
 use super::ratio_interval::{Scattered, interval_db};
 use super::stretch_spectrum::{StretchSpectrum, stretch_revolutions};
-use super::verdict::{FaultVerdict, Harmonic, UNSEEN_ABOVE, UnexplainedImpacts};
-use super::{DiagnosisError, Fault};
+use super::verdict::UNSEEN_ABOVE;
 use crate::signal::RawSpectrum;
 
-/// Harmonics that are compared.
-const COMPARED_HARMONICS: u32 = 5;
 /// Fewest lines of a comb: one alone may be anything.
 const LEAST_TEETH: usize = 2;
 /// Fewest revolutions of a window.
@@ -96,98 +95,7 @@ pub fn line_changes(
         .collect()
 }
 
-/// Whether a verdict says that chance would not do it.
-fn is_seen(verdict: &FaultVerdict) -> bool {
-    let chance = verdict.false_alarm;
-    chance.is_some_and(|chance| chance < UNSEEN_ABOVE)
-}
-
-/// What is compared.
-struct Compared {
-    fault: Option<Fault>,
-    name: String,
-    band_hz: Option<[f64; 2]>,
-    teeth: Vec<Tooth>,
-    /// Expected in each signal, this one first.
-    order: [f64; 2],
-    /// How far the order may be off.
-    reach: [f64; 2],
-    cage: Option<f64>,
-    /// Whether the verdict says that chance would not do it.
-    seen: bool,
-    /// Why it cannot be compared, if the verdict says so.
-    why_not: String,
-}
-
 impl Compared {
-    fn part(
-        verdict: &FaultVerdict,
-        now: &ComparedSignal<'_>,
-        earlier: &ComparedSignal<'_>,
-    ) -> Self {
-        let cage = now.orders.order(Fault::Cage);
-        let (by_cage, band_hz, harmonics) = match &verdict.cage_lines {
-            Some(lines) => (true, Some(lines.band_hz), &lines.harmonics),
-            None => (false, verdict.band_hz, &verdict.harmonics),
-        };
-        let fault = if by_cage { Fault::Cage } else { verdict.fault };
-        let spacing = cage.unwrap_or(0.0);
-        // where a signal shows the part, its comb is the verdict's; lines of others may lie within the error of the order
-        let place = |signal: &ComparedSignal<'_>| {
-            let mut faults = signal.diagnosis.faults.iter();
-            let own = faults.find(|own| own.fault == verdict.fault);
-            let found = own.and_then(|own| match (&own.cage_lines, by_cage) {
-                (Some(lines), true) => Some(lines.order),
-                (None, false) => own.order.filter(|_| is_seen(own)),
-                _ => None,
-            });
-            let expected = signal.orders.order(fault).unwrap_or(verdict.expected_order);
-            match found {
-                Some(order) => [order, 0.0],
-                None => [expected, signal.error(fault) * expected],
-            }
-        };
-        let [place_now, place_earlier] = [place(now), place(earlier)];
-        let name = verdict.fault.name();
-        Self {
-            fault: Some(verdict.fault),
-            name: match by_cage {
-                true => format!("{name} by the cage's lines"),
-                false => name.to_owned(),
-            },
-            band_hz,
-            teeth: free_teeth(harmonics, spacing),
-            order: [place_now[0], place_earlier[0]],
-            reach: [place_now[1], place_earlier[1]],
-            cage: cage.filter(|_| fault != Fault::Cage),
-            seen: is_seen(verdict),
-            why_not: verdict.why.clone(),
-        }
-    }
-
-    fn impacts(
-        impacts: &UnexplainedImpacts,
-        now: &ComparedSignal<'_>,
-        earlier: &ComparedSignal<'_>,
-    ) -> Self {
-        let reach = |signal: &ComparedSignal<'_>| signal.error(Fault::OuterRace) * impacts.order;
-        let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth {
-            harmonic,
-            beside: 0.0,
-        });
-        Self {
-            fault: None,
-            name: format!("impacts at {:.2} Hz", impacts.frequency_hz),
-            band_hz: Some(impacts.band_hz),
-            teeth: teeth.collect(),
-            order: [impacts.order; 2],
-            reach: [reach(now), reach(earlier)],
-            cage: now.orders.order(Fault::Cage),
-            seen: true,
-            why_not: String::new(),
-        }
-    }
-
     /// What is known before anything is compared.
     fn not_compared(&self, why: String) -> LineChange {
         LineChange {
@@ -271,38 +179,6 @@ impl Compared {
         ))
     }
 
-    /// Impacts of something else that a signal shows more strongly than what is compared: their lines say nothing about it.
-    fn others<'a>(&self, earlier: &'a ComparedSignal<'_>) -> Vec<Strikes<'a>> {
-        let found = earlier.diagnosis;
-        let is_own = |verdict: &&FaultVerdict| Some(verdict.fault) == self.fault;
-        let own = found.named().find(is_own);
-        let own_db = own.and_then(|verdict| verdict.strength_db);
-        let stronger = |db: Option<f64>| own.is_none() || db > own_db;
-        let parts = found.named().filter_map(|verdict| {
-            let other = !is_own(&verdict) && stronger(verdict.strength_db);
-            let (fault, order) = match &verdict.cage_lines {
-                Some(lines) => (Fault::Cage, Some(lines.order)),
-                None => (verdict.fault, verdict.order),
-            };
-            Some(Strikes {
-                fault: Some(fault),
-                name: fault.name(),
-                order: order.filter(|_| other)?,
-            })
-        });
-        let is_same =
-            |order: f64| self.fault.is_none() && (order - self.order[1]).abs() <= self.reach[1];
-        let unexplained = found.unexplained.iter().filter_map(|impacts| {
-            let other = !is_same(impacts.order) && stronger(impacts.strength_db);
-            other.then_some(Strikes {
-                fault: None,
-                name: "impacts of no part",
-                order: impacts.order,
-            })
-        });
-        parts.chain(unexplained).collect()
-    }
-
     fn found(
         &self,
         side: &Side<'_>,
@@ -331,7 +207,7 @@ impl Compared {
         let Some(comb) = spectrum.best_comb(&sought, &known) else {
             return Ok(None);
         };
-        let chance = spectrum.chance(&sought, &comb, known);
+        let chance = spectrum.chance(&sought, &comb, &known);
         Ok(Some(Found {
             power,
             spectrum,
@@ -412,16 +288,4 @@ struct Found {
     spectrum: StretchSpectrum,
     comb: Comb,
     chance: f64,
-}
-
-/// The first harmonics, with the lines beside them where they count, that coincide with nothing else in this signal.
-fn free_teeth(harmonics: &[Harmonic], spacing: f64) -> Vec<Tooth> {
-    harmonics
-        .iter()
-        .filter(|line| line.harmonic <= COMPARED_HARMONICS && line.coincides_with.is_none())
-        .map(|line| Tooth {
-            harmonic: line.harmonic,
-            beside: f64::from(line.side) * spacing,
-        })
-        .collect()
 }

@@ -109,12 +109,7 @@ impl StretchSpectrum {
     }
 
     /// Probability that chance makes as good a comb beside what is known: by the same search at other orders.
-    pub(super) fn chance(
-        &self,
-        sought: &Sought<'_>,
-        comb: &Comb,
-        mut known: Vec<KnownLine>,
-    ) -> f64 {
+    pub(super) fn chance(&self, sought: &Sought<'_>, comb: &Comb, known: &[KnownLine]) -> f64 {
         let own = Impacts {
             name: "",
             order: comb.order,
@@ -122,7 +117,8 @@ impl StretchSpectrum {
             of_race: false,
             foreign: false,
         };
-        known.extend(own.lines(self.end(), self.resolution));
+        let own = own.lines(self.end(), self.resolution);
+        let known: Vec<KnownLine> = known.iter().cloned().chain(own).collect();
         let relative = sought.reach / sought.order;
         let scores = factors(relative).filter_map(|factor| {
             let other = Sought {

@@ -1,36 +1,18 @@
 //! Explanations compared: each part of the bearing, repeated impacts of something else, or neither. What explains the most goes first;
 //! its lines are no evidence for the others, whether it is named or not.
 
-use super::bands::BandSpectrum;
-use super::comb::{Fit, Masked, best_fit};
-use super::control::{ByChance, control_scores};
-use super::fault::{Fault, FaultOrders};
-use super::known::{COMBS_BESIDE, KnownLine, Mask, Strikes, coincidence, shaft_lines};
-use super::line_spectrum::REVOLUTIONS;
-use super::unexplained::UNEXPLAINED_ORDERS;
+use super::comb::Fit;
+use super::fault::Fault;
+use super::known::{COMBS_BESIDE, coincidence, shaft_lines};
+use super::search::{Candidate, Search};
 use super::verdict::{Conclusion, FaultVerdict, UnexplainedImpacts};
 
 /// Probability by chance below which a comb explains lines, named or not.
 const EXPLAINS_BELOW: f64 = 0.01;
-/// Bins that the floor of a part's fundamental needs within half of it, to each side.
-const FLOOR_BINS: f64 = 8.0;
 /// Relative difference of orders that are multiples of one: combs are fitted within half of the resolution.
 const SAME_ORDER: f64 = 5e-3;
 /// Most combs that are explained one after the other.
 const MOST_ROUNDS: usize = 8;
-
-/// Everything that verdicts are sought in.
-pub(super) struct Search<'a> {
-    pub(super) spectra: &'a [BandSpectrum],
-    /// The low orders of the same envelopes at a finer resolution, for the cage's lines.
-    pub(super) fine: &'a [BandSpectrum],
-    pub(super) orders: &'a FaultOrders,
-    /// Shaft revolutions of the window.
-    pub(super) turns: f64,
-    pub(super) speed_hz: f64,
-    /// Relative uncertainty of the shaft's speed.
-    pub(super) speed_error: f64,
-}
 
 /// What was found.
 pub(super) struct Found {
@@ -38,20 +20,6 @@ pub(super) struct Found {
     pub(super) unexplained: Vec<UnexplainedImpacts>,
     /// Spectrum of the strongest comb.
     pub(super) spectrum: usize,
-}
-
-/// A comb that is the best of its kind, before it is judged.
-pub(super) struct Candidate {
-    pub(super) fault: Option<Fault>,
-    pub(super) fit: Fit,
-    pub(super) beside: Option<f64>,
-    /// Reach of its search over its order.
-    pub(super) relative_reach: f64,
-}
-
-/// Shaft revolutions that the floor of a part's lines needs.
-pub(super) fn turns_needed(order: f64) -> f64 {
-    2.0 * FLOOR_BINS / order
 }
 
 impl Search<'_> {
@@ -176,98 +144,5 @@ impl Search<'_> {
                 );
             }
         }
-    }
-
-    /// The order at which the widest spectrum ends.
-    pub(super) fn end(&self) -> f64 {
-        let ends = self.spectra.iter().map(|spectrum| spectrum.lines.end());
-        ends.fold(1.0, f64::max)
-    }
-
-    /// Whether the window has revolutions enough for the floor about an order's lines.
-    pub(super) fn can_judge(&self, order: f64) -> bool {
-        self.turns >= turns_needed(order)
-    }
-
-    pub(super) fn masked(&self, known: &[KnownLine]) -> Vec<Masked<'_>> {
-        let masked = self.spectra.iter().map(|spectrum| {
-            let mut mask = Mask::new(&spectrum.lines);
-            mask.take(&spectrum.lines, known);
-            Masked { spectrum, mask }
-        });
-        masked.collect()
-    }
-
-    /// The best comb of a part; lines beside the harmonics count where that scores more.
-    pub(super) fn part(
-        &self,
-        masked: &[Masked<'_>],
-        fault: Fault,
-        order: f64,
-    ) -> Option<Candidate> {
-        let relative_reach = self.orders.error(fault) + self.speed_error;
-        let reach = relative_reach * order;
-        let of = |beside| {
-            Some(Candidate {
-                fault: Some(fault),
-                fit: best_fit(masked, order, reach, beside)?,
-                beside,
-                relative_reach,
-            })
-        };
-        let alone = of(None);
-        match self.side_spacing(fault) {
-            Some(spacing) if fault == Fault::Ball => alone
-                .into_iter()
-                .chain(of(Some(spacing)))
-                .max_by(|a, b| a.fit.score.total_cmp(&b.fit.score)),
-            _ => alone,
-        }
-    }
-
-    /// Lines that a candidate explains.
-    pub(super) fn own_lines(&self, candidate: &Candidate, highest: f64) -> Vec<KnownLine> {
-        let name = format!("{:.2} Hz", candidate.fit.order * self.speed_hz);
-        let strikes = Strikes {
-            fault: candidate.fault,
-            name: candidate.fault.map_or(&name, |fault| fault.name()),
-            order: candidate.fit.order,
-        };
-        let resolution = self.spectra[candidate.fit.spectrum].lines.resolution;
-        strikes.lines(self.orders, self.speed_error, highest, resolution)
-    }
-
-    /// Probability by chance of a candidate, its own lines taken out of the controls.
-    pub(super) fn chance(
-        &self,
-        masked: &[Masked<'_>],
-        candidate: &Candidate,
-        own: &[KnownLine],
-    ) -> Option<f64> {
-        let without: Vec<Masked<'_>> = masked
-            .iter()
-            .map(|masked| {
-                let mut mask = masked.mask.clone();
-                mask.take(&masked.spectrum.lines, own);
-                Masked {
-                    spectrum: masked.spectrum,
-                    mask,
-                }
-            })
-            .collect();
-        let Candidate {
-            fit,
-            beside,
-            relative_reach,
-            ..
-        } = candidate;
-        let scores = control_scores(&without, fit.order, *relative_reach, *beside);
-        let by_chance = ByChance::of(scores)?;
-        let searches = match candidate.fault {
-            Some(Fault::Ball) => 2.0,
-            Some(_) => 1.0,
-            None => (UNEXPLAINED_ORDERS[1] - UNEXPLAINED_ORDERS[0]) * self.turns.min(REVOLUTIONS),
-        };
-        Some(by_chance.probability(fit.score, searches))
     }
 }

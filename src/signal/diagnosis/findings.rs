@@ -2,10 +2,10 @@
 
 use super::bands::{BandSpectrum, EnvelopeKind};
 use super::comb::{Fit, LEAST_FREE, SHOWN_HARMONICS};
-use super::explain::{Candidate, Search, turns_needed};
 use super::fault::Fault;
 use super::known::{KnownLine, coincidence, line_name};
 use super::line_spectrum::LineSpectrum;
+use super::search::{Candidate, Search, turns_needed};
 use super::verdict::{Conclusion, Evidence, FaultVerdict, Harmonic, SideLine, conclude};
 
 /// Side lines that are looked at: to so many spacings on each side of so many harmonics.

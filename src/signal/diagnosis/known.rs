@@ -70,7 +70,7 @@ pub(super) fn carrier(fault: Fault) -> &'static str {
 
 /// What a line of a part is called: "2 x ball -1 x cage".
 #[must_use]
-pub fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
+pub(crate) fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
     let name = fault.name();
     match side {
         0 => format!("{harmonic} x {name}"),

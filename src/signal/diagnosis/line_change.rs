@@ -104,7 +104,7 @@ impl LineChange {
 
 /// A change with its interval, in words.
 #[must_use]
-pub fn change_words(change_db: Option<f64>, interval_db: [Option<f64>; 2]) -> String {
+pub(crate) fn change_words(change_db: Option<f64>, interval_db: [Option<f64>; 2]) -> String {
     match (change_db, interval_db) {
         (Some(change), [Some(low), Some(high)]) => {
             format!("{change:+.1} dB ({low:.1} to {high:.1})")

@@ -7,7 +7,7 @@
 //! 5. `control`: how good a comb is by chance, from the same comb at hundreds of other orders.
 //! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`). `unexplained`: combs of no part.
 //!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
-//!    `seldom`: a part's lines that are every second or third of something else's.
+//!    `doubts`: lines of a part that may be something else's.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
 //! 8. [`line_changes`]: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
 //!    [`level_changes`]: the same of the vibration as a whole and in octaves.
@@ -28,8 +28,10 @@ mod cage_lines;
 mod change;
 mod comb;
 mod comb_power;
+mod compared_lines;
 mod compared_signal;
 mod control;
+mod doubts;
 mod error;
 mod explain;
 mod fault;
@@ -44,7 +46,7 @@ mod order_spectrum;
 mod ratio_interval;
 mod repeated;
 mod rounding;
-mod seldom;
+mod search;
 mod separation;
 mod shaft_speed;
 mod stretch_spectrum;
@@ -73,11 +75,9 @@ pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use kinematics::Kinematics;
-pub use known::line_name;
 pub use level_change::{LevelChange, level_changes};
-pub use line_change::{
-    AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange, change_words,
-};
+pub(crate) use line_change::change_words;
+pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
 pub use verdict::{

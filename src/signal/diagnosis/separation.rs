@@ -1,10 +1,10 @@
 //! How long a window has to be for a part's lines to be told from the floor and from the shaft's.
 
 use super::comb::{LEAST_FREE, SHOWN_HARMONICS};
-use super::explain::turns_needed;
 use super::fault::{Fault, FaultOrders};
 use super::known::{SHORT_WIDTH, STRONG_HALF_WIDTH};
 use super::line_spectrum::REVOLUTIONS;
+use super::search::turns_needed;
 
 impl FaultOrders {
     /// Revolutions of the shaft that a window needs for a verdict on a part whose order is exact. `None` where its order is not known,

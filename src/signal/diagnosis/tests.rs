@@ -277,7 +277,7 @@ fn a_ball_shows_beside_its_harmonics() {
     let ball = verdict(&found, Fault::Ball);
     let coinciding = ball.harmonics.iter().filter(|h| h.coincides_with.is_some());
     assert!(coinciding.filter(|h| h.side == 0).count() >= 2, "{ball:#?}");
-    assert_eq!(line_name(Fault::Ball, 2, -1), "2 x ball -1 x cage");
+    assert_eq!(known::line_name(Fault::Ball, 2, -1), "2 x ball -1 x cage");
     assert!(ball.side_lines.iter().filter(|line| line.seen).count() >= 3);
 }
 

@@ -1,14 +1,11 @@
 //! Repeated impacts that belong to no part of the bearing: another bearing, a wrong speed, a gear.
 
-use super::comb::Masked;
-use super::comb::{Fit, best_fit};
-use super::explain::{Candidate, Search, turns_needed};
+use super::comb::{Fit, Masked, best_fit};
 use super::fault::Fault;
 use super::known::KnownLine;
+use super::search::{Candidate, Search, UNEXPLAINED_ORDERS, turns_needed};
 use super::verdict::{Evidence, UnexplainedImpacts};
 
-/// Lowest and highest order of impacts of something else.
-pub(super) const UNEXPLAINED_ORDERS: [f64; 2] = [0.3, 16.0];
 /// Impacts of something else are said below this probability by chance.
 const UNEXPLAINED_BELOW: f64 = 1e-2;
 /// Ratios and sums in which orders are related, so that a comb of the one is one of the other's lines.

@@ -3,10 +3,11 @@
 use super::angle_grid::AngleGrid;
 use super::bands::{Spectra, band_spectra, check_band, searched_band};
 use super::comb::SHOWN_HARMONICS;
-use super::explain::{Found, Search};
+use super::explain::Found;
 use super::findings::envelope_name;
 use super::repeated::check_repeated;
 use super::rounding::check_noise;
+use super::search::Search;
 use super::shaft_speed::{ShaftSpeed, SpeedSource, speed_of_races};
 use super::strictly_periodic::say_strictly_periodic;
 use super::verdict::UnexplainedImpacts;

@@ -1,7 +1,9 @@
 //! Integrals of functions at equal intervals as they come: Gregory's formula.
 
-use super::FLOWS;
 use crate::numerics::ode::{Snapshot, SnapshotError, SnapshotReader};
+
+/// Loads, rotation, modal damping, contact damping, blending.
+pub(super) const FLOWS: usize = 5;
 
 /// Values at either end that the corrections take.
 const ENDS: usize = 4;

@@ -23,9 +23,6 @@ use crate::numerics::ode::{
 use integral::Integral;
 use power::Powers;
 
-/// Loads, rotation, modal damping, contact damping, blending.
-const FLOWS: usize = 5;
-
 /// The energy balance of a run, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyBalance {

@@ -2,7 +2,7 @@
 
 use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceEnergy, RacePlace};
-use super::FLOWS;
+use super::integral::FLOWS;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes};
 use crate::numerics::ode::Instant;

@@ -1,9 +1,6 @@
 //! The reduced potential of shaft and balls: its slope and curvature at given positions.
 
 use super::condition::StaticCondition;
-use super::rows::contact_rows;
-use super::search::{Found, HELD};
-use super::{BallLoad, Equilibrium};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::bearing_setup::{BearingSetup, Formulation};
 use crate::system::race::RaceForce;
@@ -17,16 +14,16 @@ pub(super) struct Evaluation {
     pub gradient: DVector<f64>,
     /// N/m.
     pub hessian: DMatrix<f64>,
-    inner: Vec<f64>,
-    outer: Vec<RaceForce>,
+    pub inner: Vec<f64>,
+    pub outer: Vec<RaceForce>,
 }
 
 /// A bearing in its structure, the cage at rest.
 pub(super) struct Problem<'a> {
-    setup: &'a BearingSetup,
+    pub setup: &'a BearingSetup,
     races: RestingRaces,
-    condition: StaticCondition,
-    angles: Vec<f64>,
+    pub condition: StaticCondition,
+    pub angles: Vec<f64>,
     /// Flexibility at the contacts [2 balls x 2 balls], radial then tangential a ball, m/N.
     flexibility: DMatrix<f64>,
     /// Displacement there under the structure's weight [2 balls], m.
@@ -37,7 +34,7 @@ pub(super) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// The problem, and the loads behind it: unit contact forces, then the weight [dof x 2 balls + 1].
-    pub fn new(
+    pub(super) fn new(
         structure: &Structure,
         setup: &'a BearingSetup,
         condition: StaticCondition,
@@ -73,18 +70,18 @@ impl<'a> Problem<'a> {
     }
 
     /// Distance of a ball that touches the outer race from the bearing's centre, m.
-    pub fn touching_radius(&self) -> f64 {
+    pub(super) fn touching_radius(&self) -> f64 {
         self.races.inner_race.touching_radius
     }
 
     /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
     /// bearing.
-    pub fn force_scale(&self) -> f64 {
+    pub(super) fn force_scale(&self) -> f64 {
         let [x, y] = self.condition.load;
         x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
     }
 
-    pub fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
+    pub(super) fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
         let balls = self.angles.len();
         let (outer, stiffness) = self.outer_forces(z);
         let mut gradient = DVector::zeros(2 + balls);
@@ -197,82 +194,25 @@ impl<'a> Problem<'a> {
         }
         tangent
     }
-
-    /// The equilibrium that a search found; `loads` as [`Problem::new`] gives them.
-    pub fn result(&self, found: &Found, loads: &DenseMatrix, structure: &Structure) -> Equilibrium {
-        let Found { z, evaluation, .. } = found;
-
-        let balls = self.angles.len();
-        let structure_load: Vec<f64> = (0..structure.dof())
-            .map(|row| {
-                let contacts: f64 = (0..balls)
-                    .map(|j| {
-                        let force = &evaluation.outer[j];
-                        loads[(row, 2 * j)] * force.radial
-                            + loads[(row, 2 * j + 1)] * force.tangential
-                    })
-                    .sum();
-                contacts + loads[(row, 2 * balls)]
-            })
-            .collect();
-        let centre = match self.setup.formulation {
-            Formulation::Consistent => [0.0; 2],
-            Formulation::Printed => self.mean_displacement(structure, &structure_load),
-        };
-        Equilibrium {
-            shaft: [z[0] + centre[0], z[1] + centre[1]],
-            balls: (0..balls)
-                .map(|j| BallLoad {
-                    angle: self.angles[j],
-                    displacement: z[2 + j],
-                    inner: evaluation.inner[j],
-                    outer: evaluation.outer[j].magnitude,
-                })
-                .collect(),
-            structure_load,
-            iterations: found.iterations,
-            residual_n: evaluation.gradient.amax(),
-            least_curvature: found.least_curvature(),
-            directions_down: found.directions_down,
-            shaft_stiffness: shaft_stiffness(&evaluation.hessian),
-            centre,
-            cage_speed: self.condition.cage_speed,
-            shaft_angle: self.condition.shaft_angle,
-        }
-    }
-
-    fn mean_displacement(&self, structure: &Structure, load: &[f64]) -> [f64; 2] {
-        let column = DenseMatrix::from_fn(load.len(), 1, |row, _| load[row]);
-        let nodes = structure.ring().nodes();
-        structure
-            .static_response(&column)
-            .map(|response| {
-                [0, 1].map(|component| {
-                    let sum: f64 = (0..nodes)
-                        .map(|node| response[(3 * node + component, 0)])
-                        .sum();
-                    sum / nodes as f64
-                })
-            })
-            .unwrap_or([0.0; 2])
-    }
 }
 
-/// Stiffness that a force on the shaft meets while the balls find their own balance, N/m:
-/// `H_ss - H_sb H_bb^-1 H_bs`; balls that nothing holds do not take part.
-fn shaft_stiffness(hessian: &DMatrix<f64>) -> [[f64; 2]; 2] {
-    let balls = hessian.nrows() - 2;
-    let of_balls = hessian.view((2, 2), (balls, balls)).symmetric_eigen();
-    let coupling = of_balls.eigenvectors.transpose() * hessian.view((2, 0), (balls, 2));
-    let mut stiffness = [0, 1].map(|i| [0, 1].map(|j| hessian[(i, j)]));
-    for (mode, &curvature) in of_balls.eigenvalues.iter().enumerate() {
-        if curvature.abs() > HELD {
-            for (i, row) in stiffness.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry -= coupling[(mode, i)] * coupling[(mode, j)] / curvature;
-                }
-            }
+/// Rows of the race's displacement at the balls, as columns [dof x 2 balls]: radial, then
+/// tangential at the raceway, for each ball.
+pub(in crate::system) fn contact_rows(
+    structure: &Structure,
+    setup: &BearingSetup,
+    angles: &[f64],
+) -> DenseMatrix {
+    let ring = structure.ring();
+    let arm = setup.raceway_arm(ring.section().radius);
+    let mut columns = DenseMatrix::zeros(structure.dof(), 2 * angles.len());
+    for (j, &angle) in angles.iter().enumerate() {
+        let rows = ring.rows_at(angle);
+        let tangential = rows.tangential_at(arm);
+        for k in 0..6 {
+            columns[(rows.dofs[k], 2 * j)] += rows.radial[k];
+            columns[(rows.dofs[k], 2 * j + 1)] += tangential[k];
         }
     }
-    stiffness
+    columns
 }

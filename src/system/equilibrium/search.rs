@@ -62,7 +62,7 @@ impl Found {
     }
 
     /// Smallest curvature among directions that a contact holds, N/m.
-    pub fn least_curvature(&self) -> f64 {
+    pub(super) fn least_curvature(&self) -> f64 {
         let held = self.curvatures.iter().copied();
         held.filter(|value| value.abs() > HELD)
             .fold(f64::INFINITY, f64::min)
@@ -74,7 +74,7 @@ impl Problem<'_> {
     ///
     /// # Errors
     /// [`SystemError::NoEquilibrium`].
-    pub fn descend(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
+    pub(super) fn descend(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
         let mut evaluation = self.evaluate(&z);
         let (mut iterations, mut before) = (0, f64::INFINITY);
         loop {
@@ -113,7 +113,7 @@ impl Problem<'_> {
     ///
     /// # Errors
     /// [`SystemError::NoEquilibrium`].
-    pub fn settle(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
+    pub(super) fn settle(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
         let mut evaluation = self.evaluate(&z);
         let (mut iterations, mut before) = (0, f64::INFINITY);
         loop {

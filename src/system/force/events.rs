@@ -10,8 +10,8 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use super::dot;
 use crate::numerics::lanes::LANES;
+use crate::numerics::lanes::scalar_product;
 
 impl CoupledSystem {
     /// How many events the contacts have.
@@ -39,7 +39,7 @@ impl CoupledSystem {
         let modes = self.modes;
         let centre = match self.setup.formulation {
             Formulation::Consistent => [0.0; 2],
-            Formulation::Printed => [0, 1].map(|k| dot(&self.centre[k], &y[..modes])),
+            Formulation::Printed => [0, 1].map(|k| scalar_product(&self.centre[k], &y[..modes])),
         };
         let relative = [0, 1].map(|k| y[modes + k] - centre[k]);
         let (outer, inner) = events.split_at_mut(self.balls.count);

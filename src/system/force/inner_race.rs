@@ -3,7 +3,7 @@
 use super::super::coupled::CoupledSystem;
 use super::super::inner::InnerGap;
 use super::super::race::{Damage, RaceForce, RacePlace};
-use super::CentreMotion;
+use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, positive};
 

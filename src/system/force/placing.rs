@@ -1,13 +1,74 @@
-//! Where the balls are, and what they may feel there.
+//! Where everything is that a force depends on: coordinates side by side, the ring's centre, the balls and what they may feel.
 
+use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
 use super::super::turning::directions;
 use crate::bearing::RotationState;
-use crate::numerics::lanes::{self, Lanes};
+use crate::numerics::lanes::{self, LANES, Lanes, scalar_product};
+
+/// Motion of the ring's mean centre, from which `printed` measures; at rest in `consistent`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CentreMotion {
+    pub position: [f64; 2],
+    pub velocity: [f64; 2],
+    pub acceleration: [f64; 2],
+}
 
 impl CoupledSystem {
+    /// Copies coordinates and velocities to where they stand side by side.
+    #[inline(always)]
+    pub(super) fn take<const B: usize, const M: usize>(&mut self, y: &[f64], v: &[f64]) {
+        let (modes, work) = (self.modes, &mut self.work);
+        lanes::set(lanes::first_mut::<M, _>(&mut work.amplitudes), &y[..modes]);
+        if self.setup.contact_damping > 0.0 {
+            lanes::set(lanes::first_mut::<M, _>(&mut work.velocities), &v[..modes]);
+        }
+        let groups = lanes::first_mut::<B, _>(&mut self.balls.groups);
+        if self.setup.balls_inertia == BallsInertia::QuasiStatic {
+            for group in groups {
+                group.displacement = [0.0; LANES];
+            }
+            return;
+        }
+        let displacements = y[modes + 2..].chunks(LANES);
+        for (group, displacements) in groups.iter_mut().zip(displacements) {
+            group.displacement = lanes::from(displacements);
+        }
+        if self.setup.contact_damping > 0.0 {
+            for (group, rates) in groups.iter_mut().zip(v[modes + 2..].chunks(LANES)) {
+                group.displacement_rate = lanes::from(rates);
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn centre_motion(&self, y: &[f64], v: &[f64], g: &[f64]) -> CentreMotion {
+        match self.setup.formulation {
+            Formulation::Consistent => CentreMotion::default(),
+            Formulation::Printed => self.printed_centre(y, v, g),
+        }
+    }
+
+    fn printed_centre(&self, y: &[f64], v: &[f64], g: &[f64]) -> CentreMotion {
+        let modes = self.modes;
+        let mut motion = CentreMotion::default();
+        for k in 0..2 {
+            let row = &self.centre[k];
+            motion.position[k] = scalar_product(row, &y[..modes]);
+            motion.velocity[k] = scalar_product(row, &v[..modes]);
+            motion.acceleration[k] = (0..modes)
+                .map(|i| {
+                    let linear = self.linear[i];
+                    let pull = linear.damping * v[i] + linear.squared_frequency * y[i];
+                    row[i] * (g[i] - pull)
+                })
+                .sum();
+        }
+        motion
+    }
+
     /// Directions of the shaft and of all balls, and the balls' places: one sine and cosine, the others by rotation through
     /// the fixed spacing.
     #[inline(always)]

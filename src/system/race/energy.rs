@@ -1,6 +1,6 @@
 //! What the contacts of one ball with a race store, and what their damping takes.
 
-use super::{Damage, RaceContact, RacePlace};
+use super::contact::{Damage, RaceContact, RacePlace};
 use crate::bearing::HertzContact;
 
 /// Half the time over which energies are compared, s: at the speeds of balls a part of what any feature is long.
@@ -22,7 +22,7 @@ pub(in crate::system) struct RaceEnergy {
 impl RaceContact {
     /// Energy of a ball at a place, its damping forces those of the place's rates; they work at the rates `moving`: of the
     /// penetration, and of the ball's centre along increasing angle, m/s.
-    pub fn energy(&self, damage: Damage, at: &RacePlace, moving: [f64; 2]) -> RaceEnergy {
+    pub(crate) fn energy(&self, damage: Damage, at: &RacePlace, moving: [f64; 2]) -> RaceEnergy {
         let moving = RacePlace {
             rate: moving[0],
             along: moving[1],
@@ -61,7 +61,13 @@ impl RaceContact {
     /// Power that a ball's contacts get without being pressed, W: what their stiffness changes by as they move along a profile,
     /// `(2/5) delta^(5/2) dk/dt`; from a difference of their energy along the motion. `turn` is the angular speed of the ball's
     /// radius vector about the race's centre, rad/s.
-    pub fn blending(&self, damage: Damage, at: &RacePlace, moving: [f64; 2], turn: f64) -> f64 {
+    pub(crate) fn blending(
+        &self,
+        damage: Damage,
+        at: &RacePlace,
+        moving: [f64; 2],
+        turn: f64,
+    ) -> f64 {
         if damage == Damage::None {
             return 0.0;
         }

@@ -3,9 +3,11 @@
 //! Inside an element the interpolation is smooth. A polynomial through Chebyshev points reproduces it to [`ACCURACY`]; each
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
-use super::Quintic;
 use crate::numerics::lanes::{LANES, Lanes, each};
 use std::f64::consts::PI;
+
+/// Coefficients of a polynomial in its local coordinate in [-1, 1], highest power first.
+pub(super) type Quintic = [Lanes; 6];
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.
 const ACCURACY: f64 = 1e-12;
@@ -26,7 +28,11 @@ pub(super) struct ElementPolynomials {
 
 impl ElementPolynomials {
     /// Raises the degree until the polynomials reproduce `sample(element, xi)`.
-    pub fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
+    pub(super) fn fit(
+        elements: usize,
+        modes: usize,
+        sample: &impl Fn(usize, f64) -> Vec<f64>,
+    ) -> Self {
         let mut fitted = Self::of_degree(elements, modes, DEGREES[0], sample);
         for degree in &DEGREES[1..] {
             if fitted.deviation(sample) <= ACCURACY {
@@ -143,7 +149,7 @@ impl ElementPolynomials {
     }
 
     /// Into how many pieces elements must be cut for quintics to reproduce them.
-    pub fn cuts(&self) -> usize {
+    pub(super) fn cuts(&self) -> usize {
         let mut cuts = 1;
         while cuts < MOST_CUTS && self.deviation_of_quintics(cuts) > ACCURACY {
             cuts *= 2;
@@ -152,7 +158,7 @@ impl ElementPolynomials {
     }
 
     /// The quintics with each element in so many pieces [piece][group of modes].
-    pub fn cut(&self, cuts: usize) -> Vec<Quintic> {
+    pub(super) fn cut(&self, cuts: usize) -> Vec<Quintic> {
         let groups = self.modes.div_ceil(LANES);
         let mut quintics = Vec::with_capacity(self.elements * cuts * groups);
         for element in 0..self.elements {

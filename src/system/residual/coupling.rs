@@ -47,7 +47,7 @@ struct Stretch {
 }
 
 impl Coupling {
-    pub fn new(mut residual: ResidualFlexibility, balls: usize) -> Self {
+    pub(crate) fn new(mut residual: ResidualFlexibility, balls: usize) -> Self {
         let groups = balls.div_ceil(LANES);
         let columns = balls + 1;
         let blank = |columns: usize| Stretch {
@@ -81,7 +81,7 @@ impl Coupling {
 
     /// Turns to the angle of the first ball in turns, 0 <= turn < 1, with the weight's column.
     #[inline(always)]
-    pub fn turn_to(&mut self, turn: f64) {
+    pub(crate) fn turn_to(&mut self, turn: f64) {
         let place = turn * self.stretches as f64;
         let number = (place as usize).min(self.stretches - 1);
         let slot = number & 1;
@@ -99,7 +99,7 @@ impl Coupling {
 
     /// Turns the column of ball `k` to the same angle, with its slopes if asked for.
     #[inline(always)]
-    pub fn turn_column<const B: usize>(&mut self, k: usize, with_slopes: bool) {
+    pub(crate) fn turn_column<const B: usize>(&mut self, k: usize, with_slopes: bool) {
         let (slot, x) = self.at;
         let range = k * self.groups..(k + 1) * self.groups;
         let quintics = first::<B, _>(&self.made[slot].quintics[range.clone()]);
@@ -119,31 +119,31 @@ impl Coupling {
 
     /// Radial displacement of the balls for a radial force at ball `k` \[groups\], m/N; `B` of the groups, or all for 0.
     #[inline(always)]
-    pub fn column<const B: usize>(&self, k: usize) -> &[Lanes] {
+    pub(crate) fn column<const B: usize>(&self, k: usize) -> &[Lanes] {
         first::<B, _>(&self.values[k * self.groups..(k + 1) * self.groups])
     }
 
     /// Its derivative by the cage angle \[groups\], m/(N rad).
     #[inline(always)]
-    pub fn slope_column<const B: usize>(&self, k: usize) -> &[Lanes] {
+    pub(crate) fn slope_column<const B: usize>(&self, k: usize) -> &[Lanes] {
         first::<B, _>(&self.slopes[k * self.groups..(k + 1) * self.groups])
     }
 
     /// Radial displacement of ball `j` for a radial force at ball `k`, m/N.
     #[inline]
-    pub fn between(&self, j: usize, k: usize) -> f64 {
+    pub(crate) fn between(&self, j: usize, k: usize) -> f64 {
         self.values[k * self.groups + j / LANES][j % LANES]
     }
 
     /// Radial displacement of the balls under the weight \[groups\], m.
     #[inline(always)]
-    pub fn weight<const B: usize>(&self) -> &[Lanes] {
+    pub(crate) fn weight<const B: usize>(&self) -> &[Lanes] {
         self.column::<B>(self.balls)
     }
 
     /// Displacement of a sensor for radial forces at the balls (N), m.
     #[inline]
-    pub fn at_sensor(&self, sensor: usize, forces: impl Iterator<Item = f64>) -> f64 {
+    pub(crate) fn at_sensor(&self, sensor: usize, forces: impl Iterator<Item = f64>) -> f64 {
         let (slot, x) = self.at;
         let first = (self.balls + 1 + sensor) * self.groups;
         let quintics = &self.made[slot].quintics[first..first + self.groups];
@@ -153,7 +153,7 @@ impl Coupling {
 
     /// Rate by the cage angle (N m/rad) of the work of radial forces F at the balls, `F . w + F . G F / 2` with the flexibility
     /// between them G and their displacement under the weight w.
-    pub fn work_by_turning(&self, force: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn work_by_turning(&self, force: impl Fn(usize) -> f64) -> f64 {
         let (slot, x) = self.at;
         let column = |k: usize| {
             let quintics = &self.made[slot].quintics[k * self.groups..(k + 1) * self.groups];
@@ -180,7 +180,7 @@ impl Coupling {
     }
 
     /// A bound of the displacement under the weight along the raceway, m.
-    pub fn weight_bound(&self) -> f64 {
+    pub(crate) fn weight_bound(&self) -> f64 {
         self.residual.weight_bound()
     }
 

@@ -52,7 +52,7 @@ struct Touch {
 impl ResidualFlexibility {
     /// # Errors
     /// [`SystemError::NotSupported`] if the structure is free.
-    pub fn new(
+    pub(super) fn new(
         structure: &Structure,
         modes: &StructureModes,
         kept: &[usize],
@@ -154,7 +154,7 @@ impl ResidualFlexibility {
     }
 
     /// A bound of the displacement under the weight along the raceway, m.
-    pub fn weight_bound(&self) -> f64 {
+    pub(super) fn weight_bound(&self) -> f64 {
         let components = ELEMENT_DOF / 2;
         let most = |component: usize| {
             let values = self.weight.iter().skip(component).step_by(components);

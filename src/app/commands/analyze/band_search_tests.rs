@@ -6,7 +6,7 @@ use super::band_search::{AskedBand, UsedBand};
 use super::band_search_report::{band_facts, kurtogram_plot};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::FaultOrders;
-use crate::signal::noise::gaussian;
+use crate::signal::samples::gaussian;
 
 const WINDOW: TimeWindow = TimeWindow { from: 0.2, to: 0.6 };
 

@@ -1,6 +1,6 @@
 //! How far a ball sinks into a defect, by the profile that is in use and by the other.
 
-use crate::bearing::defect::{Dent, DentShape, RaceDefect, SurfaceDent};
+use crate::bearing::defect::{Dent, DentShape, RaceDefect, RaceProfile, SurfaceDent};
 use crate::bearing::{BearingGeometry, ContactStiffness};
 
 /// Name of the drop and its value (m). A dent with a width has two, in the plane and in its surface, as far as its

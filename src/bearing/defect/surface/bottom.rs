@@ -12,8 +12,8 @@ use super::super::fade::{FLOOR_FADE, Fade};
 use super::super::rim::smoothstep;
 use super::super::stiffness::CurvatureStiffness;
 use super::super::vector::Vector;
+use super::minima::to_tube;
 use super::outline::Outline;
-use super::query::to_tube;
 
 /// The floor's section in the plane, as far as a ball can touch it.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +43,7 @@ struct Reach {
 
 impl Bottom {
     /// The floor of `outline`; `base` (1/m) as [`super::super::depression::Depression::new`] takes it.
-    pub fn new(outline: &Outline, base: f64) -> Self {
+    pub(super) fn new(outline: &Outline, base: f64) -> Self {
         let circles = outline.circles;
         let ellipse = Ellipse {
             carrier: circles.carrier,
@@ -89,17 +89,17 @@ impl Bottom {
     }
 
     /// Whether a ball can touch it anywhere.
-    pub fn is_touchable(&self) -> bool {
+    pub(super) fn is_touchable(&self) -> bool {
         self.reach.is_some()
     }
 
     /// Relative curvature at the middle as the stiffness takes it, 1/m.
-    pub fn middle_curvature(&self) -> f64 {
+    pub(super) fn middle_curvature(&self) -> f64 {
         self.base - self.ellipse.curvature(0.0)
     }
 
     /// Distance (m) from the axis at `offset` (rad) from the middle, without the rim.
-    pub fn polar_radius(&self, offset: f64) -> f64 {
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         self.ellipse.polar_radius(offset)
     }
 
@@ -111,7 +111,7 @@ impl Bottom {
 
     /// Contact of a ball at `centre`, in `direction` from the race's centre.
     #[inline]
-    pub fn contact(
+    pub(super) fn contact(
         &self,
         centre: Vector,
         direction: Vector,

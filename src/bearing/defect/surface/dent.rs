@@ -4,15 +4,16 @@ use super::super::angle::{offset_from, reduced, within};
 use super::super::circles::Circles;
 use super::super::contacts::DefectContacts;
 use super::super::curve::bisect;
-use super::super::dent::{DentShape, PolarPosition};
+use super::super::dent::DentShape;
 use super::super::error::DefectError;
+use super::super::race_profile::{PolarPosition, RaceProfile};
 use super::super::rim;
 use super::super::stiffness::{self, CurvatureStiffness};
 use super::bottom::Bottom;
 use super::check;
 use super::edge;
+use super::minima::to_tube;
 use super::outline::Outline;
-use super::query::to_tube;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 
@@ -99,42 +100,27 @@ impl SurfaceDent {
     pub fn shape(&self) -> &DentShape {
         &self.shape
     }
+}
 
-    /// The race that carries the dent.
-    #[must_use]
-    pub fn race(&self) -> Race {
+impl RaceProfile for SurfaceDent {
+    fn race(&self) -> Race {
         self.race
     }
 
-    /// Half the arc of the outline in the plane, rad.
-    #[must_use]
-    pub fn half_angle(&self) -> f64 {
+    fn angle(&self) -> f64 {
+        self.shape.angle
+    }
+
+    /// Of the outline in the plane.
+    fn half_angle(&self) -> f64 {
         self.surface.outline.angle()
     }
 
-    /// Half the arc within which a ball can press on the rim or the floor, rad; see [`super::super::Dent`].
-    #[must_use]
-    pub fn contact_half_angle(&self) -> f64 {
+    fn contact_half_angle(&self) -> f64 {
         self.surface.contact_angle
     }
 
-    /// How far, m, a ball at the dent's middle sinks beyond its place on the race before anything holds it.
-    #[must_use]
-    pub fn ball_drop(&self) -> f64 {
-        let Outline { circles, depth, .. } = self.surface.outline;
-        let held = |drop: f64| {
-            let distance = circles.carrier - circles.side * (circles.roller - drop);
-            let mut found = DefectContacts::none();
-            self.surface.contacts_into(distance, 0.0, &mut found);
-            found.as_slice().iter().any(|contact| contact.delta >= 0.0)
-        };
-        bisect(0.0, depth, |drop| !held(drop))
-    }
-
-    /// Distance (m) from the race's centre to the surface in the plane of the bearing at `angle` (rad, any turn, in
-    /// the race's frame).
-    #[must_use]
-    pub fn profile_radius(&self, angle: f64) -> f64 {
+    fn profile_radius(&self, angle: f64) -> f64 {
         let (outline, offset) = (&self.surface.outline, self.offset(angle));
         let Circles { carrier, side, .. } = outline.circles;
         if !within(offset, outline.angle()) {
@@ -149,39 +135,29 @@ impl SurfaceDent {
         }
     }
 
-    /// Whether a ball at `angle` (rad, any turn, in the race's frame) can touch anything but the race: half-open arc
-    /// with the [`Self::contact_half_angle`].
-    #[must_use]
-    #[inline]
-    pub fn contains(&self, angle: f64) -> bool {
-        within(self.offset(angle), self.surface.contact_angle)
+    fn ball_drop(&self) -> f64 {
+        let Outline { circles, depth, .. } = self.surface.outline;
+        let held = |drop: f64| {
+            let distance = circles.carrier - circles.side * (circles.roller - drop);
+            let mut found = DefectContacts::none();
+            self.surface.contacts_into(distance, 0.0, &mut found);
+            found.as_slice().iter().any(|contact| contact.delta >= 0.0)
+        };
+        bisect(0.0, depth, |drop| !held(drop))
     }
 
-    /// All contacts of a ball that reaches the undamaged race: the rim before, pairs on the side edges, the floor, the
-    /// rim after; beside the outline the race in the place of the nearer rim. Gaps (δ < 0) are reported where a contact
-    /// may come to press; of a ball that does not reach the race, the gap to the race.
-    ///
-    /// A pair is one contact, [`Feature::SideEdges`](super::super::Feature::SideEdges). No allocation; a few tenths of a
-    /// microsecond over the dent, more where the outline is about as curved as the ball.
-    #[must_use]
-    #[inline]
-    pub fn contacts(&self, ball: PolarPosition) -> DefectContacts {
-        let mut found = DefectContacts::none();
-        self.contacts_into(ball, &mut found);
-        found
-    }
-
-    /// [`Self::contacts`] in the place of what was found before.
-    #[inline]
-    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
-        let offset = self.offset(ball.angle);
-        self.surface.contacts_into(ball.radius, offset, found);
-    }
-
-    /// Angle from the dent's middle, within ±π.
     #[inline]
     fn offset(&self, angle: f64) -> f64 {
         offset_from(angle, self.middle)
+    }
+
+    /// The rim before, pairs on the side edges, the floor, the rim after; beside the outline the race in the place of the nearer rim. A
+    /// pair is one contact, [`Feature::SideEdges`](super::super::Feature::SideEdges). Of a ball that does not reach the race, the gap to
+    /// the race. A few tenths of a microsecond over the dent, more where the outline is about as curved as the ball.
+    #[inline]
+    fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+        let offset = self.offset(ball.angle);
+        self.surface.contacts_into(ball.radius, offset, found);
     }
 }
 

@@ -43,7 +43,7 @@ pub(super) struct Edge {
 impl Edge {
     /// At v, where F is `f` (m²).
     #[inline]
-    pub fn at(over: &Over<'_>, v: f64, f: f64) -> Self {
+    pub(super) fn at(over: &Over<'_>, v: f64, f: f64) -> Self {
         let o = over.outline;
         let (p, k, q, side) = (over.angle, o.side_sine(), o.tube(), o.circles.side);
         let width = ((1.0 - v) * (1.0 + v)).max(0.0).sqrt();
@@ -92,13 +92,13 @@ impl Edge {
 
     /// 1 on the tube, falling to 0 where it meets the floor.
     #[inline]
-    pub fn on_tube(&self) -> f64 {
+    pub(super) fn on_tube(&self) -> f64 {
         smoothstep((1.0 - self.ratio) / (1.0 - FLOOR_FADE))
     }
 
     /// Relative principal curvatures, 1/m, the greater first.
     #[inline]
-    pub fn curvatures(&self, outline: &Outline) -> [f64; 2] {
+    pub(super) fn curvatures(&self, outline: &Outline) -> [f64; 2] {
         let share = smoothstep(self.sine / RIM_BLEND);
         let (rolling, across) = (outline.circles.relative, outline.across);
         let [b_s, b_z] = self.outward;

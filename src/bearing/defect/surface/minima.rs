@@ -5,7 +5,7 @@
 //! F'' > 0. F''' itself is looked at on a grid; it changes sign once or twice. On the usual dent, longer than wide, F is
 //! convex, which a bound shows at once.
 
-use super::outline::Over;
+use super::outline::{Outline, Over};
 
 /// Most places of a list: two ends, and what a grid of [`GRID`] intervals leaves room for.
 const MOST_PLACES: usize = 2 * GRID + 2;
@@ -51,7 +51,7 @@ impl Places {
     }
 
     #[inline]
-    pub fn as_slice(&self) -> &[f64] {
+    pub(super) fn as_slice(&self) -> &[f64] {
         self.items.get(..self.count).unwrap_or(&self.items)
     }
 }
@@ -184,4 +184,15 @@ fn zero(ends: [f64; 2], values: [f64; 2], function: impl Fn(f64) -> [f64; 2]) ->
         }
     }
     v
+}
+
+/// Distance (m) to the tube's centre curve from a point at `distance` (m) from the axis and `offset` (rad) from the
+/// middle, in the plane.
+pub(super) fn to_tube(outline: &Outline, distance: f64, offset: f64) -> f64 {
+    let over = Over::new(outline, distance, offset);
+    let ends = [-1.0, 1.0].map(|v| over.squares(v));
+    let least = inner_minima(&over, ends)
+        .map(|minimum| minimum.square)
+        .fold(ends[0][0].min(ends[1][0]), f64::min);
+    (over.least() * over.least() + 2.0 * least).max(0.0).sqrt()
 }

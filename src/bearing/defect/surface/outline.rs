@@ -33,31 +33,31 @@ pub(in super::super) struct Outline {
 impl Outline {
     /// Half the angle of the outline, rad.
     #[inline]
-    pub fn angle(&self) -> f64 {
+    pub(crate) fn angle(&self) -> f64 {
         self.half_length / self.circles.carrier
     }
 
     /// k: sine of the transverse angle at the outline's side.
     #[inline]
-    pub fn side_sine(&self) -> f64 {
+    pub(crate) fn side_sine(&self) -> f64 {
         self.half_width / self.groove
     }
 
     /// q, m: transverse radius of the torus on which the tube's centre curve lies.
     #[inline]
-    pub fn tube(&self) -> f64 {
+    pub(crate) fn tube(&self) -> f64 {
         self.groove + self.rim
     }
 
     /// `R + σ r`, m: distance of that torus from the axis in the plane.
     #[inline]
-    pub fn level(&self) -> f64 {
+    pub(crate) fn level(&self) -> f64 {
         self.circles.carrier + self.circles.side * self.rim
     }
 
     /// Change of F over v that the race's own rolling curvature makes, `K (a/R)²` for a ball that touches the race, m².
     #[inline]
-    pub fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         let Circles {
             carrier,
             side,
@@ -91,7 +91,7 @@ pub(super) struct Over<'o> {
 
 impl<'o> Over<'o> {
     #[inline]
-    pub fn new(outline: &'o Outline, distance: f64, offset: f64) -> Self {
+    pub(super) fn new(outline: &'o Outline, distance: f64, offset: f64) -> Self {
         let Circles {
             carrier,
             side,
@@ -114,13 +114,13 @@ impl<'o> Over<'o> {
 
     /// `q − e`, m: distance to the tube's centre curve if it ran right under the ball.
     #[inline]
-    pub fn least(&self) -> f64 {
+    pub(super) fn least(&self) -> f64 {
         self.outline.circles.roller + self.outline.rim - self.sunk
     }
 
     /// F and its first three derivatives at v, m².
     #[inline]
-    pub fn squares(&self, v: f64) -> [f64; 4] {
+    pub(super) fn squares(&self, v: f64) -> [f64; 4] {
         let (p, k2, turn, roll) = (self.angle, self.side_square, self.turn, self.roll);
         let (half_sin, half_cos) = (0.5 * (p * v - self.offset)).sin_cos();
         let one_less = 2.0 * half_sin * half_sin;
@@ -151,7 +151,7 @@ impl<'o> Over<'o> {
 
     /// Lower bound of F'' over the whole outline, m², from the largest of every term of it.
     #[inline]
-    pub fn least_bend(&self) -> f64 {
+    pub(super) fn least_bend(&self) -> f64 {
         let (p, k2, turn) = (self.angle, self.side_square, self.turn.abs());
         let c = (1.0 - k2).sqrt();
         // farthest angle between ball and outline; its cosine from below, and its sine from above

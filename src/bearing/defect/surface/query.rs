@@ -5,24 +5,13 @@ use super::super::contacts::{DefectContact, DefectContacts, Feature};
 use super::dent::Surface;
 use super::edge::Edge;
 use super::minima::{Minimum, inner_minima};
-use super::outline::{Outline, Over};
+use super::outline::Over;
 use super::weight;
-
-/// Distance (m) to the tube's centre curve from a point at `distance` (m) from the axis and `offset` (rad) from the
-/// middle, in the plane.
-pub(super) fn to_tube(outline: &Outline, distance: f64, offset: f64) -> f64 {
-    let over = Over::new(outline, distance, offset);
-    let ends = [-1.0, 1.0].map(|v| over.squares(v));
-    let least = inner_minima(&over, ends)
-        .map(|minimum| minimum.square)
-        .fold(ends[0][0].min(ends[1][0]), f64::min);
-    (over.least() * over.least() + 2.0 * least).max(0.0).sqrt()
-}
 
 impl Surface {
     /// See [`super::SurfaceDent::contacts_into`]; `offset` (rad) within ±π from the middle.
     #[inline]
-    pub fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
+    pub(crate) fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
         let outline = &self.outline;
         found.clear();
         let plain = outline.circles.plain(distance);

@@ -90,7 +90,7 @@ impl Subject {
     /// would be touched.
     fn contacts_at(&self, distance: f64, offset: f64) -> DefectContacts {
         match &self.kind {
-            Kind::Race(defect) => defect.contacts(PolarPosition {
+            Kind::Race(defect) => defect.profile().contacts(PolarPosition {
                 radius: distance,
                 angle: MIDDLE + offset,
             }),

@@ -54,7 +54,7 @@ pub fn nodal_mass(
 ///
 /// # Errors
 /// As [`measure`].
-pub fn measure_matrix(
+pub(crate) fn measure_matrix(
     kind: ContinuumKind,
     coords: &[[f64; 3]],
 ) -> Result<DMatrix<f64>, ElementError> {

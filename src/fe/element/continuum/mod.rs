@@ -36,7 +36,8 @@ mod table;
 mod tests;
 
 pub use kind::{ContinuumKind, MAX_NODES};
-pub use mass::{measure, measure_matrix, nodal_mass, nodal_mass_into};
+pub(crate) use mass::measure_matrix;
+pub use mass::{measure, nodal_mass, nodal_mass_into};
 pub use properties::{ContinuumProperties, PlaneAssumption};
 pub use quadrature::{QuadraturePoint, QuadratureRule};
 pub use quality::{ShapeQuality, quality};
@@ -44,6 +45,6 @@ pub use rules::{Formulation, Integration, LinearFormulation};
 pub use shape::{ShapeDerivatives, ShapeValues, shape_derivatives, shape_values};
 pub use stiffness::{stiffness, stiffness_into};
 pub use surface::{
-    MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues, surface_matrix,
-    surface_shape, surface_weights,
+    MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues, surface_weights,
 };
+pub(crate) use surface::{surface_matrix, surface_shape};

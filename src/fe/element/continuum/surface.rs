@@ -103,7 +103,7 @@ impl SurfaceKind {
 
 /// Shape functions and their derivatives with respect to the two natural coordinates, dimensionless. Edges read
 /// the first coordinate alone.
-pub fn surface_shape(
+pub(crate) fn surface_shape(
     kind: SurfaceKind,
     [xi, eta]: [f64; 2],
 ) -> (SurfaceValues, SurfaceDerivatives) {
@@ -200,7 +200,7 @@ fn tangents(coords: &[[f64; 3]], derivatives: &SurfaceDerivatives) -> [[f64; 3];
 ///
 /// # Errors
 /// As [`surface_weights`].
-pub fn surface_matrix(
+pub(crate) fn surface_matrix(
     kind: SurfaceKind,
     coords: &[[f64; 3]],
 ) -> Result<DMatrix<f64>, ElementError> {

@@ -28,11 +28,10 @@
 //! The displacements that belong to them, with v = alpha = beta = 0 in the middle, follow by
 //! integrating the strains: `z = alpha + i beta` obeys `z' = -i z + R (kappa + i tau)`, then
 //! `v' = R (alpha + gamma)`. Derived here. With the three rigid motions they span {1, phi, sin, cos,
-//! phi sin, phi cos}. Stiffness `H^T F^-1 H` as in the plane: F the flexibility of the three states,
-//! H their work on the nodal displacements. A rigid motion does no work there, so it has no energy to
-//! round-off however slender the section: nothing can lock.
+//! phi sin, phi cos}.
 
 use super::differences::Differences;
+use super::force_method::{ForceStates, SolvedArc};
 use super::quadrature::over_arc;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
@@ -46,12 +45,7 @@ use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 #[derive(Debug, Clone)]
 pub struct OutOfPlaneArc {
     half_angle: f64,
-    arc: Arc,
-    /// Forces (q, m, t) from nodal displacements [3 x 6].
-    forces: Matrix3x6<f64>,
-    /// Rigid motion of the middle (z, about x, about y) from nodal displacements [3 x 6].
-    rigid: Matrix3x6<f64>,
-    stiffness: Matrix6<f64>,
+    solved: SolvedArc<Arc>,
     mass: Matrix6<f64>,
 }
 
@@ -77,33 +71,9 @@ impl OutOfPlaneArc {
             bending: radius / out.bending,
             torsion: radius / out.torsion,
         };
-        let flexibility: Matrix3<f64> = over_arc(half_angle, |phi| {
-            let [shear, moment, torque] = arc.force_states(phi);
-            shear * shear.transpose() * arc.shear
-                + moment * moment.transpose() * arc.bending
-                + torque * torque.transpose() * arc.torsion
-        });
-        let work = arc.work(half_angle);
-        // F is a sum of squares, positive definite for every admissible section
-        let inverse = flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let inverse = (inverse + inverse.transpose()) * 0.5;
-        let forces = inverse * work;
-        let stiffness = work.transpose() * forces;
-        let mut rigid = Matrix3x6::zeros();
-        for (end, first) in [(-half_angle, 0), (half_angle, 3)] {
-            // what the end's displacement leaves once the deformation is taken away
-            let mut rest = arc.deformation(end) * forces * -1.0;
-            for component in 0..3 {
-                rest[(component, first + component)] += 1.0;
-            }
-            rigid += arc.rigid_from_displacement(end) * rest * 0.5;
-        }
         let mut element = Self {
             half_angle,
-            arc,
-            forces,
-            rigid,
-            stiffness: (stiffness + stiffness.transpose()) * 0.5,
+            solved: SolvedArc::new(arc, half_angle),
             mass: Matrix6::zeros(),
         };
         element.mass = element.integrate_mass(section);
@@ -117,7 +87,7 @@ impl OutOfPlaneArc {
 
     /// Stiffness matrix [6 x 6] in N/m, N and N m.
     pub fn stiffness(&self) -> &Matrix6<f64> {
-        &self.stiffness
+        self.solved.stiffness()
     }
 
     /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
@@ -128,7 +98,7 @@ impl OutOfPlaneArc {
     /// Interpolation (v, alpha, beta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
     /// |phi| <= half_angle.
     pub fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
-        self.arc.rigid_displacement(phi) * self.rigid + self.arc.deformation(phi) * self.forces
+        self.solved.interpolation(phi)
     }
 
     /// `M = integral N^T [[rho A, 0, -rho S], [0, rho I_a, 0], [-rho S, 0, rho I_p]] N R dphi`.
@@ -152,7 +122,11 @@ impl OutOfPlaneArc {
     }
 }
 
-impl Arc {
+impl ForceStates for Arc {
+    fn compliances(&self) -> [f64; 3] {
+        [self.shear, self.bending, self.torsion]
+    }
+
     /// (Q, M, T) of the three states at phi, each a vector over (q, m, t).
     fn force_states(&self, phi: f64) -> [Vector3<f64>; 3] {
         let (sin, cos) = phi.sin_cos();
@@ -163,19 +137,6 @@ impl Arc {
         ]
     }
 
-    /// Virtual work of the states on the nodal displacements: `[Q v + M alpha + T beta]` at the
-    /// second end minus at the first.
-    fn work(&self, half: f64) -> Matrix3x6<f64> {
-        let mut work = Matrix3x6::zeros();
-        for (end, first, sign) in [(-half, 0, -1.0), (half, 3, 1.0)] {
-            for (component, state) in self.force_states(end).into_iter().enumerate() {
-                work.set_column(first + component, &(state * sign));
-            }
-        }
-        work
-    }
-
-    /// Displacements of the three states at phi [3 x 3], zero in the middle.
     fn deformation(&self, phi: f64) -> Matrix3<f64> {
         let (sin, cos) = phi.sin_cos();
         let (radius, bending, torsion) = (self.radius, self.bending, self.torsion);
@@ -210,7 +171,6 @@ impl Arc {
         Matrix3::new(1.0, ahead, inside, 0.0, cos, sin, 0.0, -sin, cos)
     }
 
-    /// Inverse of [`Self::rigid_displacement`].
     fn rigid_from_displacement(&self, phi: f64) -> Matrix3<f64> {
         let (sin, cos) = phi.sin_cos();
         let inside = self.radius * Differences::at(phi).cosine;

@@ -1,7 +1,7 @@
 //! Checks of a single element; what a whole ring must reach is in `tests/verification/ring.rs`.
 
 use super::*;
-use crate::fe::material::{Bond, Material, RadiusRule, RingLayer};
+use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use nalgebra::{Vector3, Vector6};
 
 /// Rectangular ring section of unit radius.

@@ -1,8 +1,8 @@
 //! One ring of a section: its area, its second moments and its torsion constant.
 
 use super::super::Material;
-use super::SectionError;
 use std::f64::consts::{FRAC_PI_2, PI};
+use thiserror::Error;
 
 /// One ring of a section: its own area, second moment and radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +23,26 @@ pub struct RingLayer {
     /// Shear coefficient kappa in (0, 1], for shear in the plane and out of it; 5/6 for a rectangle
     /// (Timoshenko's first value).
     pub shear_coefficient: f64,
+}
+
+/// A section that is no section.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SectionError {
+    /// No ring given.
+    #[error("a ring needs at least one section")]
+    Empty,
+    /// A quantity out of its range.
+    #[error("ring section {index}: {quantity} must be {rule}, found {value}")]
+    OutOfRange {
+        /// Which section, from 0.
+        index: usize,
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The value found.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
 }
 
 impl RingLayer {

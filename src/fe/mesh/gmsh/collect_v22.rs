@@ -3,31 +3,10 @@
 //! Blocks come in the order that gmsh gives them in MSH 4.1: by dimension, entity, type.
 
 use super::MshError;
-use super::build::{Allowance, Members, Membership};
-use super::elements_v22::{Label, Listed, Run};
+use super::elements_v22::{Label, Listed, Piece, Run};
+use super::membership::{Allowance, Members, Membership};
 use super::repeated;
 use crate::fe::mesh::{ElementBlock, Entity};
-
-/// A run with its place in the lists.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
-    pub(super) label: Label,
-    pub(super) first: usize,
-    pub(super) first_node: usize,
-    pub(super) count: usize,
-}
-
-impl Piece {
-    pub(super) fn nodes(self, listed: &Listed) -> &[u32] {
-        let end = self.first_node + self.count * self.label.kind.nodes();
-        &listed.connectivity[self.first_node..end]
-    }
-
-    fn order(&self) -> (usize, i32, i32, usize) {
-        let Label { kind, entity, .. } = self.label;
-        (kind.dimension(), entity, kind.gmsh_type(), self.first)
-    }
-}
 
 pub(super) fn blocks(
     mut listed: Listed,

@@ -88,6 +88,39 @@ impl<'a> Cursor<'a> {
         self.advance(word.count())
     }
 
+    /// Passes over a section that is not read, to the line after its end.
+    pub(super) fn skip_section(&mut self, name: &str) -> Result<(), MshError> {
+        self.section = name.to_owned();
+        let end = format!("$End{name}");
+        loop {
+            if self.rest().starts_with(end.as_bytes()) {
+                self.take_line();
+                return Ok(());
+            }
+            if self.rest().is_empty() {
+                return Err(self.truncated(end));
+            }
+            self.take_line();
+        }
+    }
+
+    /// The end of the section that the cursor is in.
+    pub(super) fn close_section(&mut self) -> Result<(), MshError> {
+        let end = format!("$End{}", self.section);
+        self.skip_blanks();
+        let word = self.take_word();
+        if word == end.as_bytes() {
+            match self.take_line() {
+                b"" => Ok(()),
+                after => Err(self.malformed(format!("nothing after {end}"), after)),
+            }
+        } else if self.rest().is_empty() && end.as_bytes().starts_with(word) {
+            Err(self.truncated(end))
+        } else {
+            Err(self.malformed(end, word))
+        }
+    }
+
     pub(super) fn malformed(&self, expected: impl Into<String>, found: &[u8]) -> MshError {
         MshError::Malformed {
             section: self.section.clone(),

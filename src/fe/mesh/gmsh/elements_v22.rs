@@ -45,6 +45,27 @@ impl Listed {
     }
 }
 
+/// A run with its place in the lists.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub(super) label: Label,
+    pub(super) first: usize,
+    pub(super) first_node: usize,
+    pub(super) count: usize,
+}
+
+impl Piece {
+    pub(super) fn nodes(self, listed: &Listed) -> &[u32] {
+        let end = self.first_node + self.count * self.label.kind.nodes();
+        &listed.connectivity[self.first_node..end]
+    }
+
+    pub(super) fn order(&self) -> (usize, i32, i32, usize) {
+        let Label { kind, entity, .. } = self.label;
+        (kind.dimension(), entity, kind.gmsh_type(), self.first)
+    }
+}
+
 struct Reader<'a, 'b> {
     cursor: &'a mut Cursor<'b>,
     nodes: &'a NodeIndex,

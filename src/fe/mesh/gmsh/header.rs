@@ -1,7 +1,7 @@
 //! `$MeshFormat`: is it an MSH file, of which version, in which encoding.
 
+use super::MshError;
 use super::cursor::{Cursor, Encoding, quoted};
-use super::{MshError, sections};
 use crate::fe::mesh::{MshFormat, MshVersion};
 
 /// Reads from the start of the file to the end of `$MeshFormat`, and sets the cursor's encoding.
@@ -10,7 +10,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
         cursor.skip_blanks();
         match cursor.take_line() {
             b"$MeshFormat" => break,
-            b"$Comments" => sections::skip(cursor, "Comments")?,
+            b"$Comments" => cursor.skip_section("Comments")?,
             b"$NOD" | b"$PARA" => {
                 return Err(MshError::Version {
                     found: "1.0".to_owned(),
@@ -51,7 +51,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
             size_bytes,
         };
     }
-    sections::close(cursor)?;
+    cursor.close_section()?;
     Ok(MshFormat { version, binary })
 }
 

@@ -17,6 +17,7 @@ mod elements_v22;
 mod entities;
 mod error;
 mod header;
+mod membership;
 mod names;
 mod nodes;
 mod numbers;

@@ -3,9 +3,8 @@
 //! The repeats differ in number and group only (and in orientation, where the group holds the entity
 //! reversed). Each must become one element of several groups: counted twice, it would be twice as stiff.
 
-use super::build::Members;
-use super::collect_v22::Piece;
-use super::elements_v22::Listed;
+use super::elements_v22::{Listed, Piece};
+use super::membership::Members;
 
 /// Positions of the elements to keep (all if none are given), and the members of each group.
 pub(super) type Merged = (Option<Vec<u32>>, Vec<(i32, Members)>);

@@ -1,23 +1,14 @@
 //! The sections of a file, one after the other.
 
-use super::build::{self, Allowance, Membership};
+use super::build::Content;
 use super::cursor::Cursor;
 use super::elements_v22::Listed;
 use super::entities::Physical;
+use super::membership::{self, Allowance};
 use super::names::{self, Name};
 use super::nodes::{self, NodeTable};
 use super::{MshError, collect_v22, elements, elements_v22, entities, header};
 use crate::fe::mesh::{ElementBlock, MshFormat, MshVersion};
-
-/// What a file holds, checked.
-pub(super) struct Content {
-    pub(super) format: MshFormat,
-    pub(super) nodes: NodeTable,
-    pub(super) blocks: Vec<ElementBlock>,
-    pub(super) memberships: Vec<Membership>,
-    pub(super) names: Vec<Name>,
-    pub(super) allowance: Allowance,
-}
 
 /// Sections read so far.
 #[derive(Default)]
@@ -50,10 +41,10 @@ pub(super) fn read(bytes: &[u8], metres: f64) -> Result<(MshFormat, Found), MshE
         }
         cursor.section = section_name(&cursor, line)?;
         match found.section(&mut cursor, format.version, metres)? {
-            true => close(&mut cursor)?,
+            true => cursor.close_section()?,
             false => {
                 let name = cursor.section.clone();
-                skip(&mut cursor, &name)?;
+                cursor.skip_section(&name)?;
             }
         }
     }
@@ -105,7 +96,7 @@ impl Found {
         let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements"))? {
             Elements::V41(blocks) => {
                 let entities = self.entities.unwrap_or_default();
-                let memberships = build::by_entity(&blocks, &entities, &mut allowance)?;
+                let memberships = membership::by_entity(&blocks, &entities, &mut allowance)?;
                 (blocks, memberships)
             }
             Elements::V22(listed) => collect_v22::blocks(listed, &mut allowance)?,
@@ -147,37 +138,4 @@ fn section_name(cursor: &Cursor<'_>, line: &[u8]) -> Result<String, MshError> {
         let expected = format!("a section ($...) after $End{}", cursor.section);
         cursor.malformed(expected, line)
     })
-}
-
-/// Passes over a section that is not read, to the line after its end.
-pub(super) fn skip(cursor: &mut Cursor<'_>, name: &str) -> Result<(), MshError> {
-    cursor.section = name.to_owned();
-    let end = format!("$End{name}");
-    loop {
-        if cursor.rest().starts_with(end.as_bytes()) {
-            cursor.take_line();
-            return Ok(());
-        }
-        if cursor.rest().is_empty() {
-            return Err(cursor.truncated(end));
-        }
-        cursor.take_line();
-    }
-}
-
-/// The end of the section that the cursor is in.
-pub(super) fn close(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
-    let end = format!("$End{}", cursor.section);
-    cursor.skip_blanks();
-    let word = cursor.take_word();
-    if word == end.as_bytes() {
-        match cursor.take_line() {
-            b"" => Ok(()),
-            after => Err(cursor.malformed(format!("nothing after {end}"), after)),
-        }
-    } else if cursor.rest().is_empty() && end.as_bytes().starts_with(word) {
-        Err(cursor.truncated(end))
-    } else {
-        Err(cursor.malformed(end, word))
-    }
 }

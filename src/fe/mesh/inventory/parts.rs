@@ -23,12 +23,12 @@ pub(crate) struct Sets(Vec<u32>);
 
 impl Sets {
     /// Each by itself; fewer than 2^32.
-    pub fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self((0..).take(count).collect())
     }
 
     /// The lowest of the set.
-    pub fn root(&mut self, mut node: usize) -> usize {
+    pub(crate) fn root(&mut self, mut node: usize) -> usize {
         while self.0[node] as usize != node {
             let above = self.0[node] as usize;
             self.0[node] = self.0[above];
@@ -38,7 +38,7 @@ impl Sets {
     }
 
     /// Makes one set of two; its root is the lower of theirs.
-    pub fn join(&mut self, a: usize, b: usize) {
+    pub(crate) fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;
     }

@@ -35,7 +35,7 @@ pub(super) struct Extent {
 }
 
 impl BodyMap {
-    pub fn new(model: &HousingModel) -> Self {
+    pub(super) fn new(model: &HousingModel) -> Self {
         let of_element = joined_through_faces(model);
         let count = of_element.iter().max().map_or(0, |last| *last as usize + 1);
         let mut first = vec![NO_BODY; model.coordinates.len()];
@@ -87,7 +87,7 @@ impl BodyMap {
     }
 
     /// Adds the ring in the bore as the last body.
-    pub fn add_ring(&mut self, model: &HousingModel, ring: &Ring) {
+    pub(super) fn add_ring(&mut self, model: &HousingModel, ring: &Ring) {
         self.ring = Some(self.extents.len());
         self.extents.push(Extent {
             elements: ring.nodes(),
@@ -97,7 +97,7 @@ impl BodyMap {
     }
 
     /// A body that the node belongs to; `None` for a node that no element uses.
-    pub fn of_node(&self, node: usize) -> Option<usize> {
+    pub(super) fn of_node(&self, node: usize) -> Option<usize> {
         let body = *self.first.get(node)?;
         (body != NO_BODY).then_some(body as usize)
     }

@@ -236,7 +236,7 @@ impl Mechanisms {
 ///
 /// # Errors
 /// As [`Mechanisms::find`].
-pub fn pieces_at(
+pub(crate) fn pieces_at(
     mesh: &Mesh,
     model: &HousingModel,
     nodes: &[usize],

@@ -11,7 +11,8 @@ mod count;
 mod rows;
 mod sentences;
 
-pub use count::{Body, Joint, Mechanisms, Piece, pieces_at};
+pub(crate) use count::pieces_at;
+pub use count::{Body, Joint, Mechanisms, Piece};
 
 #[cfg(test)]
 mod ring_tests;

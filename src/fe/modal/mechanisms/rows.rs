@@ -47,7 +47,7 @@ pub(super) struct AllConstraints<'m> {
 }
 
 impl<'m> AllConstraints<'m> {
-    pub fn new(model: &'m HousingModel, bodies: &'m BodyMap) -> Self {
+    pub(super) fn new(model: &'m HousingModel, bodies: &'m BodyMap) -> Self {
         let mut all = Self {
             model,
             bodies,
@@ -78,7 +78,7 @@ impl<'m> AllConstraints<'m> {
     }
 
     /// The ring: every driven displacement of the bore follows it, and its springs hold it.
-    pub fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
+    pub(super) fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
         let Some(number) = self.bodies.ring else {
             return;
         };
@@ -100,7 +100,7 @@ impl<'m> AllConstraints<'m> {
     }
 
     /// Holds displacements, which `rotation` turns to the mesh's axes if they are not along them.
-    pub fn hold(&mut self, dofs: &[usize], rotation: Option<&SparseMatrix>) {
+    pub(super) fn hold(&mut self, dofs: &[usize], rotation: Option<&SparseMatrix>) {
         for &dof in dofs {
             let mut row = Row::new();
             if let Some(body) = self.bodies.of_node(dof / self.model.dimension) {
@@ -258,7 +258,7 @@ impl Constraints {
     }
 
     /// The rows over the root of their number, so that a large joint does not drown a small one.
-    pub fn scaled_rows(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
+    pub(super) fn scaled_rows(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         let scale = (self.count.max(1) as f64).sqrt().recip();
         self.rows
             .iter()

@@ -1,7 +1,7 @@
 //! Tied nodes that do not lie on the face that they follow.
 
+use super::bodies::{Bodies, at};
 use super::facets::Facet;
-use super::{Bodies, at};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 

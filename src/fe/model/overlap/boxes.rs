@@ -12,7 +12,7 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// The smallest that holds these points, grown by `reach` (m) to all sides.
-    pub fn of(points: impl Iterator<Item = [f64; 3]>, reach: f64) -> Self {
+    pub(super) fn of(points: impl Iterator<Item = [f64; 3]>, reach: f64) -> Self {
         let mut found = Self::empty();
         points.for_each(|point| found.add(point, point));
         Self {
@@ -22,7 +22,7 @@ impl Bounds {
     }
 
     /// Length of the diagonal, m.
-    pub fn diagonal(&self) -> f64 {
+    pub(super) fn diagonal(&self) -> f64 {
         let [x, y, z] = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
         x.hypot(y).hypot(z)
     }
@@ -72,7 +72,7 @@ pub(super) struct BoxTree {
 }
 
 impl BoxTree {
-    pub fn new(boxes: Vec<Bounds>) -> Self {
+    pub(super) fn new(boxes: Vec<Bounds>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::new();
         if !boxes.is_empty() {
@@ -86,12 +86,12 @@ impl BoxTree {
     }
 
     /// Indices of the boxes, neighbours in space near each other: searches in this order find the tree in the cache.
-    pub fn order(&self) -> &[u32] {
+    pub(super) fn order(&self) -> &[u32] {
         &self.order
     }
 
     /// Calls `visit` with the index of every box that holds the point or is nearer than `reach` (m) along each axis.
-    pub fn visit(&self, point: [f64; 3], reach: f64, mut visit: impl FnMut(usize)) {
+    pub(super) fn visit(&self, point: [f64; 3], reach: f64, mut visit: impl FnMut(usize)) {
         let mut open: Vec<usize> = (0..self.nodes.len().min(1)).collect();
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];

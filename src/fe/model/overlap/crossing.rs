@@ -1,8 +1,9 @@
 //! Bodies that reach into one another between the centres of all their elements.
 
+use super::bodies::{Bodies, Solid, at, both};
 use super::boxes::{Bounds, BoxTree};
 use super::outline::normal;
-use super::{Bodies, Overlap, Solid, Touching, at, both};
+use super::{Overlap, Touching};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::Serialize;

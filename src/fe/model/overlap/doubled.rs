@@ -1,6 +1,6 @@
 //! Elements that stand on the corners of another one.
 
-use super::{Bodies, Solid, at, both};
+use super::bodies::{Bodies, Solid, at, both};
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! The faces that bound the bodies, as flat facets.
 
-use super::Bodies;
+use super::bodies::Bodies;
 use super::outline::{centre, normal};
 use crate::fe::mesh::Sets;
 use nalgebra::Vector3;

@@ -1,13 +1,25 @@
 //! Bodies that lie in one another: elements whose centre is within another element.
 
+use super::bodies::{Bodies, at, both};
 use super::boxes::{Bounds, BoxTree};
 use super::doubled::sorted_corners;
 use super::outline::{centre, holds};
-use super::{Bodies, at, both};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// What is done with bodies that lie in one another.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OverlapRule {
+    /// They are refused.
+    #[default]
+    Refuse,
+    /// They are allowed, with a warning; the mass and stiffness of both count where they overlap.
+    Allow,
+}
 
 /// Two parts that fill one space, or a part that fills it twice.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,6 +1,6 @@
 //! Elements of first order beside those of second order on the same edges: they come apart between the corners.
 
-use super::{Bodies, Solid, at, both};
+use super::bodies::{Bodies, Solid, at, both};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use rayon::prelude::*;
 use serde::Serialize;

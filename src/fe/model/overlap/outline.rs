@@ -1,9 +1,9 @@
 //! What an element fills, by the planes of its faces.
 
-use super::{Bodies, Solid};
+use super::bodies::{Bodies, Solid};
 use crate::fe::element::continuum::{ContinuumKind, shape_values, surface_shape};
 use crate::fe::mesh::{ElementKind, Face};
-use crate::fe::model::{continuum_kind, surface_kind};
+use crate::fe::model::elements::{continuum_kind, surface_kind};
 use nalgebra::Vector3;
 
 /// How far behind the plane of each face a point must be, relative to the element's own centre, to be within it.

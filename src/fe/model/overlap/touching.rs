@@ -1,9 +1,9 @@
 //! Faces that lie on each other and have no nodes in common.
 
+use super::bodies::{Bodies, at, both};
 use super::boxes::{Bounds, BoxTree};
 use super::facets::Facet;
 use super::outline::{centre, holds};
-use super::{Bodies, at, both};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::Serialize;

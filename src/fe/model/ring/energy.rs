@@ -24,7 +24,7 @@ pub(crate) struct RingSpring {
 
 impl RingSpring {
     /// Displacement of the attachment for the ring displacements `d`, m.
-    pub fn stretch(&self, d: &[f64]) -> f64 {
+    pub(crate) fn stretch(&self, d: &[f64]) -> f64 {
         let pairs = self.dofs.iter().zip(&self.row);
         pairs.map(|(&dof, factor)| factor * d[dof]).sum()
     }

@@ -162,7 +162,7 @@ impl Ring {
     }
 
     /// Position (x, y, z) of a node in the ring's own frame, m.
-    pub fn node_position(&self, node: usize) -> [f64; 3] {
+    pub(crate) fn node_position(&self, node: usize) -> [f64; 3] {
         let (sin, cos) = self.node_angle(node).sin_cos();
         [self.section.radius * cos, self.section.radius * sin, 0.0]
     }
@@ -176,7 +176,7 @@ impl Ring {
     }
 
     /// Displacement (x, y, z) of a node for the displacements `d` \[dof\]; z is zero for a ring in its plane.
-    pub fn node_displacement(&self, node: usize, d: &[f64]) -> [f64; 3] {
+    pub(crate) fn node_displacement(&self, node: usize, d: &[f64]) -> [f64; 3] {
         let first = NODE_DOF * node;
         let across = d.get(NODE_DOF * (self.nodes + node)).copied();
         [d[first], d[first + 1], across.unwrap_or(0.0)]

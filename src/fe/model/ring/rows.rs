@@ -25,7 +25,7 @@ impl Ring {
 
     /// The row of a displacement of the centroid line at an angle (rad) in a direction of the ring's frame: pairs (degree of
     /// freedom, factor). A ring in its plane takes what of the direction lies in the plane.
-    pub fn displacement_row(&self, angle: f64, [x, y, z]: [f64; 3]) -> Vec<(usize, f64)> {
+    pub(crate) fn displacement_row(&self, angle: f64, [x, y, z]: [f64; 3]) -> Vec<(usize, f64)> {
         let rows = self.rows_at(angle);
         let (sin, cos) = angle.sin_cos();
         let (radial, tangential) = (x * cos + y * sin, y * cos - x * sin);
@@ -45,7 +45,7 @@ impl Ring {
     }
 
     /// Interpolation in element `index` at the angle `phi` from its middle, rad.
-    pub fn rows_in_element(&self, index: usize, phi: f64) -> RingRows {
+    pub(crate) fn rows_in_element(&self, index: usize, phi: f64) -> RingRows {
         let (dofs, turn) = self.frame(index);
         let n = self.element.interpolation(phi) * turn;
         let row = |component: usize| std::array::from_fn(|column| n[(component, column)]);
@@ -59,7 +59,7 @@ impl Ring {
 
     /// Interpolation of the radial displacement at `phi` from an element's middle (rad) in the polar
     /// components (tangential, radial, rotation) of its two nodes; the same for every element.
-    pub fn polar_radial_row(&self, phi: f64) -> [f64; 6] {
+    pub(crate) fn polar_radial_row(&self, phi: f64) -> [f64; 6] {
         let n = self.element.interpolation(phi);
         std::array::from_fn(|column| n[(1, column)])
     }
@@ -97,7 +97,7 @@ impl RingRows {
 
     /// Tangential displacement of the section's point at `arm` outside the node radius:
     /// `u + arm theta`.
-    pub fn tangential_at(&self, arm: f64) -> [f64; 6] {
+    pub(crate) fn tangential_at(&self, arm: f64) -> [f64; 6] {
         std::array::from_fn(|k| self.tangential[k] + arm * self.rotation[k])
     }
 }

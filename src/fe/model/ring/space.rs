@@ -30,7 +30,7 @@ impl Ring {
     /// Interpolation in space at any angle, rad: continuous inside an element and from one to the
     /// next, and exact for rigid motions (in the plane as far as its interpolation is). `None` for a
     /// ring in its plane.
-    pub fn space_rows_at(&self, angle: f64) -> Option<RingSpaceRows> {
+    pub(crate) fn space_rows_at(&self, angle: f64) -> Option<RingSpaceRows> {
         let arc = self.out_of_plane.as_ref()?;
         let (index, phi) = self.locate(angle);
         let plane = self.rows_in_element(index, phi);
@@ -105,7 +105,7 @@ impl RingSpaceRows {
 
     /// Displacement along (e_r, e_t, e_z) of the section's point at `arm` outside the node radius and
     /// `height` above the ring's plane, m: `u_C + omega x (arm e_r + height e_z)`.
-    pub fn displacement_at(&self, arm: f64, height: f64) -> [[f64; 12]; 3] {
+    pub(crate) fn displacement_at(&self, arm: f64, height: f64) -> [[f64; 12]; 3] {
         [
             std::array::from_fn(|k| self.radial[k] + height * self.about_tangential[k]),
             std::array::from_fn(|k| {

@@ -36,7 +36,12 @@ pub struct Check {
 
 impl Check {
     /// A value that is good up to its limit.
-    pub fn at_most(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+    pub(crate) fn at_most(
+        name: &'static str,
+        what: impl Into<String>,
+        value: f64,
+        limit: f64,
+    ) -> Self {
         Self {
             name,
             what: what.into(),
@@ -47,7 +52,12 @@ impl Check {
     }
 
     /// A value that is good from its limit on.
-    pub fn at_least(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+    pub(crate) fn at_least(
+        name: &'static str,
+        what: impl Into<String>,
+        value: f64,
+        limit: f64,
+    ) -> Self {
         Self {
             bound: Bound::AtLeast,
             ..Self::at_most(name, what, value, limit)

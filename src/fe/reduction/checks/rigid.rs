@@ -35,7 +35,7 @@ impl RigidMotions {
     ///
     /// # Errors
     /// What the dense eigenvalue solver reports.
-    pub fn free_interface(
+    pub(crate) fn free_interface(
         &self,
         condensed: &CraigBampton,
         matrices: &SystemMatrices,

@@ -15,7 +15,7 @@ pub(super) struct Window {
 impl Window {
     /// # Errors
     /// [`FrfError::Band`]; [`FrfError::NotCovered`] if the frequencies, ascending, do not reach the band's ends.
-    pub fn new(frequencies_hz: &[f64], band_hz: [f64; 2]) -> Result<Self, FrfError> {
+    pub(super) fn new(frequencies_hz: &[f64], band_hz: [f64; 2]) -> Result<Self, FrfError> {
         let [low, high] = check_band(band_hz)?;
         check_frequencies(frequencies_hz)?;
         let (first, last) = match (frequencies_hz.first(), frequencies_hz.last()) {
@@ -47,7 +47,7 @@ impl Window {
     }
 
     /// Integral of values at the list's places over the band, Hz times their unit.
-    pub fn integral(&self, value: impl Fn(usize) -> f64) -> f64 {
+    pub(super) fn integral(&self, value: impl Fn(usize) -> f64) -> f64 {
         let parts = self.weights.iter();
         parts.map(|&(place, weight)| weight * value(place)).sum()
     }

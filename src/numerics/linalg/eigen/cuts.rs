@@ -5,7 +5,7 @@ use super::super::count::{CountCheck, count_below, count_between};
 use super::super::factor::FactorMemory;
 use super::super::lowest::{largest_ratio, round_off};
 use super::EigenProblem;
-use super::iteration::FIRM;
+use super::factors::FIRM;
 
 /// Distance, relative to the value, within which an eigenvalue lies on it: ten times the usual error of a computed one.
 const ON_AN_END: f64 = 1e-8;

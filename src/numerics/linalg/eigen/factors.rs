@@ -11,6 +11,10 @@ use std::sync::Arc;
 /// eigenvalue of a mesh worth computing, far above the round-off of a rigid motion.
 const FREE_SHIFT: f64 = -1e-4;
 
+/// Smallest distance of a shift from a rigid motion, in units of the round-off of `K x`: the factor's contraction is
+/// about its reciprocal.
+pub(super) const FIRM: f64 = 1e6;
+
 /// Entries of a factor above which `L B L^T` is faster than `L L^T`, definite or not (9.1 s against 11.1 s for 2.1e8
 /// entries; 0.7 s against 0.5 s for 2.1e7).
 const LARGE: usize = 1 << 26;

@@ -6,31 +6,88 @@ use super::super::count::{CountCheck, count_between};
 use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{Ritz, Search};
 use super::super::memory;
-use super::{EigenProblem, EigenTimes};
+use super::factors::FIRM;
+use super::{EigenPairs, EigenProblem, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Gap in which it is counted, relative to the distance from the shift.
 const SMALLEST_GAP: f64 = 1e-5;
 
-/// Smallest distance of a shift from a rigid motion, in units of the round-off of `K x`: the factor's contraction is
-/// about its reciprocal.
-pub(super) const FIRM: f64 = 1e6;
+/// How often missing pairs, or a gap, are looked for.
+const ROUNDS: usize = 5;
+
+/// Missing pairs beyond which it is asked first whether the wanted ones are the lowest all the same: a crowd of hundreds of equal
+/// eigenvalues would take a space larger than itself.
+const MISSING: usize = 16;
+
+/// Rounds after which equal eigenvalues are taken for a crowd without end.
+const CROWDED: usize = 3;
+
+/// Pairs pursued beyond those wanted: among them a gap is found in which to count.
+pub(super) const BEYOND: usize = 4;
 
 /// Bytes of an entry of a large factor.
 const SINGLE: u64 = 4;
 
 /// Pairs, and a count of eigenvalues below a value behind those wanted; `None` if they end in a crowd.
-pub(super) struct Iterated {
-    pub ritz: Ritz,
-    pub quality: Quality,
-    pub shift: f64,
-    pub counted: Option<(f64, usize)>,
+struct Iterated {
+    ritz: Ritz,
+    quality: Quality,
+    shift: f64,
+    counted: Option<(f64, usize)>,
 }
 
 impl EigenProblem {
+    /// The `count` lowest pairs by one search, counted in a gap behind them.
+    pub(super) fn lowest_at_once(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+        let order = self.order();
+        let mut times = EigenTimes {
+            order: self.order_s,
+            ..EigenTimes::default()
+        };
+        let mut beyond = BEYOND.min(order - count);
+        let mut check = None;
+        for round in 1..=ROUNDS {
+            let iterated = self.iterate(count, beyond, round, &mut times)?;
+            let Iterated {
+                ritz,
+                quality,
+                shift,
+                counted,
+            } = iterated;
+            let Some((value, counted)) = counted else {
+                if round >= CROWDED
+                    && let Some(found) = self.count_before(&ritz, count, shift)
+                {
+                    return self.finished(ritz, quality, count, found, shift, times);
+                }
+                beyond = (2 * beyond + BEYOND).min(order - count);
+                continue;
+            };
+            let below = ritz.values.iter().filter(|&&found| found < value).count();
+            let found = CountCheck {
+                above: None,
+                below: value,
+                counted,
+                found: below,
+            };
+            if counted == below {
+                return self.finished(ritz, quality, count, found, shift, times);
+            }
+            if counted > below + MISSING
+                && let Some(found) = self.count_before(&ritz, count, shift)
+            {
+                return self.finished(ritz, quality, count, found, shift, times);
+            }
+            check = Some(found);
+            beyond = (beyond + counted.saturating_sub(below) + BEYOND).min(order - count);
+        }
+        Err(check.map_or(LinalgError::NoGap { asked: count }, CountCheck::missing))
+    }
+
     /// The pairs, and how many eigenvalues lie below a value in a gap behind those wanted.
-    pub(super) fn iterate(
+    fn iterate(
         &self,
         count: usize,
         beyond: usize,
@@ -100,7 +157,7 @@ impl EigenProblem {
 
     /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
     /// are known, whichever vectors of the crowd were found. `None` if one is missing, or if it cannot be counted there.
-    pub(super) fn count_before(&self, ritz: &Ritz, count: usize, shift: f64) -> Option<CountCheck> {
+    fn count_before(&self, ritz: &Ritz, count: usize, shift: f64) -> Option<CountCheck> {
         let gap = |place: usize| {
             let low = place.checked_sub(1).map_or(shift, |last| ritz.values[last]);
             [low, ritz.values[place]]

@@ -1,4 +1,4 @@
-use super::super::TripletBuilder;
+use super::super::{LinalgError, TripletBuilder};
 use super::*;
 
 /// Free chains along three axes, `cells` masses each and all of them coupled: eigenvalues are sums of three of

@@ -129,12 +129,13 @@ impl EigenProblem {
         let (values, count) = (&pairs.values, pairs.values.len());
         let mass = coupling(&pairs.vectors);
         if mass.norm_max() > LARGEST_COUPLING {
-            return Err(LinalgError::missing(CountCheck {
+            return Err(CountCheck {
                 above: None,
                 below: values.last().copied().unwrap_or(0.0),
                 counted: count,
                 found: count - 1,
-            }));
+            }
+            .missing());
         }
         let stiff = self.stiffness_times(&pairs.vectors);
         let stiff = times(pairs.vectors.transpose(), stiff.as_ref());

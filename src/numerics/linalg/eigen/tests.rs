@@ -1,4 +1,4 @@
-use super::super::{TripletBuilder, sparse_times_dense};
+use super::super::{DenseMatrix, LinalgError, SparseMatrix, TripletBuilder, sparse_times_dense};
 use super::*;
 use std::f64::consts::PI;
 

@@ -1,6 +1,7 @@
 //! Dense complex systems, solved with a measure of what round-off may change.
 
-use crate::numerics::linalg::{ComplexMatrix, LinalgError, pseudo_random, run_sequentially};
+use crate::numerics::linalg::dense::{pseudo_random, run_sequentially};
+use crate::numerics::linalg::{ComplexMatrix, LinalgError};
 use faer::c64;
 use faer::prelude::Solve;
 
@@ -19,7 +20,10 @@ pub struct ComplexSolution {
 ///
 /// # Errors
 /// [`LinalgError::Shape`]. A singular matrix is no error: its uncertainty is.
-pub fn complex_solve(z: &ComplexMatrix, f: &ComplexMatrix) -> Result<ComplexSolution, LinalgError> {
+pub(crate) fn complex_solve(
+    z: &ComplexMatrix,
+    f: &ComplexMatrix,
+) -> Result<ComplexSolution, LinalgError> {
     run_sequentially();
     let order = z.nrows();
     for (what, found) in [("columns of Z", z.ncols()), ("loads", f.nrows())] {

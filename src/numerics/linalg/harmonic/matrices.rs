@@ -31,7 +31,7 @@ pub(super) struct HarmonicMatrices {
 }
 
 impl HarmonicMatrices {
-    pub fn new(
+    pub(super) fn new(
         k: &SparseMatrix,
         m: &SparseMatrix,
         damping: &HarmonicDamping<'_>,
@@ -69,23 +69,23 @@ impl HarmonicMatrices {
         })
     }
 
-    pub fn order(&self) -> usize {
+    pub(super) fn order(&self) -> usize {
         self.stiffness.order()
     }
 
     /// Whether anything dissipates at this frequency, rad/s.
-    pub fn is_damped(&self, omega: f64) -> bool {
+    pub(super) fn is_damped(&self, omega: f64) -> bool {
         let viscous = self.alpha > 0.0 || self.beta > 0.0 || self.viscous.is_some();
         self.structural.is_some() || (viscous && omega > 0.0)
     }
 
     /// `K - w^2 M` for a squared frequency, 1/s^2.
-    pub fn real(&self, squared: f64) -> SymmetricMatrix {
+    pub(super) fn real(&self, squared: f64) -> SymmetricMatrix {
         self.stiffness.shifted(squared, &self.mass)
     }
 
     /// `Z X`; complex columns are pairs of real ones: real parts in even columns, imaginary parts in odd ones [n x 2k].
-    pub fn times(&self, omega: f64, x: &DenseMatrix) -> DenseMatrix {
+    pub(super) fn times(&self, omega: f64, x: &DenseMatrix) -> DenseMatrix {
         let mut product = self.stiffness.times(x.as_ref());
         let heavy = self.mass.times(x.as_ref());
         let lossy = self.damping_times(omega, x, &product, &heavy);
@@ -141,7 +141,7 @@ impl HarmonicMatrices {
     }
 
     /// `x^H (w C + K_s) x` of each complex column \[k\], J.
-    pub fn dissipation(&self, omega: f64, x: &DenseMatrix) -> Vec<f64> {
+    pub(super) fn dissipation(&self, omega: f64, x: &DenseMatrix) -> Vec<f64> {
         let stiff = self.stiffness.times(x.as_ref());
         let heavy = self.mass.times(x.as_ref());
         let lossy = self.damping_times(omega, x, &stiff, &heavy);
@@ -158,7 +158,7 @@ impl HarmonicMatrices {
     }
 
     /// `| |Z| |x| |`, the size of what is summed in `Z x`, of one complex column.
-    pub fn scatter(&self, omega: f64, re: &[f64], im: &[f64]) -> f64 {
+    pub(super) fn scatter(&self, omega: f64, re: &[f64], im: &[f64]) -> f64 {
         let x: Vec<f64> = re.iter().zip(im).map(|(a, b)| a.hypot(*b)).collect();
         let mut sum = vec![0.0; x.len()];
         let mut add = |factor: f64, matrix: &SymmetricMatrix| {

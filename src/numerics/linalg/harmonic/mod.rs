@@ -10,7 +10,8 @@ mod error;
 mod krylov;
 mod matrices;
 
-pub use dense::{ComplexSolution, complex_solve};
+pub use dense::ComplexSolution;
+pub(crate) use dense::complex_solve;
 pub use error::HarmonicError;
 pub use matrices::HarmonicDamping;
 
@@ -85,7 +86,7 @@ pub struct HarmonicTimes {
 }
 
 /// A real matrix [n x p] as a complex one.
-pub fn complex_columns(real: &DenseMatrix) -> ComplexMatrix {
+pub(crate) fn complex_columns(real: &DenseMatrix) -> ComplexMatrix {
     ComplexMatrix::from_fn(real.nrows(), real.ncols(), |row, column| {
         c64::new(real[(row, column)], 0.0)
     })

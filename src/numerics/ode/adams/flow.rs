@@ -7,7 +7,7 @@ use crate::numerics::ode::LinearCoordinate;
 /// Exact flow of a group of coordinates over a step, under a constant force and one that grows to it: what [`Propagator`] says
 /// of one.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct GroupFlow {
+pub(super) struct GroupFlow {
     pub position_position: Lanes,
     pub position_velocity: Lanes,
     pub velocity_position: Lanes,
@@ -22,7 +22,7 @@ pub struct GroupFlow {
 
 /// The flow of all coordinates over a step.
 #[derive(Debug)]
-pub struct Flow {
+pub(super) struct Flow {
     /// s.
     pub step: f64,
     /// Groups of coordinates that are held, then of free ones.
@@ -56,7 +56,7 @@ const fn series() -> [[f64; 3]; TERMS] {
 
 impl Flow {
     /// Of `held` coordinates and the free ones behind them over `step` (s).
-    pub fn new(coordinates: &[LinearCoordinate], held: usize, step: f64) -> Self {
+    pub(super) fn new(coordinates: &[LinearCoordinate], held: usize, step: f64) -> Self {
         let (held, free) = coordinates.split_at(held);
         let groups = held.chunks(LANES).chain(free.chunks(LANES));
         Self {
@@ -92,7 +92,7 @@ impl GroupFlow {
     /// Of free coordinates under springs k (1/s^2) that are in the force: what they do where the step begins is in it already.
     /// Gives back the springs that were stepped.
     #[inline(always)]
-    pub fn on_springs(step: f64, springs: &Lanes) -> (Self, Lanes) {
+    pub(super) fn on_springs(step: f64, springs: &Lanes) -> (Self, Lanes) {
         let most = LARGEST_PHASE / (step * step);
         let springs = each(|l| if springs[l] < most { springs[l] } else { most });
         let x = each(|l| springs[l] * step * step);

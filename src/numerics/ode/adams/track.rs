@@ -43,7 +43,7 @@ struct Group {
 
 /// The step that is being tried, and what the last one left.
 #[derive(Debug)]
-pub struct Track {
+pub(super) struct Track {
     /// From here on coordinates have neither spring nor damper but what the force is to them.
     free: usize,
     /// Whether what the force is to them is stepped.
@@ -126,7 +126,7 @@ impl Weights {
 }
 
 /// Number of coordinates that are held by a spring or a damper of their own, up to the last such one.
-pub fn held(coordinates: &[LinearCoordinate]) -> usize {
+pub(super) fn held(coordinates: &[LinearCoordinate]) -> usize {
     let held = |coordinate: &LinearCoordinate| {
         coordinate.squared_frequency != 0.0 || coordinate.damping != 0.0
     };
@@ -137,7 +137,7 @@ pub fn held(coordinates: &[LinearCoordinate]) -> usize {
 }
 
 impl Track {
-    pub fn new(coordinates: &[LinearCoordinate], with_springs: bool) -> Self {
+    pub(super) fn new(coordinates: &[LinearCoordinate], with_springs: bool) -> Self {
         let free = held(coordinates);
         let blank = vec![0.0; coordinates.len()];
         let groups = free.div_ceil(LANES) + (coordinates.len() - free).div_ceil(LANES);
@@ -157,12 +157,12 @@ impl Track {
     }
 
     /// Begins where the state is.
-    pub fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64]) {
+    pub(super) fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64]) {
         begin(self, [y, v, g]);
     }
 
     /// Goes over a step from there under the line of the force, or the parabola.
-    pub fn predict(&mut self, flow: &Flow) {
+    pub(super) fn predict(&mut self, flow: &Flow) {
         let now = Stencil {
             step: flow.step,
             past: self.past,
@@ -176,7 +176,7 @@ impl Track {
 
     /// Evaluates the force at its end, and how far it is from the prediction: the largest share of the largest force of its
     /// coordinate so far.
-    pub fn evaluate(&mut self, system: &mut impl SecondOrderSystem, t: f64) -> f64 {
+    pub(super) fn evaluate(&mut self, system: &mut impl SecondOrderSystem, t: f64) -> f64 {
         system.force_into(t, &self.position, &self.velocity, &mut self.force);
         let [by_line, by_parabola] = compare(self);
         let defect = if self.quadratic { by_parabola } else { by_line };
@@ -186,7 +186,7 @@ impl Track {
     }
 
     /// Takes the step, of `step` s: the velocity under the curve through the force at its end too.
-    pub fn accept(&mut self, step: f64, system: &impl SecondOrderSystem) {
+    pub(super) fn accept(&mut self, step: f64, system: &impl SecondOrderSystem) {
         accept(self);
         if self.with_springs {
             self.find_springs(system);
@@ -195,25 +195,25 @@ impl Track {
     }
 
     /// Whether the next step is predicted by a parabola.
-    pub fn is_quadratic(&self) -> bool {
+    pub(super) fn is_quadratic(&self) -> bool {
         self.quadratic
     }
 
     /// Hands out where the last step ended.
-    pub fn end(&self, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
+    pub(super) fn end(&self, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         y.copy_from_slice(&self.position);
         v.copy_from_slice(&self.velocity);
         g.copy_from_slice(&self.force);
     }
 
     /// Takes the springs of the free coordinates, and the size of all forces, where the force was evaluated last.
-    pub fn find_springs(&mut self, system: &impl SecondOrderSystem) {
+    pub(super) fn find_springs(&mut self, system: &impl SecondOrderSystem) {
         system.own_springs_into(&mut self.springs, &mut self.sizes);
         take_springs(self);
     }
 
     /// Writes what the next step depends on.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.numbers(&self.past);
         snapshot.flag(self.quadratic);
         for of in [
@@ -233,7 +233,7 @@ impl Track {
     ///
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         snapshot.numbers_into("lengths of the last steps", &mut self.past)?;
         self.quadratic = snapshot.flag()?;
         let mut values = vec![0.0; LANES * self.groups.len()];

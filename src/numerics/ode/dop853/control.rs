@@ -35,7 +35,7 @@ pub(super) struct Scale {
 
 impl Scale {
     /// For states of so many numbers with what fills them up.
-    pub fn new(linear: &[LinearCoordinate], length: usize) -> Self {
+    pub(super) fn new(linear: &[LinearCoordinate], length: usize) -> Self {
         let group =
             |coordinate: &LinearCoordinate| usize::from(coordinate.squared_frequency <= 0.0);
         Self {
@@ -49,7 +49,7 @@ impl Scale {
     }
 
     /// Takes a state into account, reached by a step of so many seconds.
-    pub fn see(&mut self, state: &[f64], step: f64) {
+    pub(super) fn see(&mut self, state: &[f64], step: f64) {
         self.longest = self.longest.max(step);
         let dof = self.dof.max(1);
         let parts = state.chunks(dof).zip(self.largest.chunks_mut(dof));
@@ -62,7 +62,7 @@ impl Scale {
     }
 
     /// Writes what was reached so far.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.numbers(&self.largest);
         for floors in &self.floors {
             snapshot.numbers(floors);
@@ -74,7 +74,7 @@ impl Scale {
     ///
     /// # Errors
     /// [`SnapshotError`] for that of another system.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         snapshot.numbers_into("scales", &mut self.largest)?;
         for floors in &mut self.floors {
             snapshot.numbers_into("groups of scales", floors)?;
@@ -85,7 +85,12 @@ impl Scale {
 
     /// A step to begin with, s: a hundredth of what changes anything by its size at the present slope, a tenth of what turns
     /// the fastest spring by a radian; `otherwise` where nothing moves.
-    pub fn first_step(&self, linear: &[LinearCoordinate], slope: &[f64], otherwise: f64) -> f64 {
+    pub(super) fn first_step(
+        &self,
+        linear: &[LinearCoordinate],
+        slope: &[f64],
+        otherwise: f64,
+    ) -> f64 {
         let (mut rate, mut fastest): (f64, f64) = (0.0, 0.0);
         for i in 0..self.dof {
             let size = self.largest[i].max(self.floors[0][self.group[i]]);
@@ -108,7 +113,7 @@ impl Scale {
     /// Error of the step that `stages` hold, `h` s long, in units of the scales: the largest over the coordinates of the
     /// estimate of order 5, made the smaller the better it agrees with that of order 3 (II.10, (10.17)). Infinite if the step
     /// led nowhere.
-    pub fn error(&mut self, stages: &Stages, h: f64) -> f64 {
+    pub(super) fn error(&mut self, stages: &Stages, h: f64) -> f64 {
         let [five, three] = &mut self.errors;
         stages.errors_into([five, three]);
         let ([_, end], dof) = (stages.states(), self.dof);
@@ -167,12 +172,12 @@ const LEAST_RETRY: f64 = 0.1;
 const LEAST_ERROR: f64 = 1e-10;
 
 impl Controller {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { before: 1e-4 }
     }
 
     /// Factor for the step after one with this error, at most 1; not above 1 after a rejected trial.
-    pub fn after_success(&mut self, error: f64, rejected: bool) -> f64 {
+    pub(super) fn after_success(&mut self, error: f64, rejected: bool) -> f64 {
         let factor = SAFETY * error.max(LEAST_ERROR).powf(-EXPONENT) * self.before.powf(DAMPING);
         self.before = error.max(1e-4);
         let most = if rejected { 1.0 } else { FACTORS[1] };
@@ -180,7 +185,7 @@ impl Controller {
     }
 
     /// Writes the last error.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.number(self.before);
     }
 
@@ -188,13 +193,13 @@ impl Controller {
     ///
     /// # Errors
     /// [`SnapshotError::Short`].
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         self.before = snapshot.number()?;
         Ok(())
     }
 
     /// Factor for another trial after one with this error, above 1.
-    pub fn after_failure(&self, error: f64) -> f64 {
+    pub(super) fn after_failure(&self, error: f64) -> f64 {
         (SAFETY * error.powf(-EXPONENT)).max(LEAST_RETRY)
     }
 }

@@ -49,7 +49,7 @@ pub(super) struct Crossings {
 
 impl Crossings {
     /// Of a system with event functions; the sides are those at the start.
-    pub fn new<S: SecondOrderSystem>(
+    pub(super) fn new<S: SecondOrderSystem>(
         system: &mut S,
         tolerance: f64,
         t: f64,
@@ -76,7 +76,7 @@ impl Crossings {
     }
 
     /// Writes sides and values at the end of the last step; what concerns a step under way is none of it.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.count(self.count);
         snapshot.count(self.crowded as u64);
         for values in [&self.largest, &self.after] {
@@ -91,7 +91,10 @@ impl Crossings {
     ///
     /// # Errors
     /// [`SnapshotError`] for those of another system.
-    pub fn recalled(tolerance: f64, snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+    pub(super) fn recalled(
+        tolerance: f64,
+        snapshot: &mut SnapshotReader,
+    ) -> Result<Self, SnapshotError> {
         let (count, crowded) = (snapshot.count()?, snapshot.count()?);
         let largest = snapshot.numbers()?;
         let mut after = vec![0.0; largest.len()];
@@ -113,18 +116,18 @@ impl Crossings {
     }
 
     /// Goes on from the end of the last step.
-    pub fn turn_over(&mut self) {
+    pub(super) fn turn_over(&mut self) {
         std::mem::swap(&mut self.before, &mut self.after);
         (self.aimed, self.retaken) = (None, 0);
     }
 
     /// A trial was not good enough: none of its events is sought any more.
-    pub fn forget(&mut self) {
+    pub(super) fn forget(&mut self) {
         (self.aimed, self.retaken) = (None, 0);
     }
 
     /// Looks at a good step: the instant (s) to which it must be taken back, or none, and then the sides are those at its end.
-    pub fn look<S: SecondOrderSystem>(
+    pub(super) fn look<S: SecondOrderSystem>(
         &mut self,
         system: &mut S,
         stages: &mut Stages,

@@ -15,7 +15,7 @@ pub(super) struct Dense {
 }
 
 impl Dense {
-    pub fn new(length: usize) -> Self {
+    pub(super) fn new(length: usize) -> Self {
         Self {
             ready: false,
             terms: std::array::from_fn(|_| vec![0.0; length]),
@@ -24,12 +24,12 @@ impl Dense {
     }
 
     /// Forgets the step.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.ready = false;
     }
 
     /// Writes the interpolation.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.flag(self.ready);
         for terms in &self.terms {
             snapshot.numbers(terms);
@@ -40,7 +40,7 @@ impl Dense {
     ///
     /// # Errors
     /// [`SnapshotError`] for that of another system.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         self.ready = snapshot.flag()?;
         for terms in &mut self.terms {
             snapshot.numbers_into("terms of an interpolation", terms)?;
@@ -49,7 +49,7 @@ impl Dense {
     }
 
     /// Position and velocity at a place (0 to 1) of the step that `stages` hold.
-    pub fn at<S: SecondOrderSystem>(
+    pub(super) fn at<S: SecondOrderSystem>(
         &mut self,
         system: &mut S,
         stages: &mut Stages,

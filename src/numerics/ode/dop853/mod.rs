@@ -15,7 +15,7 @@ mod dense;
 mod stages;
 mod tableau;
 
-use super::driver::{Statistics, Stepper};
+use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
     Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
 };
@@ -47,7 +47,12 @@ pub(super) struct Dop853 {
 
 impl Dop853 {
     /// From the instant `t` (s); `tolerance` is relative, above 0 and below 1.
-    pub fn new(system: &impl SecondOrderSystem, t: f64, tolerance: f64, events: bool) -> Self {
+    pub(super) fn new(
+        system: &impl SecondOrderSystem,
+        t: f64,
+        tolerance: f64,
+        events: bool,
+    ) -> Self {
         let linear = system.linear();
         let stages = Stages::new(linear);
         Self {

@@ -23,7 +23,7 @@ pub(super) struct Span {
 
 impl Span {
     /// The step between two instants (s), with the next jump of the force by time at `change`.
-    pub fn new(from: f64, to: f64, change: f64) -> Self {
+    pub(super) fn new(from: f64, to: f64, change: f64) -> Self {
         Self {
             from,
             to,
@@ -31,12 +31,12 @@ impl Span {
         }
     }
 
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.to - self.from
     }
 
     /// Instant of a place (0 to 1), s.
-    pub fn at(&self, place: f64) -> f64 {
+    pub(super) fn at(&self, place: f64) -> f64 {
         if place < 1.0 {
             (self.from + place * self.length()).min(self.inside)
         } else {
@@ -45,7 +45,7 @@ impl Span {
     }
 
     /// Writes it.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         for instant in [self.from, self.to, self.inside] {
             snapshot.number(instant);
         }
@@ -55,7 +55,7 @@ impl Span {
     ///
     /// # Errors
     /// [`SnapshotError::Short`].
-    pub fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
+    pub(super) fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
         Ok(Self {
             from: snapshot.number()?,
             to: snapshot.number()?,
@@ -64,7 +64,7 @@ impl Span {
     }
 
     /// Place of an instant.
-    pub fn place(&self, t: f64) -> f64 {
+    pub(super) fn place(&self, t: f64) -> f64 {
         (t - self.from) / self.length()
     }
 }
@@ -84,7 +84,7 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    pub fn new(linear: &[LinearCoordinate]) -> Self {
+    pub(super) fn new(linear: &[LinearCoordinate]) -> Self {
         let length = (2 * linear.len()).next_multiple_of(BLOCK);
         let zeros = vec![0.0; length];
         Self {
@@ -99,28 +99,28 @@ impl Stages {
     }
 
     /// Number of coordinates.
-    pub fn dof(&self) -> usize {
+    pub(super) fn dof(&self) -> usize {
         self.linear.len()
     }
 
     /// Numbers of a state with what fills it up.
-    pub fn length(&self) -> usize {
+    pub(super) fn length(&self) -> usize {
         self.start.len()
     }
 
     /// Position and velocity at the end of the last step.
-    pub fn end(&self) -> [&[f64]; 2] {
+    pub(super) fn end(&self) -> [&[f64]; 2] {
         let dof = self.dof();
         [&self.end[..dof], &self.end[dof..2 * dof]]
     }
 
     /// State at its start and at its end with what fills them up.
-    pub fn states(&self) -> [&[f64]; 2] {
+    pub(super) fn states(&self) -> [&[f64]; 2] {
         [&self.start, &self.end]
     }
 
     /// A slope with what fills it up.
-    pub fn slope(&self, number: usize) -> &[f64] {
+    pub(super) fn slope(&self, number: usize) -> &[f64] {
         &self.slopes[self.range(number)]
     }
 
@@ -129,7 +129,7 @@ impl Stages {
     }
 
     /// Puts the state at which the next step begins, with the force there.
-    pub fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64]) {
+    pub(super) fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64]) {
         let dof = self.dof();
         self.end[..dof].copy_from_slice(y);
         self.end[dof..2 * dof].copy_from_slice(v);
@@ -139,20 +139,20 @@ impl Stages {
     }
 
     /// Makes the end of the last step the start of the next one.
-    pub fn turn_over(&mut self) {
+    pub(super) fn turn_over(&mut self) {
         std::mem::swap(&mut self.start, &mut self.end);
         let last = self.range(LAST);
         self.slopes.copy_within(last, 0);
     }
 
     /// Evaluates the slope at the start anew: the force jumps there.
-    pub fn restart<S: SecondOrderSystem>(&mut self, system: &mut S, t: f64) {
+    pub(super) fn restart<S: SecondOrderSystem>(&mut self, system: &mut S, t: f64) {
         self.stage.copy_from_slice(&self.start);
         self.evaluate(system, t, 0);
     }
 
     /// Goes through the stages to the end of a step; the slope there is left out.
-    pub fn attempt<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
+    pub(super) fn attempt<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
         for number in 1..LAST {
             self.evaluate_stage(system, span, number);
         }
@@ -161,13 +161,13 @@ impl Stages {
     }
 
     /// Evaluates the slope at the end.
-    pub fn close<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
+    pub(super) fn close<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
         self.stage.copy_from_slice(&self.end);
         self.evaluate(system, span.inside, LAST);
     }
 
     /// Evaluates the stages that the dense output takes.
-    pub fn extend<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
+    pub(super) fn extend<S: SecondOrderSystem>(&mut self, system: &mut S, span: &Span) {
         for number in STAGES..EXTENDED {
             self.evaluate_stage(system, span, number);
         }
@@ -201,7 +201,7 @@ impl Stages {
     }
 
     /// Writes states and slopes of the last step.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.count(self.evaluations);
         for numbers in [&self.start, &self.end, &self.slopes] {
             snapshot.numbers(numbers);
@@ -212,7 +212,7 @@ impl Stages {
     ///
     /// # Errors
     /// [`SnapshotError`] for those of another system.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         self.evaluations = snapshot.count()?;
         for numbers in [&mut self.start, &mut self.end, &mut self.slopes] {
             snapshot.numbers_into("numbers of a stage", numbers)?;
@@ -221,13 +221,13 @@ impl Stages {
     }
 
     /// Differences to the formulas of order 5 and 3, by the step's length.
-    pub fn errors_into(&self, [five, three]: [&mut [f64]; 2]) {
+    pub(super) fn errors_into(&self, [five, three]: [&mut [f64]; 2]) {
         self.combine_into(ERROR_5, 1.0, five);
         self.combine_into(ERROR_3, 1.0, three);
     }
 
     /// `factor` times a combination of slopes.
-    pub fn combine_into(&self, row: Combination, factor: f64, out: &mut [f64]) {
+    pub(super) fn combine_into(&self, row: Combination, factor: f64, out: &mut [f64]) {
         combine(row, &self.slopes, factor, &[], out);
     }
 }

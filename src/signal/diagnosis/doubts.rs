@@ -1,11 +1,14 @@
-//! Impacts that are no part's and have some of its lines: those that repeat more seldom, of which every second or third harmonic is one of the part,
-//! and the others stand between; those that repeat twice or three times as often; those at an order beside that of the part.
+//! Three doubts of a part whose comb stands out: impacts that are no part's may have some of its lines.
+//!
+//! - They repeat more seldom: every second to fifth of their harmonics is one of the part's, and the others stand between.
+//! - They repeat twice or three times as often: only every second or third harmonic of the part stands out.
+//! - They lie at an order beside that of the part, where the comb fits better.
 
 use super::comb::best_fit;
-use super::explain::{Candidate, Search};
 use super::fault::Fault;
 use super::known::{KnownLine, coincidence};
 use super::line_spectrum::LineSpectrum;
+use super::search::{Candidate, Search};
 use super::unexplained::has_teeth_between;
 
 /// Most of their harmonics from one of the part to the next.

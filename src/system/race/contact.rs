@@ -1,19 +1,15 @@
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 
-mod energy;
-
-use super::bearing_setup::BearingSetup;
+use super::super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use crate::numerics::lanes::{Lanes, each};
 use std::f64::consts::PI;
 
-pub(super) use energy::RaceEnergy;
-
 /// Force of a ball on a race, in the ball's polar frame about the race's centre (radial outward, tangential
 /// counter-clockwise).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct RaceForce {
+pub(in crate::system) struct RaceForce {
     /// Radial force on the race, N; negative on the inner one.
     pub radial: f64,
     /// Tangential force on the race, N.
@@ -29,7 +25,7 @@ pub(super) struct RaceForce {
 
 /// Where a ball stands to a race, and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct RacePlace {
+pub(in crate::system) struct RacePlace {
     /// Angle of the ball about the race's centre in the race's own frame, rad.
     pub angle: f64,
     /// How far the ball is pressed beyond touching the undamaged race, m.
@@ -46,7 +42,7 @@ pub(super) struct RacePlace {
 
 /// What damage a ball feels in one place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Damage {
+pub(in crate::system) enum Damage {
     /// None.
     #[default]
     None,
@@ -58,11 +54,11 @@ pub(super) enum Damage {
 
 /// One race of a bearing.
 #[derive(Debug, Clone)]
-pub(super) struct RaceContact {
+pub(in crate::system) struct RaceContact {
     race: Race,
     /// Outward on the outer race, inward on the inner one.
-    sign: f64,
-    plain: HertzContact,
+    pub(super) sign: f64,
+    pub(super) plain: HertzContact,
     /// Distance from the race's centre at which a ball touches it, m.
     touching_radius: f64,
     waviness: Waviness,
@@ -87,7 +83,7 @@ const ARC_MARGIN: f64 = 2e-3;
 
 impl RaceContact {
     /// The race of a bearing.
-    pub fn new(setup: &BearingSetup, race: Race) -> Self {
+    pub(crate) fn new(setup: &BearingSetup, race: Race) -> Self {
         let geometry = &setup.geometry;
         let (sign, touching_radius) = match race {
             Race::Outer => (1.0, geometry.outer_race_radius() - geometry.ball_radius()),
@@ -126,54 +122,54 @@ impl RaceContact {
     }
 
     /// The same without contact damping.
-    pub fn undamped(mut self) -> Self {
+    pub(crate) fn undamped(mut self) -> Self {
         self.plain.damping = 0.0;
         self
     }
 
     /// Whether a ball may meet anything but a plain circle.
     #[inline(always)]
-    pub fn is_irregular(&self) -> bool {
+    pub(crate) fn is_irregular(&self) -> bool {
         self.irregular
     }
 
     /// Whether the race has waves.
     #[inline]
-    pub fn is_wavy(&self) -> bool {
+    pub(crate) fn is_wavy(&self) -> bool {
         !self.waviness.is_empty()
     }
 
     /// How far it rises towards the balls at most, m: a ball farther than this from touching the undamaged race touches
     /// nothing.
-    pub fn rise(&self) -> f64 {
+    pub(crate) fn rise(&self) -> f64 {
         self.rise
     }
 
     /// Contact with the undamaged race.
     #[inline(always)]
-    pub fn plain(&self) -> HertzContact {
+    pub(crate) fn plain(&self) -> HertzContact {
         self.plain
     }
 
     /// Distance (m) of a ball's centre from the race's when it is pressed so far beyond touching it.
     #[inline]
-    pub fn radius(&self, penetration: f64) -> f64 {
+    pub(crate) fn radius(&self, penetration: f64) -> f64 {
         self.touching_radius + self.sign * penetration
     }
 
     /// Penetration (m) of the undamaged race under a force (N).
-    pub fn usual_penetration(&self, force: f64) -> f64 {
+    pub(crate) fn usual_penetration(&self, force: f64) -> f64 {
         (force / self.plain.stiffness).cbrt().powi(2)
     }
 
     /// +1 if a ball is pressed onto the race by moving outwards, -1 if inwards.
-    pub fn pressed_outward(&self) -> f64 {
+    pub(crate) fn pressed_outward(&self) -> f64 {
         self.sign
     }
 
     /// Number of the defect that a ball in direction `e` (unit vector in the race's frame) may feel.
     #[inline]
-    pub fn defect_at(&self, e: [f64; 2]) -> Option<usize> {
+    pub(crate) fn defect_at(&self, e: [f64; 2]) -> Option<usize> {
         self.defects
             .iter()
             .position(|arc| e[0] * arc.middle[0] + e[1] * arc.middle[1] >= arc.reach)
@@ -181,13 +177,13 @@ impl RaceContact {
 
     /// Number of defects.
     #[inline(always)]
-    pub fn defects(&self) -> usize {
+    pub(crate) fn defects(&self) -> usize {
         self.defects.len()
     }
 
     /// Zero or positive where balls in directions (`cos`, `sin`), unit vectors in the race's frame, may feel a defect.
     #[inline(always)]
-    pub fn inside(&self, defect: usize, [cos, sin]: [&Lanes; 2]) -> Lanes {
+    pub(crate) fn inside(&self, defect: usize, [cos, sin]: [&Lanes; 2]) -> Lanes {
         let arc = &self.defects[defect];
         let [c, s] = arc.middle;
         each(|l| (cos[l] * c + sin[l] * s) - arc.reach)
@@ -195,13 +191,13 @@ impl RaceContact {
 
     /// Whether the flat with this number can be felt at a spin angle (rad).
     #[inline]
-    pub fn feels(&self, flat: usize, spin: f64) -> bool {
+    pub(crate) fn feels(&self, flat: usize, spin: f64) -> bool {
         self.flats[flat].contains(self.race, spin)
     }
 
     /// Force of a ball away from any damage.
     #[inline]
-    pub fn plain_force(&self, penetration: f64, rate: f64) -> RaceForce {
+    pub(crate) fn plain_force(&self, penetration: f64, rate: f64) -> RaceForce {
         let force = self.plain.linearised(penetration, rate);
         RaceForce {
             radial: self.sign * force.force,
@@ -217,7 +213,7 @@ impl RaceContact {
     /// The waves h(φ) shift everything: the potential is that of the race without them at the penetration less σ h, σ = 1 on the
     /// outer and -1 on the inner race, and its slope along the race is `-h' / ρ` times the radial force.
     #[inline]
-    pub fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
+    pub(crate) fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
         if self.waviness.is_empty() {
             return self.force_on_circle(damage, at);
         }
@@ -237,7 +233,7 @@ impl RaceContact {
 
     /// The place on a race without waves that has the same contacts.
     #[inline]
-    fn on_waves(&self, at: &RacePlace) -> RacePlace {
+    pub(super) fn on_waves(&self, at: &RacePlace) -> RacePlace {
         if self.waviness.is_empty() {
             return *at;
         }
@@ -261,7 +257,7 @@ impl RaceContact {
 
     /// Contacts on damage, and how fast (m/s) the ball's centre moves along what carries it.
     #[inline]
-    fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
+    pub(super) fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
         let radius = self.radius(at.penetration);
         match damage {
             Damage::None => None,

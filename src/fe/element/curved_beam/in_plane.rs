@@ -1,0 +1,108 @@
+//! The curved beam in its plane.
+
+use super::exact_arc::ExactArc;
+use super::force_method::SolvedArc;
+use super::quadrature::over_arc;
+use super::raveendranath::CoupledPolynomial;
+use crate::fe::material::BeamSection;
+use nalgebra::{Matrix3, Matrix3x6, Matrix6};
+
+/// Which interpolation the element uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RingInterpolation {
+    /// The solution of the unloaded circular arc: exact rigid motions, exact nodal statics.
+    #[default]
+    ExactArc,
+    /// Cubic radial displacement with the tangential displacement and the rotation that follow from
+    /// equilibrium (Raveendranath, Singh, Pradhan 1999); rigid translations are not exact.
+    Raveendranath,
+}
+
+/// One element of a ring: its interpolation and its matrices in polar nodal components.
+#[derive(Debug, Clone)]
+pub struct CurvedBeam {
+    half_angle: f64,
+    field: Field,
+    stiffness: Matrix6<f64>,
+    mass: Matrix6<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum Field {
+    ExactArc(Box<SolvedArc<ExactArc>>),
+    Polynomial(Box<CoupledPolynomial>),
+}
+
+impl CurvedBeam {
+    /// The element of a section over an included angle `2 half_angle`, rad, 0 < half_angle < pi/2.
+    pub fn new(section: &BeamSection, half_angle: f64, interpolation: RingInterpolation) -> Self {
+        let (field, stiffness) = match interpolation {
+            RingInterpolation::ExactArc => {
+                let arc = SolvedArc::new(ExactArc::new(section), half_angle);
+                let stiffness = *arc.stiffness();
+                (Field::ExactArc(Box::new(arc)), stiffness)
+            }
+            RingInterpolation::Raveendranath => {
+                let polynomial = CoupledPolynomial::new(section, half_angle);
+                let stiffness = polynomial.stiffness(section);
+                (Field::Polynomial(Box::new(polynomial)), stiffness)
+            }
+        };
+        let mut element = Self {
+            half_angle,
+            field,
+            stiffness,
+            mass: Matrix6::zeros(),
+        };
+        element.mass = element.integrate_mass(section);
+        element
+    }
+
+    /// Half the included angle, rad.
+    pub fn half_angle(&self) -> f64 {
+        self.half_angle
+    }
+
+    /// Whether a rigid motion of both nodes strains nothing; that of the polynomial element does.
+    pub fn is_exact_for_rigid_motions(&self) -> bool {
+        matches!(self.field, Field::ExactArc(_))
+    }
+
+    /// Stiffness matrix [6 x 6] in N/m, N and N m.
+    pub fn stiffness(&self) -> &Matrix6<f64> {
+        &self.stiffness
+    }
+
+    /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
+    pub fn mass(&self) -> &Matrix6<f64> {
+        &self.mass
+    }
+
+    /// Interpolation (u, w, theta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
+    /// |phi| <= half_angle.
+    pub fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
+        match &self.field {
+            Field::ExactArc(arc) => arc.interpolation(phi),
+            Field::Polynomial(polynomial) => polynomial.interpolation(phi),
+        }
+    }
+
+    /// `M = integral N^T [[rho A, 0, rho S], [0, rho A, 0], [rho S, 0, rho I]] N R dphi`.
+    fn integrate_mass(&self, section: &BeamSection) -> Matrix6<f64> {
+        let density = Matrix3::new(
+            section.mass,
+            0.0,
+            section.mass_moment,
+            0.0,
+            section.mass,
+            0.0,
+            section.mass_moment,
+            0.0,
+            section.rotary,
+        );
+        over_arc(self.half_angle, |phi| {
+            let n = self.interpolation(phi);
+            n.transpose() * density * n * section.radius
+        })
+    }
+}

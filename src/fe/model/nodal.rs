@@ -1,0 +1,36 @@
+//! What acts on the nodes of a housing beside its elements: matrices on some of them, and faces that others follow.
+
+use nalgebra::{DMatrix, Matrix3};
+use std::collections::BTreeMap;
+
+/// A symmetric matrix on some nodes: springs, or the share of a point mass.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NodalMatrix {
+    pub nodes: Vec<usize>,
+    pub matrix: DMatrix<f64>,
+    /// What asked for it.
+    pub source: NodalSource,
+}
+
+/// What a nodal matrix belongs to; indices into the lists of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum NodalSource {
+    Support(usize),
+    Link(usize),
+    Mass(usize),
+}
+
+/// Tied nodes by their index.
+pub(crate) type TiedNodes = BTreeMap<usize, TiedNode>;
+
+/// A node that moves with a face: `u = sum_i follow_i u_i`.
+#[derive(Debug, Clone)]
+pub(crate) struct TiedNode {
+    pub nodes: Vec<usize>,
+    pub follow: Vec<Matrix3<f64>>,
+    /// The nearest point of the face, m, and the face's size, m.
+    pub foot: [f64; 3],
+    pub size: f64,
+    /// Index of the link.
+    pub link: usize,
+}

@@ -1,0 +1,142 @@
+//! The elements that are searched, with the names of their parts.
+
+use super::boxes::Bounds;
+use crate::fe::element::continuum::measure;
+use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::model::elements::{HousingElements, continuum_kind, element_kind};
+
+/// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
+/// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
+const SAME_PLACE: f64 = 1e-6;
+
+/// An element and the part that it belongs to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solid<'m> {
+    pub(super) tag: u64,
+    pub(super) kind: ElementKind,
+    pub(super) nodes: &'m [usize],
+    /// Index into the names of the parts.
+    pub(super) part: usize,
+}
+
+impl Solid<'_> {
+    pub(super) fn corners(&self) -> &[usize] {
+        &self.nodes[..self.kind.corners()]
+    }
+}
+
+/// The elements of the highest dimension of a mesh with the names of their parts.
+#[derive(Debug)]
+pub struct Bodies<'m> {
+    pub(super) points: &'m [[f64; 3]],
+    pub(super) solids: Vec<Solid<'m>>,
+    pub(super) parts: Vec<String>,
+    /// Distance below which two points are in one place, m.
+    pub(super) tolerance: f64,
+}
+
+impl<'m> Bodies<'m> {
+    /// The elements of a mesh; the part of each is the first group of its dimension that holds it.
+    pub fn of_mesh(mesh: &'m Mesh) -> Self {
+        let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max();
+        let groups = mesh.groups.iter();
+        let groups: Vec<_> = groups
+            .filter(|group| Some(group.dimension) == dimension)
+            .collect();
+        let mut parts: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+        parts.push("no group".to_owned());
+        let blocks = mesh.blocks.iter();
+        let mut part: Vec<Vec<usize>> = blocks
+            .map(|block| vec![groups.len(); block.len()])
+            .collect();
+        for (number, group) in groups.iter().enumerate().rev() {
+            for id in &group.elements {
+                part[id.block][id.index] = number;
+            }
+        }
+        let own = mesh.blocks.iter().zip(&part);
+        let own = own.filter(|(block, _)| continuum_kind(block.kind).is_some());
+        let own = own.filter(|(block, _)| Some(block.kind.dimension()) == dimension);
+        let solids = own.flat_map(|(block, parts)| {
+            let each = block.elements().zip(&block.tags).zip(parts);
+            each.map(|((nodes, &tag), &part)| Solid {
+                tag,
+                kind: block.kind,
+                nodes,
+                part,
+            })
+        });
+        Self::new(&mesh.nodes, solids.collect(), parts)
+    }
+
+    /// The elements of a housing by its own parts.
+    pub(in crate::fe::model) fn of_housing(
+        points: &'m [[f64; 3]],
+        elements: &'m HousingElements,
+        parts: &[String],
+    ) -> Self {
+        let solids = elements.iter().map(|element| Solid {
+            tag: element.tag,
+            kind: element_kind(element.kind),
+            nodes: elements.nodes(element),
+            part: element.part,
+        });
+        Self::new(points, solids.collect(), parts.to_vec())
+    }
+
+    fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
+        let corners = solids.iter().flat_map(|solid| solid.corners());
+        let extent = Bounds::of(corners.map(|&node| points[node]), 0.0);
+        let tolerance = match solids.is_empty() {
+            true => 0.0,
+            false => SAME_PLACE * extent.diagonal(),
+        };
+        Self {
+            points,
+            solids,
+            parts,
+            tolerance,
+        }
+    }
+
+    /// Whether places inside have a meaning: solids, or plane elements in one plane z = const.
+    pub(super) fn is_flat_or_solid(&self) -> bool {
+        let mut solids = self.solids.iter();
+        let Some(first) = solids.next() else {
+            return false;
+        };
+        let z = self.points[first.nodes[0]][2];
+        let in_plane = |node: &usize| (self.points[*node][2] - z).abs() <= self.tolerance;
+        first.kind.dimension() == 3
+            || self
+                .solids
+                .iter()
+                .all(|solid| solid.nodes.iter().all(in_plane))
+    }
+
+    pub(super) fn coordinates(&self, solid: &Solid) -> Vec<[f64; 3]> {
+        solid.nodes.iter().map(|&node| self.points[node]).collect()
+    }
+
+    /// Area (m^2) of a plane element, volume (m^3) of a solid; `None` for one that is inverted, folded or without size.
+    pub(super) fn size(&self, solid: &Solid) -> Option<f64> {
+        measure(continuum_kind(solid.kind)?, &self.coordinates(solid)).ok()
+    }
+
+    pub(super) fn names(&self, parts: [usize; 2]) -> [String; 2] {
+        parts.map(|part| self.parts[part].clone())
+    }
+}
+
+/// Two parts in words, or the one that both are.
+pub(super) fn both(parts: &[String; 2]) -> String {
+    match parts {
+        [a, b] if a == b => format!("\"{a}\""),
+        [a, b] => format!("\"{a}\" and \"{b}\""),
+    }
+}
+
+/// A place in words, in metres.
+pub(super) fn at([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.6}, {y:.6}, {z:.6}) m")
+}

@@ -1,0 +1,193 @@
+//! The problem `K x = lambda M x`, ordered and analysed, and what a solution of it must satisfy.
+
+use super::super::bound::{Quality, ROUNDING};
+use super::super::count::CountCheck;
+use super::super::factor::Factor;
+use super::super::lowest::Ritz;
+use super::super::ordering::Ordering;
+use super::super::symbolic::Symbolic;
+use super::super::symmetric::SymmetricMatrix;
+use super::super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, memory};
+use super::{EigenPairs, EigenTimes};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Blocks [n x count] that are held at the same time, about.
+const COPIES: u64 = 6;
+
+/// Largest relative residual of a mode. That of a rigid mode is a ratio of round-off to the shift's term; a
+/// frequency's relative error is below the square of it.
+const LARGEST_RESIDUAL: f64 = 1e-5;
+
+/// Stiffness K and mass M in the order in which they are factorised.
+#[derive(Debug, Clone)]
+pub struct EigenProblem {
+    pub(super) ordering: Arc<Ordering>,
+    pub(super) stiffness: SymmetricMatrix,
+    pub(super) mass: SymmetricMatrix,
+    pub(super) symbolic: Arc<Symbolic>,
+    /// Factor of K, if somebody has it.
+    pub(super) factor: Option<Arc<Factor>>,
+    pub(super) order_s: f64,
+}
+
+impl EigenProblem {
+    /// Orders and analyses `K x = lambda M x`; both matrices [n x n] symmetric, both triangles stored. Nothing of them
+    /// is kept: the caller may drop them.
+    ///
+    /// # Errors
+    /// [`LinalgError::NothingThere`] for a row without stiffness and mass, [`LinalgError::Factorisation`] of order and
+    /// analysis.
+    pub fn new(k: &SparseMatrix, m: &SparseMatrix) -> Result<Self, LinalgError> {
+        let all: Vec<usize> = (0..k.rows()).collect();
+        Self::restricted(k, m, &all)
+    }
+
+    /// The same over the rows and columns `kept` alone, ascending.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::new`].
+    pub fn restricted(
+        k: &SparseMatrix,
+        m: &SparseMatrix,
+        kept: &[usize],
+    ) -> Result<Self, LinalgError> {
+        let started = Instant::now();
+        // of semidefinite matrices a row is empty if its diagonal is
+        let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
+        if let Some(&row) = kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
+            return Err(LinalgError::NothingThere { row });
+        }
+        let ordering = Ordering::of_part(k, kept)?;
+        let stiffness = SymmetricMatrix::permuted(k, &ordering);
+        let mass = SymmetricMatrix::permuted(m, &ordering);
+        let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
+        Ok(Self {
+            ordering: Arc::new(ordering),
+            stiffness,
+            mass,
+            symbolic,
+            factor: None,
+            order_s: started.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// The problem of a stiffness that is factorised already: its order and its factor are used again.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
+    pub fn with_factor(
+        k: &SparseMatrix,
+        m: &SparseMatrix,
+        factor: &SparseCholesky,
+    ) -> Result<Self, LinalgError> {
+        if factor.order() != k.rows() {
+            return Err(LinalgError::Shape {
+                what: "factor of the stiffness",
+                expected: k.rows(),
+                found: factor.order(),
+            });
+        }
+        let started = Instant::now();
+        let (ordering, factor) = factor.shared();
+        let stiffness = SymmetricMatrix::permuted(k, &ordering);
+        let mass = SymmetricMatrix::permuted(m, &ordering);
+        let symbolic = if stiffness.covers(&mass) {
+            Arc::clone(factor.symbolic())
+        } else {
+            Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?)
+        };
+        Ok(Self {
+            ordering,
+            stiffness,
+            mass,
+            symbolic,
+            factor: Some(factor),
+            order_s: started.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// Number of degrees of freedom.
+    pub fn order(&self) -> usize {
+        self.stiffness.order()
+    }
+
+    /// Round-off of `x^T K x` where zero should be, 1/s^2: that of the motion in which all unknowns are equal, of unit mass, as far as there
+    /// is mass. Motions of a rigid body have as much to an order of magnitude.
+    pub fn rounding_of_zero(&self) -> f64 {
+        let n = self.order();
+        let ones = DenseMatrix::from_fn(n, 1, |_, _| 1.0);
+        let mass: f64 = self.mass.times(ones.as_ref()).col_as_slice(0).iter().sum();
+        let scatter: f64 = self.stiffness.energy_scatters(ones.as_ref()).iter().sum();
+        let rounding = ROUNDING * f64::EPSILON * scatter / mass;
+        if rounding.is_finite() { rounding } else { 0.0 }
+    }
+
+    /// `K X` for `X` [n x k].
+    pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.product(&self.stiffness, x)
+    }
+
+    /// `M X` for `X` [n x k].
+    pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
+        self.product(&self.mass, x)
+    }
+
+    fn product(&self, a: &SymmetricMatrix, x: &DenseMatrix) -> DenseMatrix {
+        let permuted = a.times(self.ordering.forward(x).as_ref());
+        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
+        self.ordering.backward(&permuted, &mut y);
+        y
+    }
+
+    /// An error if there is no memory for so many pairs.
+    pub(super) fn find_room(&self, count: usize) -> Result<(), LinalgError> {
+        let bytes = 8 * COPIES * self.order() as u64 * count as u64;
+        match memory::available() {
+            Some(free) if bytes > free => Err(LinalgError::ModesTooLarge {
+                asked: count,
+                order: self.order(),
+                bytes,
+                free,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The pairs of the problem as it was given; `ritz` is in the order of the factor.
+    ///
+    /// # Errors
+    /// [`LinalgError::Residual`] for a pair that does not satisfy its equation.
+    pub(super) fn finished(
+        &self,
+        ritz: Ritz,
+        quality: Quality,
+        count: usize,
+        count_check: CountCheck,
+        shift: f64,
+        times: EigenTimes,
+    ) -> Result<EigenPairs, LinalgError> {
+        let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
+        if let Some(mode) = quality.residuals.iter().position(too_large) {
+            return Err(LinalgError::Residual {
+                mode,
+                residual: quality.residuals[mode],
+                limit: LARGEST_RESIDUAL,
+            });
+        }
+        let mut vectors = DenseMatrix::zeros(self.order(), count);
+        let found = ritz.vectors.subcols(0, count).to_owned();
+        self.ordering.backward(&found, &mut vectors);
+        Ok(EigenPairs {
+            values: quality.values,
+            vectors,
+            residuals: quality.residuals,
+            bounds: quality.bounds,
+            rounding: quality.rounding,
+            orthogonality: quality.orthogonality,
+            count_check,
+            shift,
+            times,
+        })
+    }
+}

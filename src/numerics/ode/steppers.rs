@@ -1,0 +1,87 @@
+//! Every method as a [`Stepper`], made for a system and its steps.
+
+use super::adams::Adams;
+use super::dop853::Dop853;
+use super::error::TransientError;
+use super::exponential::Exponential;
+use super::implicit::Implicit;
+use super::method::{LEAST_TOLERANCE, Method};
+use super::newmark::NewmarkExplicit;
+use super::schedule::Schedule;
+use super::splitting::Splitting;
+use super::stepper::{Counted, Stepper};
+use crate::numerics::ode::SecondOrderSystem;
+use std::f64::consts::TAU;
+
+/// The method ready to go from `start` (s) with the schedule's steps.
+pub(super) fn stepper<S: SecondOrderSystem>(
+    system: &S,
+    method: Method,
+    schedule: &Schedule,
+    start: f64,
+) -> Result<Box<dyn Stepper<S>>, TransientError> {
+    let h = schedule.step();
+    Ok(match method {
+        Method::Exponential => Box::new(Counted::new(Exponential::new(system, h))),
+        Method::ExponentialAdams { tolerance } => {
+            tolerance.map_or(Ok(()), check_tolerance)?;
+            Box::new(Adams::new(system, h, tolerance))
+        }
+        Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
+        Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
+        Method::GeneralizedAlpha { spectral_radius } => {
+            check_spectral_radius(spectral_radius)?;
+            Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
+        }
+        Method::Dop853 { tolerance, events } => {
+            check_tolerance(tolerance)?;
+            Box::new(Dop853::new(system, start, tolerance, events))
+        }
+        Method::NewmarkExplicit => {
+            check_stability(system, h)?;
+            Box::new(Counted::new(NewmarkExplicit::new(system, h)))
+        }
+    })
+}
+
+fn check_spectral_radius(value: f64) -> Result<(), TransientError> {
+    if (0.0..=1.0).contains(&value) {
+        Ok(())
+    } else {
+        Err(TransientError::Schedule {
+            what: "spectral radius",
+            value,
+            rule: "from 0 to 1",
+        })
+    }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
+    if (LEAST_TOLERANCE..1.0).contains(&tolerance) {
+        Ok(())
+    } else {
+        Err(TransientError::Schedule {
+            what: "tolerance",
+            value: tolerance,
+            rule: "at least 1e-14 and below 1",
+        })
+    }
+}
+
+fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
+    let highest = system
+        .linear()
+        .iter()
+        .map(|coordinate| coordinate.squared_frequency)
+        .fold(0.0, f64::max)
+        .sqrt();
+    if h * highest < 2.0 {
+        Ok(())
+    } else {
+        Err(TransientError::Unstable {
+            step_s: h,
+            limit_s: 2.0 / highest,
+            highest_hz: highest / TAU,
+        })
+    }
+}

@@ -1,0 +1,257 @@
+//! The table of the pieces, and where places in turns lie in it.
+
+use super::super::structure::StructureModes;
+use super::polynomials::{ElementPolynomials, Quintic};
+use crate::fe::model::{Ring, RingRows};
+use crate::numerics::lanes::{LANES, Lanes, each, together, total};
+use std::f64::consts::PI;
+
+/// Values of the kept modes along the raceway.
+#[derive(Debug, Clone)]
+pub(in crate::system) struct RacewayTable {
+    /// Pieces all round, as a number that places are multiplied with.
+    pieces: f64,
+    /// Groups of modes: the length of a row.
+    groups: usize,
+    /// [piece][group of modes]
+    quintics: Vec<Quintic>,
+}
+
+impl RacewayTable {
+    /// Table of `component(rows) . phi` for the given modes.
+    pub(crate) fn new(
+        ring: &Ring,
+        modes: &StructureModes,
+        kept: &[usize],
+        component: impl Fn(&RingRows) -> [f64; 6],
+    ) -> Self {
+        let sample = |element: usize, xi: f64| -> Vec<f64> {
+            let half = PI / ring.nodes() as f64;
+            let rows = ring.rows_in_element(element, xi * half);
+            let factors = component(&rows);
+            kept.iter()
+                .map(|&mode| {
+                    let shape = modes.shapes.col(mode);
+                    (0..6).map(|k| factors[k] * shape[rows.dofs[k]]).sum()
+                })
+                .collect()
+        };
+        Self::fit(ring.nodes(), kept.len(), &sample)
+    }
+
+    /// Table of the radial interpolation itself: six values over the polar components of an
+    /// element's nodes, one element for all.
+    pub(crate) fn of_interpolation(ring: &Ring) -> Self {
+        let half = PI / ring.nodes() as f64;
+        Self::fit(1, 6, &|_, xi| ring.polar_radial_row(xi * half).to_vec())
+    }
+
+    /// Reproduces `sample(element, xi)`.
+    fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
+        let polynomials = ElementPolynomials::fit(elements, modes, sample);
+        let cuts = polynomials.cuts();
+        Self {
+            pieces: (elements * cuts) as f64,
+            groups: modes.div_ceil(LANES),
+            quintics: polynomials.cut(cuts),
+        }
+    }
+
+    /// Groups of modes: the length of a row, at least one.
+    #[inline(always)]
+    pub(crate) fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// Where places in turns, 0 <= turn < 1, lie.
+    #[inline(always)]
+    pub(crate) fn locate(&self, turns: &Lanes) -> Places {
+        Places::among(self.pieces, turns)
+    }
+
+    /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
+    #[inline(always)]
+    pub(crate) fn values_into<'a>(
+        &self,
+        at: Place,
+        amplitudes: &[Lanes],
+        out: impl Iterator<Item = &'a mut Lanes>,
+    ) -> f64 {
+        let mut sums = [0.0; LANES];
+        for ((quintic, amplitude), out) in self.row(at.piece).iter().zip(amplitudes).zip(out) {
+            let value = value(quintic, at.xi);
+            *out = value;
+            sums = each(|l| sums[l] + value[l] * amplitude[l]);
+        }
+        total(&sums)
+    }
+
+    /// Derivatives of all modes at a place, per turn times `scale`, into `out` \[groups\].
+    #[inline(always)]
+    pub(crate) fn slopes_into(&self, at: Place, scale: f64, out: &mut [Lanes]) {
+        let scale = 2.0 * self.pieces * scale;
+        for (out, quintic) in out.iter_mut().zip(self.row(at.piece)) {
+            let slope = slope(quintic, at.xi);
+            *out = each(|l| scale * slope[l]);
+        }
+    }
+
+    /// A bound of each mode's magnitude along the whole raceway \[groups\].
+    pub(crate) fn bounds(&self) -> Vec<Lanes> {
+        let mut bounds = vec![[0.0; LANES]; self.groups];
+        for row in self.quintics.chunks_exact(self.groups) {
+            for (bound, quintic) in bounds.iter_mut().zip(row) {
+                // |xi| <= 1
+                let most = each(|l| quintic.iter().map(|power| power[l].abs()).sum());
+                *bound = each(|l| f64::max(bound[l], most[l]));
+            }
+        }
+        bounds
+    }
+
+    #[inline(always)]
+    fn row(&self, piece: usize) -> &[Quintic] {
+        // ends where the other side of a pairing ends
+        &self.quintics[piece * self.groups..]
+    }
+}
+
+#[inline(always)]
+fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
+    each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
+}
+
+#[inline(always)]
+fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
+    each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
+}
+
+/// A place on the raceway: piece, and local coordinate there, -1 <= xi <= 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::system) struct Place {
+    pub piece: usize,
+    pub xi: f64,
+}
+
+/// Places side by side.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::system) struct Places {
+    /// With the piece in the lowest bits.
+    pieces: Lanes,
+    xi: Lanes,
+}
+
+impl Places {
+    /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
+    #[inline(always)]
+    pub(crate) fn among(pieces: f64, turns: &Lanes) -> Self {
+        let (place, last) = (each(|l| turns[l] * pieces), pieces - 1.0);
+        let whole = each(|l| nearest_whole(place[l] - 0.5));
+        // also what is not a number gets a piece, and shows itself in the value
+        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
+        Self {
+            pieces: together(each(|l| piece[l] + WHOLE)),
+            xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(&self, lane: usize) -> Place {
+        Place {
+            piece: self.pieces[lane].to_bits() as u32 as usize,
+            xi: self.xi[lane],
+        }
+    }
+}
+
+/// Added to it, a number below 2^51 has its nearest whole one in the lowest bits: fewer instructions than a conversion.
+const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
+
+/// The nearest whole number, for magnitudes below 2^51.
+#[inline(always)]
+pub(in crate::system) fn nearest_whole(x: f64) -> f64 {
+    (x + WHOLE) - WHOLE
+}
+
+/// The lowest bits of a whole number, for magnitudes below 2^51.
+#[inline(always)]
+pub(in crate::system) fn lowest_bits(whole: f64) -> u32 {
+    (whole + WHOLE).to_bits() as u32
+}
+
+/// An angle (rad) in turns, reduced to 0 <= turn < 1; beyond 1e15 rad, where no fraction of a turn is left, 0.
+#[inline(always)]
+pub(in crate::system) fn reduced_turn(angle: f64) -> f64 {
+    let turns = angle * (0.5 / PI);
+    let rest = turns - nearest_whole(turns);
+    let turn = if rest < 0.0 { rest + 1.0 } else { rest };
+    if turn < 1.0 { turn } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::lanes::column;
+
+    #[test]
+    fn turns_are_reduced_from_both_sides() {
+        for (angle, turn) in [(0.0, 0.0), (PI, 0.5), (-0.5 * PI, 0.75), (7.0 * PI, 0.5)] {
+            assert!((reduced_turn(angle) - turn).abs() < 1e-15, "{angle}");
+        }
+        assert!(reduced_turn(-1e-18) < 1.0);
+    }
+
+    /// Five waves round eight elements, more than one group of lanes.
+    fn waves() -> RacewayTable {
+        let angle = |element: usize, xi: f64| (element as f64 + 0.5 * (xi + 1.0)) * PI / 4.0;
+        RacewayTable::fit(8, 5, &|element, xi| {
+            let at = angle(element, xi);
+            (1..=5).map(|wave| (f64::from(wave) * at).cos()).collect()
+        })
+    }
+
+    #[test]
+    fn rows_slopes_and_sums_are_those_of_the_waves() {
+        let table = waves();
+        let amplitudes = crate::numerics::lanes::filled(&[1.0, -2.0, 3.0, 0.5, 4.0], 0.0);
+        let (mut row, mut slopes) = (column(5, 0.0), column(5, 0.0));
+        for i in 0..1000 {
+            let turn = f64::from(i) / 1000.0;
+            let at = table.locate(&[turn; LANES]).get(2);
+            let sum = table.values_into(at, &amplitudes, row.iter_mut());
+            table.slopes_into(at, 0.5 / PI, &mut slopes);
+            let mut expected = 0.0;
+            for (place, wave) in (1..=5).enumerate() {
+                let (sin, cos) = (f64::from(wave) * 2.0 * PI * turn).sin_cos();
+                let [value, slope] = [&row, &slopes].map(|row| row.as_flattened()[place]);
+                // values are good to 1e-12 of the largest, slopes to that over a piece's length
+                assert!((value - cos).abs() < 1e-11, "{wave} {turn}");
+                assert!(
+                    (slope + f64::from(wave) * sin).abs() < 1e-8,
+                    "{wave} {turn}"
+                );
+                expected += amplitudes.as_flattened()[place] * cos;
+            }
+            assert!((sum - expected).abs() < 1e-10, "{turn}");
+        }
+    }
+
+    #[test]
+    fn no_value_exceeds_its_bound() {
+        let table = waves();
+        let bounds = table.bounds();
+        let mut row = column(5, 0.0);
+        let mut largest = [0.0_f64; 5];
+        for i in 0..1000 {
+            let at = table.locate(&[f64::from(i) / 1000.0; LANES]).get(0);
+            table.values_into(at, &column(5, 0.0), row.iter_mut());
+            for (largest, value) in largest.iter_mut().zip(row.as_flattened()) {
+                *largest = largest.max(value.abs());
+            }
+        }
+        for (largest, bound) in largest.iter().zip(bounds.as_flattened()) {
+            // the bound adds the magnitudes of a polynomial's terms
+            assert!(largest <= bound && *bound < 10.0, "{largest} {bound}");
+        }
+    }
+}
