@@ -2,27 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, StepMap, Table};
-
-/// Whether something came out as it should. Shown by a mark as well as by colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// As it should be.
-    Ok,
-    /// Not as it should be.
-    Bad,
-    /// Not judged.
-    #[default]
-    None,
-}
-
-impl Verdict {
-    /// `Ok` if the condition holds, `Bad` if not.
-    pub fn of(good: bool) -> Self {
-        if good { Self::Ok } else { Self::Bad }
-    }
-}
+use super::bars::Bars;
+use super::drawing::Drawing;
+use super::matrix::Matrix;
+use super::plot::Plot;
+use super::shapes::ModeShapeView;
+use super::spans::Spans;
+use super::step_map::StepMap;
+use super::table::{Table, Verdict};
 
 /// A whole report, built step by step:
 ///
@@ -70,6 +57,32 @@ pub struct TableFiles {
     pub folder: String,
     /// First word of their names.
     pub prefix: String,
+}
+
+/// A mesh file that the results rest on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeshFile {
+    /// Its path as the case names it.
+    pub path: String,
+    /// Its hash with the name of the method ("SHA-256 9f86d0..."), if known.
+    pub hash: Option<String>,
+}
+
+/// What stands in the head of a report beside title, date and version.
+///
+/// ```
+/// use plummer::report::Document;
+/// let head = Document::new().case("pedestal.toml").mesh("pedestal.msh", None).signed_by("Prepared by");
+/// assert_eq!(head.signatures, ["Prepared by"]);
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Document {
+    /// Case file.
+    pub case: Option<String>,
+    /// Mesh files.
+    pub meshes: Vec<MeshFile>,
+    /// Lines to be signed by hand on paper ("Prepared by", "Checked by").
+    pub signatures: Vec<String>,
 }
 
 /// One of the figures on top of a report.
@@ -328,6 +341,38 @@ impl Report {
     #[must_use]
     pub fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
+        self
+    }
+}
+
+impl Document {
+    /// A head without entries.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The head with the case file.
+    #[must_use]
+    pub fn case(mut self, path: impl Into<String>) -> Self {
+        self.case = Some(path.into());
+        self
+    }
+
+    /// The head with a mesh file more.
+    #[must_use]
+    pub fn mesh(mut self, path: impl Into<String>, hash: Option<String>) -> Self {
+        self.meshes.push(MeshFile {
+            path: path.into(),
+            hash,
+        });
+        self
+    }
+
+    /// The head with a line more to be signed.
+    #[must_use]
+    pub fn signed_by(mut self, role: impl Into<String>) -> Self {
+        self.signatures.push(role.into());
         self
     }
 }

@@ -86,6 +86,15 @@ pub fn pretty_unit(unit: &str) -> String {
     raised_powers(unit).replace('*', "·")
 }
 
+/// A name with its unit in brackets: "Frequency \[Hz\]"; the name alone without a unit.
+pub(super) fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} [{unit}]")
+    }
+}
+
 /// Text with its powers as they are printed: "340 m/s^2" becomes "340 m/s²"; those with a decimal point stay.
 pub(super) fn raised_powers(text: &str) -> String {
     let mut parts = text.split('^');

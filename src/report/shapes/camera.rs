@@ -1,6 +1,6 @@
 //! From where a structure is looked at: standard views and the parallel projection of points.
 
-use super::UpAxis;
+use super::view::UpAxis;
 
 /// A vector in space.
 pub(super) type Vector = [f64; 3];

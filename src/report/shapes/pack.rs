@@ -15,9 +15,10 @@ use serde::Serialize;
 
 use super::camera::{Camera, NAMES};
 use super::surface::{Surface, bounds};
-use super::{ModeShapeView, ShapeMode, legend, palette};
-use crate::report::ReportError;
-use crate::report::number::{fixed, significant};
+use super::view::{LegendEntry, ModeShapeView, legend};
+use crate::report::embed::for_script;
+use crate::report::number::fixed;
+use crate::report::{ReportError, palette};
 
 /// Largest coordinate: 16 bits.
 const GRID: f64 = 65_535.0;
@@ -54,7 +55,7 @@ struct Data<'a> {
     edges: String,
     outline: String,
     lines: Vec<LineData>,
-    legend: Vec<super::LegendEntry>,
+    legend: Vec<LegendEntry>,
     modes: Vec<ModeData>,
     displacement_steps: f64,
     views: Vec<ViewData>,
@@ -150,13 +151,8 @@ pub(in crate::report) fn pack(
             .collect(),
         palette: palette::VIRIDIS.to_vec(),
     };
-    let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
-        plot: view.title.clone(),
-        source,
-    })?;
     Ok(Packed {
-        // "</script" or "<!--" in a name would end the element.
-        json: json.replace('<', "\\u003c"),
+        json: for_script(&view.title, &data)?,
         left_out,
         modes: kept,
     })
@@ -217,18 +213,6 @@ fn modes(view: &ModeShapeView, surface: &Surface, budget: usize) -> Vec<ModeData
         });
     }
     kept
-}
-
-impl ShapeMode {
-    /// The frequency as it is printed.
-    pub(in crate::report) fn frequency(&self) -> String {
-        format!("{} Hz", significant(self.frequency_hz, 4))
-    }
-
-    /// Label and frequency as they are printed.
-    pub(super) fn title(&self) -> String {
-        format!("Mode {} · {}", self.label, self.frequency())
-    }
 }
 
 fn left_out(

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use super::camera::{Camera, Vector, cross, dot, minus, unit};
 use super::depth::{DepthBuffer, Spot};
-use super::palette::{self, Rgb};
 use super::surface::{Surface, bounds, magnitude};
+use crate::report::palette::{self, Rgb};
 
 /// Colours from no displacement to the largest.
 pub(super) const BANDS: usize = 14;
@@ -290,8 +290,8 @@ fn pair([x, y]: [i64; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::UpAxis;
     use super::super::samples::cube;
+    use super::super::view::UpAxis;
     use super::*;
 
     fn frame(surface: &Surface) -> Frame {
