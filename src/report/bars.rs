@@ -79,15 +79,15 @@ impl Bars {
     fn check(&self) -> Result<(), ReportError> {
         let expected = self.labels.len();
         if self.series.is_empty() || expected == 0 {
-            return Err(ReportError::length(&self.title, 1, [0, expected]));
+            return Err(ReportError::wrong_length(&self.title, 1, [0, expected]));
         }
         for (row, BarSeries { values, .. }) in (1..).zip(&self.series) {
             if values.len() != expected {
                 let lengths = [values.len(), expected];
-                return Err(ReportError::length(&self.title, row, lengths));
+                return Err(ReportError::wrong_length(&self.title, row, lengths));
             }
             let good = |value: f64| value.is_finite() && value >= 0.0;
-            ReportError::unless_good(&self.title, row, values.iter().copied(), good)?;
+            ReportError::check_row(&self.title, row, values.iter().copied(), good)?;
         }
         Ok(())
     }

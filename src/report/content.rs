@@ -43,7 +43,7 @@ pub struct Report {
     /// The body.
     pub sections: Vec<Section>,
     /// Where the tables are beside the report, if they are.
-    pub table_files: Option<TableFiles>,
+    pub(crate) table_files: Option<TableFiles>,
     /// What was assumed, a sentence each.
     pub assumptions: Vec<String>,
     /// What the reader must know before trusting the results, a sentence each.
@@ -52,7 +52,7 @@ pub struct Report {
 
 /// The report's tables as files of their own.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TableFiles {
+pub(crate) struct TableFiles {
     /// Their folder, seen from the report.
     pub folder: String,
     /// First word of their names.
@@ -102,12 +102,12 @@ pub struct Section {
     /// Title of the section.
     pub title: String,
     /// What it holds, in order.
-    pub blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Block>,
 }
 
 /// A piece of a section.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Block {
+pub(crate) enum Block {
     /// Free text.
     Paragraph(String),
     /// Properties in two columns.
@@ -153,7 +153,7 @@ impl Fact {
 
     /// The property with a remark or a source.
     #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Self {
+    pub(crate) fn note(mut self, note: impl Into<String>) -> Self {
         self.note = Some(note.into());
         self
     }
@@ -170,7 +170,7 @@ impl Section {
 
     /// The section with a piece more.
     #[must_use]
-    pub fn block(mut self, block: Block) -> Self {
+    pub(crate) fn block(mut self, block: Block) -> Self {
         self.blocks.push(block);
         self
     }
@@ -183,7 +183,7 @@ impl Section {
 
     /// The section with a list of properties more.
     #[must_use]
-    pub fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
+    pub(crate) fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.block(Block::Facts(facts.into_iter().collect()))
     }
 
@@ -201,7 +201,7 @@ impl Section {
 
     /// The section with a drawing more.
     #[must_use]
-    pub fn drawing(self, drawing: Drawing) -> Self {
+    pub(crate) fn drawing(self, drawing: Drawing) -> Self {
         self.block(Block::Drawing(drawing))
     }
 
@@ -219,13 +219,13 @@ impl Section {
 
     /// The section with a chart of spans more.
     #[must_use]
-    pub fn spans(self, spans: Spans) -> Self {
+    pub(crate) fn spans(self, spans: Spans) -> Self {
         self.block(Block::Spans(spans))
     }
 
     /// The section with a map of steps more.
     #[must_use]
-    pub fn step_map(self, map: StepMap) -> Self {
+    pub(crate) fn step_map(self, map: StepMap) -> Self {
         self.block(Block::StepMap(map))
     }
 
@@ -261,7 +261,7 @@ impl Report {
 
     /// The report with a line under its title.
     #[must_use]
-    pub fn subtitle(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn subtitle(mut self, text: impl Into<String>) -> Self {
         self.subtitle = Some(text.into());
         self
     }
@@ -309,7 +309,7 @@ impl Report {
 
     /// The report with a figure more on top.
     #[must_use]
-    pub fn headline(
+    pub(crate) fn headline(
         mut self,
         label: impl Into<String>,
         value: impl Into<String>,
@@ -339,7 +339,7 @@ impl Report {
 
     /// The report with a warning more.
     #[must_use]
-    pub fn warning(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
         self
     }

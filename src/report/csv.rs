@@ -53,7 +53,7 @@ impl Table {
 
     /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
     #[must_use]
-    pub fn csv_name(&self) -> String {
+    pub(crate) fn csv_name(&self) -> String {
         format!("{}.csv", plain_name(&self.caption, "table"))
     }
 }

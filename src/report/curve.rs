@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::decimate::Thinner;
-use crate::numerics::series::TimeSeries;
 
 /// Abscissas of a curve, in the x axis' unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -92,17 +91,12 @@ impl Curve {
         }
     }
 
-    /// A sampled signal over time.
-    pub fn of_series(name: impl Into<String>, series: &TimeSeries) -> Self {
-        let x = Abscissa::Even {
-            start: series.start_s(),
-            step: series.step_s(),
-        };
-        Self::new(name, x, series.values().to_vec())
-    }
-
     /// A sampled signal from `start` on every `step`, thinned while it was read.
-    pub fn of_thinned(name: impl Into<String>, [start, step]: [f64; 2], signal: Thinner) -> Self {
+    pub(crate) fn of_thinned(
+        name: impl Into<String>,
+        [start, step]: [f64; 2],
+        signal: Thinner,
+    ) -> Self {
         let thinned = signal.finish();
         let x = Abscissa::Even {
             start,
@@ -112,7 +106,11 @@ impl Curve {
     }
 
     /// A spectrum over its evenly spaced frequencies in Hz.
-    pub fn of_spectrum(name: impl Into<String>, frequency_hz: &[f64], amplitude: &[f64]) -> Self {
+    pub(crate) fn of_spectrum(
+        name: impl Into<String>,
+        frequency_hz: &[f64],
+        amplitude: &[f64],
+    ) -> Self {
         let x = match frequency_hz {
             [start, next, ..] => Abscissa::Even {
                 start: *start,
@@ -125,14 +123,14 @@ impl Curve {
 
     /// The curve in another style.
     #[must_use]
-    pub fn style(mut self, style: CurveStyle) -> Self {
+    pub(crate) fn style(mut self, style: CurveStyle) -> Self {
         self.style = style;
         self
     }
 
     /// The curve as points with a symbol.
     #[must_use]
-    pub fn points(mut self, symbol: Symbol) -> Self {
+    pub(crate) fn points(mut self, symbol: Symbol) -> Self {
         self.style = CurveStyle::Points;
         self.symbol = symbol;
         self
@@ -140,14 +138,14 @@ impl Curve {
 
     /// The curve in a colour of the palette, counted from 0.
     #[must_use]
-    pub fn colour(mut self, colour: usize) -> Self {
+    pub(crate) fn colour(mut self, colour: usize) -> Self {
         self.colour = Some(colour);
         self
     }
 
     /// The curve with what each of its points is.
     #[must_use]
-    pub fn labels(mut self, labels: Vec<String>) -> Self {
+    pub(crate) fn labels(mut self, labels: Vec<String>) -> Self {
         self.labels = labels;
         self
     }
@@ -155,7 +153,7 @@ impl Curve {
     /// The part of the curve with abscissas in `from` ..= `to`, such as the low end of a long spectrum: what is not
     /// shown need not be embedded.
     #[must_use]
-    pub fn within(mut self, from: f64, to: f64) -> Self {
+    pub(crate) fn within(mut self, from: f64, to: f64) -> Self {
         let keep: Vec<usize> = (0..self.y.len())
             .filter(|k| (from..=to).contains(&self.x_at(*k)))
             .collect();
@@ -241,16 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn series_and_spectra_keep_their_axes() {
-        let series = TimeSeries::new(2.0, 0.25, "m/s^2", vec![1.0, 2.0]).expect("a valid series");
-        let curve = Curve::of_series("P1", &series);
-        assert_eq!(
-            curve.x,
-            Abscissa::Even {
-                start: 2.0,
-                step: 0.25
-            }
-        );
+    fn spectra_keep_their_axes() {
         let (frequency_hz, amplitude) = ([0.0, 2.5, 5.0, 7.5], [1.0, 3.0, 2.0, 0.5]);
         let curve = Curve::of_spectrum("P1", &frequency_hz, &amplitude);
         assert!((curve.x_at(3) - frequency_hz[3]).abs() < 1e-15);

@@ -15,7 +15,7 @@ use super::{ReportError, decimate};
 const BUDGET: usize = 2_800_000;
 
 /// Points that the signals of a report may have together such that it embeds them whole beside its other curves.
-pub const SIGNAL_POINTS: usize = 500_000;
+pub(crate) const SIGNAL_POINTS: usize = 500_000;
 
 #[derive(Debug, Serialize)]
 struct PlotData<'a> {

@@ -181,7 +181,7 @@ pub enum ReportError {
 
 impl ReportError {
     /// A row of a chart with another number of values than the chart has labels.
-    pub(super) fn length(chart: &str, row: usize, [found, expected]: [usize; 2]) -> Self {
+    pub(super) fn wrong_length(chart: &str, row: usize, [found, expected]: [usize; 2]) -> Self {
         Self::ChartLength {
             chart: chart.to_owned(),
             row,
@@ -191,7 +191,7 @@ impl ReportError {
     }
 
     /// Checks the values of a row of a chart; the first that is not good is the error.
-    pub(super) fn unless_good(
+    pub(super) fn check_row(
         chart: &str,
         row: usize,
         values: impl IntoIterator<Item = f64>,

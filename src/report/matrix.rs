@@ -53,7 +53,13 @@ impl Matrix {
 
     fn check(&self) -> Result<(), ReportError> {
         let (rows, columns) = (self.rows.1.len(), self.columns.1.len());
-        let length = |row, found| Err(ReportError::length(&self.title, row, [found, columns]));
+        let length = |row, found| {
+            Err(ReportError::wrong_length(
+                &self.title,
+                row,
+                [found, columns],
+            ))
+        };
         if self.values.len() != rows {
             return length(self.values.len().min(rows) + 1, 0);
         }
@@ -63,7 +69,7 @@ impl Matrix {
             }
             // A criterion may pass 1 by rounding.
             let good = |value: f64| (-1e-9..=1.0 + 1e-9).contains(&value);
-            ReportError::unless_good(&self.title, row, values.iter().copied(), good)?;
+            ReportError::check_row(&self.title, row, values.iter().copied(), good)?;
         }
         if rows == 0 {
             return length(1, 0);

@@ -37,18 +37,22 @@ mod table;
 mod ticks;
 
 pub use bars::{BarSeries, Bars};
-pub use content::{Block, Document, Fact, Headline, MeshFile, Report, Section, TableFiles};
+#[cfg(test)]
+pub(crate) use content::Block;
+pub use content::{Document, Fact, Headline, MeshFile, Report, Section};
 pub use curve::{Abscissa, Curve, CurveStyle, Symbol};
-pub use decimate::Thinner;
-pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
-pub use embed::SIGNAL_POINTS;
+pub(crate) use decimate::Thinner;
+pub(crate) use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
+pub(crate) use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
-pub use number::{fixed, pretty_unit, significant};
-pub use plot::{Axis, Family, Level, Marker, Plot, Raster, Scale, Sides};
+pub(crate) use number::pretty_unit;
+pub use number::{fixed, significant};
+pub(crate) use plot::Raster;
+pub use plot::{Axis, Family, Level, Marker, Plot, Scale, Sides};
 pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
 };
-pub use spans::{SpanPoint, SpanRow, Spans};
+pub(crate) use spans::{SpanPoint, SpanRow, Spans};
 pub use step_map::{StepMap, StepPanel, StepState};
 pub use table::{Align, Cell, CellLook, Column, Table, Verdict};

@@ -82,7 +82,7 @@ fn raised(c: char) -> char {
 
 /// A unit as it is printed: "m/s^2" becomes "m/s²", "kg*m" becomes "kg·m"; powers with a decimal point stay
 /// ("N/m^1.5").
-pub fn pretty_unit(unit: &str) -> String {
+pub(crate) fn pretty_unit(unit: &str) -> String {
     raised_powers(unit).replace('*', "·")
 }
 

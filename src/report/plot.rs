@@ -68,7 +68,7 @@ pub struct Plot {
     /// Whether it is taller than usual, for clouds of points.
     pub tall: bool,
     /// A picture under the curves; axes without a range show all of it.
-    pub raster: Option<Raster>,
+    pub(crate) raster: Option<Raster>,
 }
 
 /// A fundamental whose harmonics k f, k = 1, 2, ..., the reader can mark in the page, read and move together. Drawings and
@@ -125,7 +125,7 @@ pub(super) fn is_positive(value: f64) -> bool {
 
 /// Values on a grid, even on both axes of the plot: on a logarithmic one in the logarithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Raster {
+pub(crate) struct Raster {
     /// Left and right edge of the grid, in the x axis' unit.
     pub x: [f64; 2],
     /// Lower and upper edge, in the y axis' unit.
@@ -151,14 +151,14 @@ impl Axis {
 
     /// The axis on a logarithmic scale.
     #[must_use]
-    pub fn log(mut self) -> Self {
+    pub(crate) fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
     }
 
     /// A logarithmic axis over so many decades below `largest`, in its unit.
     #[must_use]
-    pub fn decades_below(self, largest: f64, decades: f64) -> Self {
+    pub(crate) fn decades_below(self, largest: f64, decades: f64) -> Self {
         let least = largest * 10_f64.powf(-decades);
         self.log().range(least, largest)
     }
@@ -222,7 +222,7 @@ impl Plot {
 
     /// The plot with a horizontal line more, in the y axis' unit.
     #[must_use]
-    pub fn level(mut self, at: f64, label: impl Into<String>) -> Self {
+    pub(crate) fn level(mut self, at: f64, label: impl Into<String>) -> Self {
         let label = label.into();
         self.levels.push(Level { at, label });
         self
@@ -230,21 +230,21 @@ impl Plot {
 
     /// The plot taller than usual.
     #[must_use]
-    pub fn tall(mut self) -> Self {
+    pub(crate) fn tall(mut self) -> Self {
         self.tall = true;
         self
     }
 
     /// The plot with a picture under its curves.
     #[must_use]
-    pub fn raster(mut self, raster: Raster) -> Self {
+    pub(crate) fn raster(mut self, raster: Raster) -> Self {
         self.raster = Some(raster);
         self
     }
 
     /// The plot with a caption.
     #[must_use]
-    pub fn caption(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn caption(mut self, text: impl Into<String>) -> Self {
         self.caption = Some(text.into());
         self
     }

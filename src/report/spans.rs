@@ -23,7 +23,7 @@ const CHARACTER: f64 = 5.6;
 
 /// One value that a cause can take, and where the quantity then is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SpanPoint {
+pub(crate) struct SpanPoint {
     /// The value, in a word or two.
     pub label: String,
     /// Where the quantity is.
@@ -32,7 +32,7 @@ pub struct SpanPoint {
 
 /// A cause with its values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SpanRow {
+pub(crate) struct SpanRow {
     /// The cause.
     pub name: String,
     /// Its values.
@@ -42,7 +42,7 @@ pub struct SpanRow {
 /// A chart with a row for each cause: a bar from the lowest to the highest place of the quantity, a dot for each value, and a
 /// line through all rows where the quantity is without a change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Spans {
+pub(crate) struct Spans {
     /// What it shows.
     pub title: String,
     /// Caption; `None`: the title.
@@ -58,11 +58,11 @@ pub struct Spans {
 impl Spans {
     fn check(&self) -> Result<(), ReportError> {
         if self.rows.is_empty() || !self.base.is_finite() {
-            return Err(ReportError::length(&self.title, 1, [0, 1]));
+            return Err(ReportError::wrong_length(&self.title, 1, [0, 1]));
         }
         for (row, span) in (1..).zip(&self.rows) {
             let places = span.points.iter().map(|point| point.at);
-            ReportError::unless_good(&self.title, row, places, f64::is_finite)?;
+            ReportError::check_row(&self.title, row, places, f64::is_finite)?;
         }
         Ok(())
     }

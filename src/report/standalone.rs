@@ -55,7 +55,7 @@ impl Spans {
     ///
     /// # Errors
     /// [`ReportError`] for values that cannot be shown.
-    pub fn to_svg(&self) -> Result<String, ReportError> {
+    pub(crate) fn to_svg(&self) -> Result<String, ReportError> {
         let inner = spans::draw(self)?;
         Ok(file(&self.title, &[], &inner, self.height()))
     }
@@ -66,7 +66,7 @@ impl StepMap {
     ///
     /// # Errors
     /// [`ReportError`] for values that cannot be shown.
-    pub fn to_svg(&self) -> Result<String, ReportError> {
+    pub(crate) fn to_svg(&self) -> Result<String, ReportError> {
         let inner = step_map::draw(self)?;
         Ok(file(&self.title, &[], &inner, self.height()))
     }

@@ -90,10 +90,15 @@ pub struct StepMap {
 
 impl StepMap {
     fn check(&self) -> Result<(), ReportError> {
-        let length =
-            |row, found, expected| Err(ReportError::length(&self.title, row, [found, expected]));
+        let length = |row, found, expected| {
+            Err(ReportError::wrong_length(
+                &self.title,
+                row,
+                [found, expected],
+            ))
+        };
         let good = |step: f64| step > 0.0 && step.is_finite();
-        ReportError::unless_good(&self.title, 1, self.steps.iter().copied(), good)?;
+        ReportError::check_row(&self.title, 1, self.steps.iter().copied(), good)?;
         if self.steps.len() < 2 || self.panels.is_empty() || self.rows.is_empty() {
             return length(1, self.steps.len().min(1), 2);
         }

@@ -13,6 +13,7 @@ mod picture;
 pub(crate) mod samples;
 mod stills;
 mod surface;
+mod vector;
 mod view;
 
 pub(super) use pack::{Packed, compressed, pack};

@@ -14,7 +14,8 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
 use super::camera::{Camera, NAMES};
-use super::surface::{Surface, bounds};
+use super::surface::{Surface, SurfaceLine};
+use super::vector::{bounds, diagonal};
 use super::view::{LegendEntry, ModeShapeView, legend};
 use crate::report::embed::for_script;
 use crate::report::number::fixed;
@@ -48,25 +49,17 @@ struct Data<'a> {
     size: f64,
     amplitude: f64,
     count: usize,
-    points: String,
-    triangles: String,
+    #[serde(flatten)]
+    geometry: Geometry,
     /// First triangle of each group, and the end of the last.
     starts: Vec<usize>,
-    edges: String,
-    outline: String,
-    lines: Vec<LineData>,
+    lines: &'a [SurfaceLine],
     legend: Vec<LegendEntry>,
     modes: Vec<ModeData>,
     displacement_steps: f64,
     views: Vec<ViewData>,
     start: usize,
     palette: Vec<palette::Rgb>,
-}
-
-#[derive(Debug, Serialize)]
-struct LineData {
-    points: Vec<usize>,
-    closed: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -80,9 +73,8 @@ struct ModeData {
 #[derive(Debug, Serialize)]
 struct ViewData {
     name: &'static str,
-    right: [f64; 3],
-    up: [f64; 3],
-    back: [f64; 3],
+    #[serde(flatten)]
+    camera: Camera,
 }
 
 /// Packs a checked view into about `budget` bytes: fewer modes first, down to eight; then a coarser surface; then fewer
@@ -112,29 +104,18 @@ pub(in crate::report) fn pack(
     let left_out = left_out(view, whole, &surface, kept);
     let (low, high) = bounds(&surface.points);
     let views = Camera::standard(view.up);
-    let size: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum();
     let data = Data {
         title: &view.title,
         low,
         step: step(&surface),
-        size: size.sqrt(),
+        size: diagonal(&surface.points),
         amplitude: view.amplitude,
         count: surface.points.len(),
-        points: geometry.points,
-        triangles: geometry.triangles,
+        geometry,
         starts: (0..=view.groups.len())
             .map(|group| surface.groups.partition_point(|g| *g < group))
             .collect(),
-        edges: geometry.edges,
-        outline: geometry.outline,
-        lines: surface
-            .lines
-            .iter()
-            .map(|line| LineData {
-                points: line.points.clone(),
-                closed: line.closed,
-            })
-            .collect(),
+        lines: &surface.lines,
         legend: legend(view),
         modes,
         displacement_steps: STEPS,
@@ -142,12 +123,7 @@ pub(in crate::report) fn pack(
         views: NAMES
             .into_iter()
             .zip(views)
-            .map(|(name, camera)| ViewData {
-                name,
-                right: camera.right,
-                up: camera.up,
-                back: camera.back,
-            })
+            .map(|(name, camera)| ViewData { name, camera })
             .collect(),
         palette: palette::VIRIDIS.to_vec(),
     };
@@ -159,6 +135,7 @@ pub(in crate::report) fn pack(
 }
 
 /// What does not depend on a mode.
+#[derive(Debug, Serialize)]
 struct Geometry {
     points: String,
     triangles: String,

@@ -3,9 +3,10 @@
 
 use std::fmt::Write;
 
-use super::camera::{Camera, Vector, cross, dot, minus, unit};
+use super::camera::Camera;
 use super::depth::{DepthBuffer, Spot};
-use super::surface::{Surface, bounds, magnitude};
+use super::surface::Surface;
+use super::vector::{Vector, bounds, cross, diagonal, dot, magnitude, minus, unit};
 use crate::report::palette::{self, Rgb};
 
 /// Colours from no displacement to the largest.
@@ -37,9 +38,7 @@ impl Frame {
         size: [f64; 2],
         [margin, amplitude]: [f64; 2],
     ) -> Self {
-        let (low, high) = bounds(points);
-        let span = minus(high, low);
-        let diagonal = dot(span, span).sqrt();
+        let diagonal = diagonal(points);
         let seen: Vec<Vector> = points.iter().map(|p| camera.project(*p)).collect();
         let (near, far) = bounds(&seen);
         // Seen end on, a bar has no width.

@@ -1,8 +1,9 @@
 //! The still pictures of a view: the mesh with its groups, and the first mode shapes side by side.
 
-use super::camera::{Camera, NAMES, Vector};
+use super::camera::{Camera, NAMES};
 use super::picture::{self, BANDS, Colouring, Frame};
-use super::surface::{Surface, bounds};
+use super::surface::Surface;
+use super::vector::{Vector, bounds};
 use super::view::ModeShapeView;
 use crate::report::palette;
 use crate::report::svg::{self, ScaleBar};

@@ -2,11 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::camera::{Vector, cross, dot, minus, unit};
+use serde::Serialize;
+
+use super::vector::{Vector, bounds, cross, dot, magnitude, minus, unit};
 use super::view::ModeShapeView;
 
 /// A line through points of the surface.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(in crate::report) struct SurfaceLine {
     pub(super) points: Vec<usize>,
     pub(super) closed: bool,
@@ -142,24 +144,6 @@ fn sides([a, b, c]: [usize; 3]) -> [[usize; 2]; 3] {
     [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }
 
-/// Length of a displacement.
-pub(super) fn magnitude(d: &[f64; 3]) -> f64 {
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
-}
-
-/// Lowest and highest coordinates; zero without points.
-pub(super) fn bounds(points: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
-    let Some(first) = points.first() else {
-        return ([0.0; 3], [0.0; 3]);
-    };
-    points.iter().fold((*first, *first), |(low, high), p| {
-        (
-            std::array::from_fn(|k| low[k].min(p[k])),
-            std::array::from_fn(|k| high[k].max(p[k])),
-        )
-    })
-}
-
 /// The same triangle, its lowest corner first: sorted triangles then follow the points.
 pub(super) fn rotated([a, b, c]: [usize; 3]) -> [usize; 3] {
     match a.min(b).min(c) {
@@ -235,7 +219,6 @@ mod tests {
     }
 
     fn area(surface: &Surface, corners: [usize; 3]) -> f64 {
-        use super::super::camera::{cross, dot, minus};
         let [a, b, c] = corners.map(|k| surface.points[k]);
         let n = cross(minus(b, a), minus(c, a));
         0.5 * dot(n, n).sqrt()

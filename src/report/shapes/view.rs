@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::vector::diagonal;
 use crate::report::number::significant;
 use crate::report::{ReportError, palette};
 
@@ -154,7 +155,7 @@ impl ModeShapeView {
     /// [`ReportError::EmptyShape`], [`ReportError::ShapeIndex`], [`ReportError::ShapeLength`] or
     /// [`ReportError::ShapeNumber`].
     pub fn check(&self) -> Result<(), ReportError> {
-        let extent = extent(&self.points);
+        let extent = diagonal(&self.points);
         if self.triangles.is_empty() || extent <= 0.0 {
             return Err(ReportError::EmptyShape {
                 view: self.title.clone(),
@@ -219,7 +220,7 @@ impl ModeShapeView {
     /// The view without the points that nothing of it uses, such as those inside a solid. Its figures are the same. A view with
     /// an index that points at nothing stays as it is; [`check`](Self::check) names the index.
     #[must_use]
-    pub fn without_unused_points(mut self) -> Self {
+    pub(crate) fn without_unused_points(mut self) -> Self {
         let mut used = vec![false; self.points.len()];
         let corners = self.triangles.iter().flat_map(|triangle| triangle.corners);
         let ends = self.edges.iter().chain(&self.outline).flatten().copied();
@@ -283,22 +284,6 @@ fn keep<T>(entries: &mut Vec<T>, used: &[bool]) {
         index += 1;
         used.get(index - 1).copied().unwrap_or(true)
     });
-}
-
-/// Diagonal of the bounding box; minus infinity without points.
-fn extent(points: &[[f64; 3]]) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for point in points {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
-        }
-    }
-    if points.is_empty() {
-        return f64::NEG_INFINITY;
-    }
-    let sum: f64 = (0..3).map(|axis| (high[axis] - low[axis]).powi(2)).sum();
-    sum.sqrt()
 }
 
 #[cfg(test)]
