@@ -1,14 +1,12 @@
 //! A bar chart, such as effective masses by mode.
 
-use std::fmt::Write;
-
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
-use super::number::{display_unit, significant};
+use super::number::{display_unit, significant, with_unit};
+use super::palette::COLOURS;
 use super::plot::Axis;
-use super::svg::escape;
-use super::svg_plot::COLOURS;
+use super::svg;
 use super::ticks;
 
 const WIDTH: f64 = 920.0;
@@ -80,28 +78,16 @@ impl Bars {
 
     fn check(&self) -> Result<(), ReportError> {
         let expected = self.labels.len();
-        let length = |row, found| ReportError::ChartLength {
-            chart: self.title.clone(),
-            row,
-            found,
-            expected,
-        };
         if self.series.is_empty() || expected == 0 {
-            return Err(length(1, 0));
+            return Err(ReportError::wrong_length(&self.title, 1, [0, expected]));
         }
-        for (row, series) in (1..).zip(&self.series) {
-            if series.values.len() != expected {
-                return Err(length(row, series.values.len()));
+        for (row, BarSeries { values, .. }) in (1..).zip(&self.series) {
+            if values.len() != expected {
+                let lengths = [values.len(), expected];
+                return Err(ReportError::wrong_length(&self.title, row, lengths));
             }
-            let bad = |v: &f64| !(v.is_finite() && *v >= 0.0);
-            if let Some(k) = series.values.iter().position(bad) {
-                return Err(ReportError::ChartValue {
-                    chart: self.title.clone(),
-                    row,
-                    column: k + 1,
-                    value: series.values[k],
-                });
-            }
+            let good = |value: f64| value.is_finite() && value >= 0.0;
+            ReportError::check_row(&self.title, row, values.iter().copied(), good)?;
         }
         Ok(())
     }
@@ -119,75 +105,42 @@ pub(super) fn draw(bars: &Bars) -> Result<String, ReportError> {
     };
     let unit = display_unit(&bars.axis.unit, end);
     let end = end / unit.factor;
-    let title = escape(&bars.title);
-    let mut out = format!(
-        "<svg class=\"bars\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    );
+    let mut out = svg::opening(svg::CHART, [WIDTH, HEIGHT], &bars.title);
     let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
     let y_of = |v: f64| bottom - (v / end).min(1.0) * (bottom - TOP);
     for tick in ticks::linear(0.0, end, 5) {
         let y = y_of(tick.at);
-        // Writing to a string cannot fail, here and below.
-        let _ = write!(
-            out,
-            "<line class=\"grid\" x1=\"{LEFT}\" y1=\"{y:.1}\" x2=\"{right}\" y2=\"{y:.1}\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-            LEFT - 7.0,
-            y + 4.0,
-            tick.label.unwrap_or_default()
-        );
+        svg::line(&mut out, "class=\"grid\"", [LEFT, y, right, y]);
+        let label = tick.label.unwrap_or_default();
+        svg::text(&mut out, svg::END, [LEFT - 7.0, y + 4.0], &label);
     }
     let place = (right - LEFT) / bars.labels.len() as f64;
+    let middle = |label: usize| LEFT + (label as f64 + 0.5) * place;
     let wide = (FILLED * place / bars.series.len() as f64).min(WIDEST);
     for (k, label) in bars.labels.iter().enumerate() {
-        let middle = LEFT + (k as f64 + 0.5) * place;
         for (s, series) in bars.series.iter().enumerate() {
             let value = series.values[k] / unit.factor;
-            let (x, y) = (
-                middle + wide * (s as f64 - 0.5 * bars.series.len() as f64),
-                y_of(value),
-            );
-            let _ = write!(
-                out,
-                "<rect class=\"b{}\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\"><title>{}, {}: {} {}</title></rect>",
-                s % COLOURS,
-                (wide - 1.0).max(0.5),
-                bottom - y,
-                escape(label),
-                escape(&series.name),
-                significant(value, 4),
-                escape(&unit.text)
-            );
+            let x = middle(k) + wide * (s as f64 - 0.5 * bars.series.len() as f64);
+            let y = y_of(value);
+            let bar = [x, y, (wide - 1.0).max(0.5), bottom - y];
+            let (name, digits) = (&series.name, significant(value, 4));
+            let tip = format!("{label}, {name}: {digits} {}", unit.text);
+            svg::rect(&mut out, &format!("class=\"b{}\"", s % COLOURS), bar, &tip);
         }
     }
     let longest = bars.labels.iter().map(|l| l.chars().count()).max();
     let label_width = LABEL[0] + LABEL[1] * longest.unwrap_or(1) as f64;
     let stride = (label_width / place).ceil().max(1.0) as usize;
     for (k, label) in bars.labels.iter().enumerate().step_by(stride) {
-        let x = LEFT + (k as f64 + 0.5) * place;
-        let y = bottom + 17.0;
-        let _ = write!(
-            out,
-            "<text x=\"{x:.1}\" y=\"{y}\" text-anchor=\"middle\">{}</text>",
-            escape(label)
-        );
+        svg::text(&mut out, svg::MIDDLE, [middle(k), bottom + 17.0], label);
     }
-    let axis = if unit.text.is_empty() {
-        bars.axis.label.clone()
-    } else {
-        format!("{} [{}]", bars.axis.label, unit.text)
-    };
-    let _ = write!(
-        out,
-        "<path class=\"frame\" d=\"M{LEFT} {TOP}V{bottom}H{right}\"/>\
-         <text class=\"title\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\
-         <text class=\"title\" transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text></svg>",
-        0.5 * (LEFT + right),
-        HEIGHT - 8.0,
-        escape(&bars.across),
-        0.5 * (TOP + bottom),
-        escape(&axis)
-    );
-    Ok(out)
+    let frame = format!("M{LEFT} {TOP}V{bottom}H{right}");
+    svg::path(&mut out, "class=\"frame\"", &frame, "");
+    let below = [0.5 * (LEFT + right), HEIGHT - 8.0];
+    svg::title_across(&mut out, below, &bars.across);
+    let title = with_unit(&bars.axis.label, &unit.text);
+    svg::title_upward(&mut out, [16.0, 0.5 * (TOP + bottom)], &title);
+    Ok(out + "</svg>")
 }
 
 #[cfg(test)]

@@ -3,14 +3,13 @@
 use serde::Serialize;
 
 use super::content::{Block, Fact, Section, TableFiles};
+use super::curve::CurveStyle;
 use super::layout::Layout;
-use super::plot::{CurveStyle, Plot};
+use super::palette::COLOURS;
+use super::plot::Plot;
 use super::shapes::{self, LegendEntry, ModeShapeView, Packed, ShapeFigures, Still, Surface};
-use super::svg_plot::COLOURS;
 use super::table::{Cell, Column, Table};
-use super::{
-    ReportError, bars, csv, embed, family, matrix, spans, step_map, svg_drawing, svg_plot,
-};
+use super::{ReportError, bars, csv, embed, matrix, spans, step_map, svg_drawing, svg_plot};
 
 /// Bytes that the shapes of a report may take for its script, beside still pictures (2 MB at most for a view), plots and
 /// the library: the file stays below 15 MB.
@@ -59,7 +58,7 @@ enum BlockView<'a> {
         title: &'a str,
         caption: Option<&'a str>,
         svg: String,
-        legend: Vec<Entry<'a>>,
+        legend: Vec<Name<'a>>,
     },
     Shapes(Box<ShapesView<'a>>),
 }
@@ -71,7 +70,14 @@ struct Row<'a> {
     mode: Option<usize>,
 }
 
-/// A name in a legend.
+/// A name in the legend of a chart.
+#[derive(Debug, Serialize)]
+struct Name<'a> {
+    name: &'a str,
+    colour: usize,
+}
+
+/// A name in the legend of a plot.
 #[derive(Debug, Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -176,63 +182,35 @@ pub(super) fn section_view<'a>(
 }
 
 fn block_view<'a>(block: &'a Block, numbers: &mut Numbers) -> Result<BlockView<'a>, ReportError> {
-    Ok(match block {
-        Block::Paragraph(text) => BlockView::Paragraph { text },
-        Block::Facts(facts) => BlockView::Facts { facts },
-        Block::Table(table) => table_view(table, numbers)?,
-        Block::Plot(plot) => plot_view(plot, numbers)?,
-        Block::Drawing(drawing) => BlockView::Picture {
-            number: next(&mut numbers.figure),
-            class: "drawing",
-            title: &drawing.title,
-            caption: drawing.caption.as_deref(),
-            svg: svg_drawing::draw(drawing)?,
-            legend: Vec::new(),
-        },
-        Block::Bars(bars) => BlockView::Picture {
-            number: next(&mut numbers.figure),
-            class: "bars",
-            title: &bars.title,
-            caption: bars.caption.as_deref(),
-            svg: bars::draw(bars)?,
-            legend: bars
-                .series
-                .iter()
-                .zip((0..COLOURS).cycle())
-                .map(|(series, colour)| Entry {
-                    name: &series.name,
-                    colour,
-                    style: "box",
-                    symbol: None,
-                    open: false,
-                })
-                .collect(),
-        },
-        Block::Matrix(matrix) => BlockView::Picture {
-            number: next(&mut numbers.figure),
-            class: "matrix",
-            title: &matrix.title,
-            caption: matrix.caption.as_deref(),
-            svg: matrix::draw(matrix)?,
-            legend: Vec::new(),
-        },
-        Block::Spans(chart) => BlockView::Picture {
-            number: next(&mut numbers.figure),
-            class: "bars",
-            title: &chart.title,
-            caption: chart.caption.as_deref(),
-            svg: spans::draw(chart)?,
-            legend: Vec::new(),
-        },
-        Block::StepMap(map) => BlockView::Picture {
-            number: next(&mut numbers.figure),
-            class: "bars",
-            title: &map.title,
-            caption: map.caption.as_deref(),
-            svg: step_map::draw(map)?,
-            legend: Vec::new(),
-        },
-        Block::Shapes(view) => BlockView::Shapes(Box::new(shapes_view(view, numbers)?)),
+    let (class, title, caption, svg) = match block {
+        Block::Paragraph(text) => return Ok(BlockView::Paragraph { text }),
+        Block::Facts(facts) => return Ok(BlockView::Facts { facts }),
+        Block::Table(table) => return table_view(table, numbers),
+        Block::Plot(plot) => return plot_view(plot, numbers),
+        Block::Shapes(view) => {
+            return Ok(BlockView::Shapes(Box::new(shapes_view(view, numbers)?)));
+        }
+        Block::Drawing(of) => ("drawing", &of.title, &of.caption, svg_drawing::draw(of)?),
+        Block::Bars(of) => ("bars", &of.title, &of.caption, bars::draw(of)?),
+        Block::Matrix(of) => ("matrix", &of.title, &of.caption, matrix::draw(of)?),
+        Block::Spans(of) => ("bars", &of.title, &of.caption, spans::draw(of)?),
+        Block::StepMap(of) => ("bars", &of.title, &of.caption, step_map::draw(of)?),
+    };
+    let series = match block {
+        Block::Bars(chart) => &*chart.series,
+        _ => &[],
+    };
+    let names = series.iter().map(|series| &*series.name);
+    Ok(BlockView::Picture {
+        number: next(&mut numbers.figure),
+        class,
+        title,
+        caption: caption.as_deref(),
+        svg,
+        legend: names
+            .zip((0..COLOURS).cycle())
+            .map(|(name, colour)| Name { name, colour })
+            .collect(),
     })
 }
 
@@ -271,11 +249,7 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
         colour: svg_plot::colour(curve, k),
         symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
         open: curve.symbol.is_open(),
-        style: match curve.style {
-            CurveStyle::Line => "line",
-            CurveStyle::Dashed => "dashed",
-            CurveStyle::Points => "points",
-        },
+        style: curve.style.class(),
     });
     Ok(BlockView::Plot {
         number,
@@ -285,7 +259,7 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
         data: embed::json(plot, &layout, numbers.curve_share)?,
         legend: legend.collect(),
         unit: layout.x.unit,
-        families: family::names(plot),
+        families: embed::family_names(plot),
     })
 }
 

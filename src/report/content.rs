@@ -2,27 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bars, Document, Drawing, Matrix, ModeShapeView, Plot, Spans, StepMap, Table};
-
-/// Whether something came out as it should. Shown by a mark as well as by colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// As it should be.
-    Ok,
-    /// Not as it should be.
-    Bad,
-    /// Not judged.
-    #[default]
-    None,
-}
-
-impl Verdict {
-    /// `Ok` if the condition holds, `Bad` if not.
-    pub fn of(good: bool) -> Self {
-        if good { Self::Ok } else { Self::Bad }
-    }
-}
+use super::bars::Bars;
+use super::drawing::Drawing;
+use super::matrix::Matrix;
+use super::plot::Plot;
+use super::shapes::ModeShapeView;
+use super::spans::Spans;
+use super::step_map::StepMap;
+use super::table::{Table, Verdict};
 
 /// A whole report, built step by step:
 ///
@@ -56,7 +43,7 @@ pub struct Report {
     /// The body.
     pub sections: Vec<Section>,
     /// Where the tables are beside the report, if they are.
-    pub table_files: Option<TableFiles>,
+    pub(crate) table_files: Option<TableFiles>,
     /// What was assumed, a sentence each.
     pub assumptions: Vec<String>,
     /// What the reader must know before trusting the results, a sentence each.
@@ -65,11 +52,37 @@ pub struct Report {
 
 /// The report's tables as files of their own.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TableFiles {
+pub(crate) struct TableFiles {
     /// Their folder, seen from the report.
     pub folder: String,
     /// First word of their names.
     pub prefix: String,
+}
+
+/// A mesh file that the results rest on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeshFile {
+    /// Its path as the case names it.
+    pub path: String,
+    /// Its hash with the name of the method ("SHA-256 9f86d0..."), if known.
+    pub hash: Option<String>,
+}
+
+/// What stands in the head of a report beside title, date and version.
+///
+/// ```
+/// use plummer::report::Document;
+/// let head = Document::new().case("pedestal.toml").mesh("pedestal.msh", None).signed_by("Prepared by");
+/// assert_eq!(head.signatures, ["Prepared by"]);
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Document {
+    /// Case file.
+    pub case: Option<String>,
+    /// Mesh files.
+    pub meshes: Vec<MeshFile>,
+    /// Lines to be signed by hand on paper ("Prepared by", "Checked by").
+    pub signatures: Vec<String>,
 }
 
 /// One of the figures on top of a report.
@@ -89,12 +102,12 @@ pub struct Section {
     /// Title of the section.
     pub title: String,
     /// What it holds, in order.
-    pub blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Block>,
 }
 
 /// A piece of a section.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Block {
+pub(crate) enum Block {
     /// Free text.
     Paragraph(String),
     /// Properties in two columns.
@@ -140,7 +153,7 @@ impl Fact {
 
     /// The property with a remark or a source.
     #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Self {
+    pub(crate) fn note(mut self, note: impl Into<String>) -> Self {
         self.note = Some(note.into());
         self
     }
@@ -157,7 +170,7 @@ impl Section {
 
     /// The section with a piece more.
     #[must_use]
-    pub fn block(mut self, block: Block) -> Self {
+    pub(crate) fn block(mut self, block: Block) -> Self {
         self.blocks.push(block);
         self
     }
@@ -170,7 +183,7 @@ impl Section {
 
     /// The section with a list of properties more.
     #[must_use]
-    pub fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
+    pub(crate) fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.block(Block::Facts(facts.into_iter().collect()))
     }
 
@@ -188,7 +201,7 @@ impl Section {
 
     /// The section with a drawing more.
     #[must_use]
-    pub fn drawing(self, drawing: Drawing) -> Self {
+    pub(crate) fn drawing(self, drawing: Drawing) -> Self {
         self.block(Block::Drawing(drawing))
     }
 
@@ -206,13 +219,13 @@ impl Section {
 
     /// The section with a chart of spans more.
     #[must_use]
-    pub fn spans(self, spans: Spans) -> Self {
+    pub(crate) fn spans(self, spans: Spans) -> Self {
         self.block(Block::Spans(spans))
     }
 
     /// The section with a map of steps more.
     #[must_use]
-    pub fn step_map(self, map: StepMap) -> Self {
+    pub(crate) fn step_map(self, map: StepMap) -> Self {
         self.block(Block::StepMap(map))
     }
 
@@ -248,7 +261,7 @@ impl Report {
 
     /// The report with a line under its title.
     #[must_use]
-    pub fn subtitle(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn subtitle(mut self, text: impl Into<String>) -> Self {
         self.subtitle = Some(text.into());
         self
     }
@@ -296,7 +309,7 @@ impl Report {
 
     /// The report with a figure more on top.
     #[must_use]
-    pub fn headline(
+    pub(crate) fn headline(
         mut self,
         label: impl Into<String>,
         value: impl Into<String>,
@@ -326,8 +339,40 @@ impl Report {
 
     /// The report with a warning more.
     #[must_use]
-    pub fn warning(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
+        self
+    }
+}
+
+impl Document {
+    /// A head without entries.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The head with the case file.
+    #[must_use]
+    pub fn case(mut self, path: impl Into<String>) -> Self {
+        self.case = Some(path.into());
+        self
+    }
+
+    /// The head with a mesh file more.
+    #[must_use]
+    pub fn mesh(mut self, path: impl Into<String>, hash: Option<String>) -> Self {
+        self.meshes.push(MeshFile {
+            path: path.into(),
+            hash,
+        });
+        self
+    }
+
+    /// The head with a line more to be signed.
+    #[must_use]
+    pub fn signed_by(mut self, role: impl Into<String>) -> Self {
+        self.signatures.push(role.into());
         self
     }
 }

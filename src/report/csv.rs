@@ -3,8 +3,9 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::table::{Align, Cell, Column, Table};
-use super::{Block, Report, TableFiles, Verdict, pretty_unit};
+use super::content::{Block, Report, TableFiles};
+use super::number::{pretty_unit, with_unit};
+use super::table::{Align, Cell, CellLook, Column, Table, Verdict};
 
 /// Longest file name without its ending.
 const LONGEST_NAME: usize = 60;
@@ -41,12 +42,7 @@ impl Table {
             for ((cell, column), judged) in row.iter().zip(&self.columns).zip(&judged) {
                 fields.push(quoted(&field(cell, column)));
                 if *judged {
-                    let text = match cell.verdict {
-                        Verdict::Ok => "pass",
-                        Verdict::Bad => "fail",
-                        Verdict::None => "",
-                    };
-                    fields.push(text.to_owned());
+                    fields.push(cell.verdict.word().to_owned());
                 }
             }
             out.push_str(&fields.join(","));
@@ -57,7 +53,7 @@ impl Table {
 
     /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
     #[must_use]
-    pub fn csv_name(&self) -> String {
+    pub(crate) fn csv_name(&self) -> String {
         format!("{}.csv", plain_name(&self.caption, "table"))
     }
 }
@@ -119,14 +115,12 @@ pub(super) fn address(table: &Table) -> String {
 
 /// A badge is its own verdict.
 fn is_judged(cell: &Cell) -> bool {
-    cell.verdict != Verdict::None && cell.look != super::CellLook::Badge
+    cell.verdict != Verdict::None && cell.look != CellLook::Badge
 }
 
 fn title(column: &Column) -> String {
-    match &column.unit {
-        Some(unit) => format!("{} [{}]", column.title, pretty_unit(unit)),
-        None => column.title.clone(),
-    }
+    let unit = column.unit.as_deref().unwrap_or_default();
+    with_unit(&column.title, &pretty_unit(unit))
 }
 
 fn field(cell: &Cell, column: &Column) -> String {

@@ -20,7 +20,7 @@ pub(super) fn even(values: &[f64], most: usize) -> Thinned {
 /// of any length takes the memory of what is kept. Left alone if there are no more values than may stay. A bucket without a
 /// finite value gives two gaps (NaN). Abscissas are then good to a bucket: value k stands for samples near k stride.
 #[derive(Debug, Clone)]
-pub struct Thinner {
+pub(crate) struct Thinner {
     /// Values in a bucket; 0: all stay.
     bucket: usize,
     /// Of the bucket under way.
@@ -31,7 +31,7 @@ pub struct Thinner {
 impl Thinner {
     /// For so many values, of which at most `most` (at least 2) stay.
     #[must_use]
-    pub fn new(length: usize, most: usize) -> Self {
+    pub(crate) fn new(length: usize, most: usize) -> Self {
         let most = most.max(2);
         let bucket = if length <= most {
             0
@@ -46,7 +46,7 @@ impl Thinner {
     }
 
     /// Takes the next values.
-    pub fn push(&mut self, values: &[f64]) {
+    pub(crate) fn push(&mut self, values: &[f64]) {
         if self.bucket == 0 {
             self.kept.extend_from_slice(values);
             return;

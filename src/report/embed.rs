@@ -4,18 +4,18 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use super::ReportError;
-use super::decimate;
-use super::family::{self, FamilyData};
+use super::curve::{Abscissa, Curve, CurveStyle};
 use super::layout::{AxisView, Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
-use super::plot::{Abscissa, Axis, Curve, CurveStyle, Plot};
-use super::svg_plot::{COLOURS, colour};
+use super::palette::COLOURS;
+use super::plot::{Axis, Family, Plot, is_positive};
+use super::svg_plot::colour;
+use super::{ReportError, decimate};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
-pub(super) const BUDGET: usize = 2_800_000;
+const BUDGET: usize = 2_800_000;
 
 /// Points that the signals of a report may have together such that it embeds them whole beside its other curves.
-pub const SIGNAL_POINTS: usize = 500_000;
+pub(crate) const SIGNAL_POINTS: usize = 500_000;
 
 #[derive(Debug, Serialize)]
 struct PlotData<'a> {
@@ -109,6 +109,21 @@ struct LevelData<'a> {
     label: &'a str,
 }
 
+/// In shown units.
+#[derive(Debug, Serialize)]
+struct FamilyData<'a> {
+    at: f64,
+    colour: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sides: Option<SidesData<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct SidesData<'a> {
+    name: &'a str,
+    spacing: f64,
+}
+
 /// Bytes a curve needs in full.
 fn size(curve: &Curve) -> usize {
     curve.y.len() * bytes_a_point(curve)
@@ -165,7 +180,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
                 colour: marker.family % COLOURS,
             })
             .collect(),
-        families: family::data(plot, &layout.x),
+        families: family_data(plot, &layout.x),
         levels: levels
             .map(|level| LevelData {
                 at: level.at / layout.y.factor,
@@ -177,12 +192,42 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
             y: raster.y.map(|y| y / layout.y.factor),
         }),
     };
-    let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
-        plot: plot.title.clone(),
+    for_script(&plot.title, &data)
+}
+
+/// Data as JSON that may stand inside a script element.
+pub(super) fn for_script(title: &str, data: &impl Serialize) -> Result<String, ReportError> {
+    let json = serde_json::to_string(data).map_err(|source| ReportError::Embed {
+        plot: title.to_owned(),
         source,
     })?;
     // "</script" or "<!--" in a name would end the element.
     Ok(json.replace('<', "\\u003c"))
+}
+
+/// Names of the families that a plot offers, in the order of the data.
+pub(super) fn family_names(plot: &Plot) -> Vec<&str> {
+    let shown = plot.families.iter().filter(|family| family.is_shown());
+    shown.map(|family| family.name.as_str()).collect()
+}
+
+/// What the script of the page needs of the families.
+fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
+    let shown = plot.families.iter().filter(|family| family.is_shown());
+    let sides = |family: &'a Family| {
+        let sides = family.sides.as_ref()?;
+        is_positive(sides.spacing).then(|| SidesData {
+            name: &sides.name,
+            spacing: sides.spacing / x.factor,
+        })
+    };
+    shown
+        .map(|family| FamilyData {
+            at: family.fundamental / x.factor,
+            colour: family.family % COLOURS,
+            sides: sides(family),
+        })
+        .collect()
 }
 
 fn axis_data<'a>(axis: &Axis, view: &'a AxisView) -> AxisData<'a> {
@@ -232,11 +277,7 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
         symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
         open: curve.symbol.is_open(),
         labels: labels.into_iter().map(String::as_str).collect(),
-        style: match curve.style {
-            CurveStyle::Line => "line",
-            CurveStyle::Dashed => "dashed",
-            CurveStyle::Points => "points",
-        },
+        style: curve.style.class(),
         x,
         y: base64(shown.flat_map(f32::to_le_bytes)),
     }
@@ -249,6 +290,7 @@ fn base64(bytes: impl Iterator<Item = u8>) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::plot::Marker;
+    use super::super::{Report, Section};
     use super::*;
 
     fn plot(points: usize) -> Plot {
@@ -330,5 +372,54 @@ mod tests {
         assert!(!json.contains('<'));
         let data: serde_json::Value = serde_json::from_str(&json).expect("valid JSON");
         assert_eq!(data["curves"][0]["name"], "</script><b>");
+    }
+
+    fn with_families() -> Plot {
+        let even = Abscissa::Even {
+            start: 0.0,
+            step: 100.0,
+        };
+        Plot::new(
+            "Envelope spectrum",
+            Axis::new("Frequency", "Hz"),
+            Axis::new("Amplitude", "m/s^2"),
+        )
+        .curve(Curve::new("P1", even, vec![1.0; 401]))
+        .family(Family::new("</script><b>race", 2500.0, 8).sides("shaft & co", 500.0))
+        .family(Family::new("nothing", 0.0, 1))
+        .family(Family::new("cage", 400.0, 1).sides("none", f64::NAN))
+    }
+
+    #[test]
+    fn families_are_in_shown_units_and_those_without_frequency_left_out() {
+        let plot = with_families();
+        let layout = Layout::of(&plot).expect("a valid plot");
+        assert_eq!(family_names(&plot), ["</script><b>race", "cage"]);
+        let data = serde_json::to_value(family_data(&plot, &layout.x)).expect("JSON");
+        // 40 kHz are shown, in kHz; the eighth of six colours is the third
+        let sides = serde_json::json!({"name": "shaft & co", "spacing": 0.5});
+        assert_eq!(
+            data,
+            serde_json::json!([{"at": 2.5, "colour": 2, "sides": sides}, {"at": 0.4, "colour": 1}])
+        );
+    }
+
+    #[test]
+    fn the_page_offers_families_by_name_as_text() {
+        let html = |plot| {
+            let report = Report::new("t", "c", "0").section(Section::new("S").plot(plot));
+            report.to_html().expect("a valid report")
+        };
+        let page = html(with_families());
+        let option = |text| format!("<option value=\"{text}</option>");
+        assert!(page.contains(&option("0\">&lt;&#x2f;script&gt;&lt;b&gt;race")));
+        assert!(page.contains(&option("1\">cage")));
+        assert!(page.contains("aria-label=\"Cursors of figure 1\""));
+        assert!(page.contains("<label hidden>A [kHz] <input type=\"number\""));
+        assert!(!page.contains("<b>race"));
+        let mut bare = with_families();
+        bare.families.clear();
+        let page = html(bare);
+        assert!(!page.contains("<select") && page.contains("Cursors A, B"));
     }
 }

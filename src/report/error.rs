@@ -178,3 +178,33 @@ pub enum ReportError {
     #[error("page template failed: {0}")]
     Template(#[from] minijinja::Error),
 }
+
+impl ReportError {
+    /// A row of a chart with another number of values than the chart has labels.
+    pub(super) fn wrong_length(chart: &str, row: usize, [found, expected]: [usize; 2]) -> Self {
+        Self::ChartLength {
+            chart: chart.to_owned(),
+            row,
+            found,
+            expected,
+        }
+    }
+
+    /// Checks the values of a row of a chart; the first that is not good is the error.
+    pub(super) fn check_row(
+        chart: &str,
+        row: usize,
+        values: impl IntoIterator<Item = f64>,
+        good: impl Fn(f64) -> bool,
+    ) -> Result<(), Self> {
+        let bad = (1..).zip(values).find(|(_, value)| !good(*value));
+        bad.map_or(Ok(()), |(column, value)| {
+            Err(Self::ChartValue {
+                chart: chart.to_owned(),
+                row,
+                column,
+                value,
+            })
+        })
+    }
+}

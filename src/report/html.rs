@@ -8,8 +8,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use super::blocks::{self, Numbers, SectionView};
-use super::content::{Headline, Report, TableFiles};
-use super::document::{Document, css_string};
+use super::content::{Document, Headline, Report, TableFiles};
 use super::number::{pretty_unit, raised_powers};
 use super::{ReportError, shapes};
 
@@ -124,6 +123,21 @@ fn page_rule(report: &Report) -> String {
     )
 }
 
+/// Text as a CSS string; only letters and digits are written as they are, so that it can end neither the string nor
+/// the style element.
+fn css_string(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        if c.is_ascii_alphanumeric() || c == ' ' {
+            out.push(c);
+        } else {
+            out.push_str(&format!("\\{:x} ", u32::from(c)));
+        }
+    }
+    out.push('"');
+    out
+}
+
 /// A script without its indentation and lines of comment; the only texts in it that go over lines are shaders, to which that is nothing.
 fn lean(script: &str) -> String {
     let lines = script.lines().map(str::trim_start);
@@ -138,6 +152,7 @@ fn library() -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::css_string;
     use crate::report::{
         Abscissa, Axis, Cell, Circle, Column, Curve, Drawing, Fact, Marker, Plot, Point, Report,
         Section, Table, Verdict,
@@ -303,5 +318,14 @@ mod tests {
         assert!(html(Section::new("S").table(bad_table)).is_err());
         assert!(html(Section::new("S").plot(plot(0))).is_err());
         assert!(html(Section::new("S").drawing(Drawing::default())).is_err());
+    }
+
+    #[test]
+    fn css_strings_hold_what_is_in_them() {
+        assert_eq!(css_string("Fan 2"), "\"Fan 2\"");
+        assert_eq!(
+            css_string("a\"}</style>"),
+            "\"a\\22 \\7d \\3c \\2f style\\3e \""
+        );
     }
 }

@@ -1,10 +1,10 @@
 //! Where things stand in a plot: ranges, units, margins, and the map from values to pixels.
 
 use super::ReportError;
-use super::number::{DisplayUnit, display_unit};
-use super::plot::{Axis, Curve, CurveStyle, Level, Marker, Plot, Scale};
-use super::raster::{BAR_ROOM, Raster};
-use super::ticks;
+use super::curve::{Abscissa, Curve, CurveStyle};
+use super::number::{DisplayUnit, display_unit, with_unit};
+use super::plot::{Axis, Level, Marker, Plot, Raster, Scale};
+use super::ticks::{self, Tick};
 
 /// Size of a plot, in pixels of its own coordinates; the page scales it.
 pub(super) const WIDTH: f64 = 920.0;
@@ -13,6 +13,8 @@ const AREA_HEIGHT: f64 = 250.0;
 const TALL_AREA_HEIGHT: f64 = 430.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 18.0;
+/// Room for the bar of a picture's colours, right of the area.
+pub(super) const BAR_ROOM: f64 = 88.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 46.0;
 /// Height of a row of marker labels, and most rows.
@@ -74,6 +76,15 @@ impl AxisView {
         }
     }
 
+    /// Lines and numbers of the axis, about `wanted`.
+    pub(super) fn ticks(&self, wanted: usize) -> Vec<Tick> {
+        if self.log {
+            ticks::log(self.low, self.high, wanted)
+        } else {
+            ticks::linear(self.low, self.high, wanted)
+        }
+    }
+
     /// The view of a range given by the caller.
     pub(super) fn checked(plot: &Plot, axis: &Axis, range: [f64; 2]) -> Result<Self, ReportError> {
         Ok(Self::new(axis, checked(plot, axis, range)?))
@@ -89,18 +100,13 @@ impl AxisView {
             low.abs().max(high.abs())
         };
         let DisplayUnit { factor, text } = display_unit(&axis.unit, largest);
-        let title = if text.is_empty() {
-            axis.label.clone()
-        } else {
-            format!("{} [{text}]", axis.label)
-        };
         Self {
             log,
             low: low / factor,
             high: high / factor,
             factor,
+            title: with_unit(&axis.label, &text),
             unit: text,
-            title,
         }
     }
 }
@@ -168,7 +174,7 @@ impl<'a> Layout<'a> {
 
 fn check_length(plot: &Plot, curve: &Curve) -> Result<(), ReportError> {
     match &curve.x {
-        super::Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError::CurveLength {
+        Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError::CurveLength {
             plot: plot.title.clone(),
             curve: curve.name.clone(),
             abscissas: x.len(),
@@ -306,7 +312,6 @@ fn place_markers<'a>(plot: &'a Plot, x: &AxisView) -> (Vec<PlacedMarker<'a>>, us
 
 #[cfg(test)]
 mod tests {
-    use super::super::plot::Abscissa;
     use super::*;
 
     fn plot(x: Axis, y: Axis, ordinates: &[f64]) -> Plot {

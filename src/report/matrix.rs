@@ -1,12 +1,10 @@
 //! A matrix of values from 0 to 1 in colours, such as the modal assurance criterion of two sets of modes.
 
-use std::fmt::Write;
-
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
 use super::number::fixed;
-use super::svg::escape;
+use super::{palette, svg};
 
 /// Side of a cell, pixels, at least and at most.
 const CELL: [f64; 2] = [9.0, 46.0];
@@ -55,32 +53,26 @@ impl Matrix {
 
     fn check(&self) -> Result<(), ReportError> {
         let (rows, columns) = (self.rows.1.len(), self.columns.1.len());
-        let length = |row, found, expected| ReportError::ChartLength {
-            chart: self.title.clone(),
-            row,
-            found,
-            expected,
+        let length = |row, found| {
+            Err(ReportError::wrong_length(
+                &self.title,
+                row,
+                [found, columns],
+            ))
         };
         if self.values.len() != rows {
-            return Err(length(self.values.len().min(rows) + 1, 0, columns));
+            return length(self.values.len().min(rows) + 1, 0);
         }
         for (row, values) in (1..).zip(&self.values) {
             if values.len() != columns || columns == 0 {
-                return Err(length(row, values.len(), columns));
+                return length(row, values.len());
             }
             // A criterion may pass 1 by rounding.
-            let bad = |v: &f64| !(-1e-9..=1.0 + 1e-9).contains(v);
-            if let Some(column) = values.iter().position(bad) {
-                return Err(ReportError::ChartValue {
-                    chart: self.title.clone(),
-                    row,
-                    column: column + 1,
-                    value: values[column],
-                });
-            }
+            let good = |value: f64| (-1e-9..=1.0 + 1e-9).contains(&value);
+            ReportError::check_row(&self.title, row, values.iter().copied(), good)?;
         }
         if rows == 0 {
-            return Err(length(1, 0, columns));
+            return length(1, 0);
         }
         Ok(())
     }
@@ -105,102 +97,61 @@ pub(super) fn draw(matrix: &Matrix) -> Result<String, ReportError> {
             20.0
         };
     let (width, height) = (cell * columns.len() as f64, cell * rows.len() as f64);
-    let (full_width, full_height) = (left + width + 90.0, top + height.max(150.0) + 12.0);
-    let title = escape(&matrix.title);
-    let mut out = format!(
-        "<svg class=\"matrix\" viewBox=\"0 0 {full_width:.0} {full_height:.0}\" style=\"max-width:{full_width:.0}px\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    );
-    let middle = top + 0.5 * height;
-    // Writing to a string cannot fail, here and below.
-    let _ = write!(
-        out,
-        "<text class=\"title\" x=\"{:.1}\" y=\"14\" text-anchor=\"middle\">{}</text>\
-         <text class=\"title\" transform=\"translate(14 {middle:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        left + 0.5 * width,
-        escape(&matrix.columns.0),
-        escape(&matrix.rows.0)
-    );
+    let full_width = (left + width + 90.0).round();
+    let full_height = (top + height.max(150.0) + 12.0).round();
+    let look = format!("class=\"matrix\" style=\"max-width:{full_width}px\"");
+    let mut out = svg::opening(&look, [full_width, full_height], &matrix.title);
+    let above = [left + 0.5 * width, 14.0];
+    svg::title_across(&mut out, above, &matrix.columns.0);
+    svg::title_upward(&mut out, [14.0, top + 0.5 * height], &matrix.rows.0);
     // Labels closer than a line of text overlap: then each second, third ... one stands.
     let stride = (13.0 / cell).ceil().max(1.0) as usize;
     for (k, label) in columns.iter().enumerate().step_by(stride) {
         let (x, y) = (left + (k as f64 + 0.5) * cell, top - 7.0);
-        let place = if turned {
-            format!("transform=\"translate({:.1} {y:.1}) rotate(-90)\"", x + 4.0)
+        if turned {
+            svg::upward(&mut out, "", [x + 4.0, y], &short(label));
         } else {
-            format!("x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\"")
-        };
-        let _ = write!(out, "<text {place}>{}</text>", short(label));
+            svg::text(&mut out, svg::MIDDLE, [x, y], &short(label));
+        }
     }
     for (k, label) in rows.iter().enumerate().step_by(stride) {
         let y = top + (k as f64 + 0.5) * cell + 4.0;
-        let x = left - 7.0;
-        let _ = write!(
-            out,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{}</text>",
-            short(label)
-        );
+        svg::text(&mut out, svg::END, [left - 7.0, y], &short(label));
     }
     cells(&mut out, matrix, [left, top, cell]);
-    let _ = write!(
-        out,
-        "<rect class=\"frame\" x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"/>"
-    );
+    svg::rect(&mut out, "class=\"frame\"", [left, top, width, height], "");
     bar(&mut out, [left + width + 24.0, top]);
-    out.push_str("</svg>");
-    Ok(out)
+    Ok(out + "</svg>")
 }
 
 fn short(label: &str) -> String {
     if label.chars().count() <= LONGEST {
-        return escape(label);
+        return label.to_owned();
     }
     let start: String = label.chars().take(LONGEST - 1).collect();
-    escape(&format!("{start}…"))
+    format!("{start}…")
 }
 
 fn cells(out: &mut String, matrix: &Matrix, [left, top, cell]: [f64; 3]) {
     for (i, row) in matrix.values.iter().enumerate() {
         for (j, value) in row.iter().enumerate() {
             let (x, y) = (left + j as f64 * cell, top + i as f64 * cell);
-            let _ = write!(
-                out,
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{cell:.1}\" height=\"{cell:.1}\" fill=\"{}\"><title>{}, {}: {}</title></rect>",
-                colour(*value),
-                escape(&matrix.rows.1[i]),
-                escape(&matrix.columns.1[j]),
-                fixed(*value, 3)
-            );
+            let labels = [&matrix.rows.1[i], &matrix.columns.1[j]];
+            let tip = format!("{}, {}: {}", labels[0], labels[1], fixed(*value, 3));
+            svg::rect(out, &fill(*value), [x, y, cell, cell], &tip);
             // Below one percent the colour says enough.
             if cell >= NUMBERED && *value >= 0.005 {
                 let class = if *value > 0.5 { "light" } else { "dark" };
-                let _ = write!(
-                    out,
-                    "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                    x + 0.5 * cell,
-                    y + 0.5 * cell + 4.0,
-                    fixed(*value, 2)
-                );
+                let look = format!("class=\"{class}\" {}", svg::MIDDLE);
+                let middle = [x + 0.5 * cell, y + 0.5 * cell + 4.0];
+                svg::text(out, &look, middle, &fixed(*value, 2));
             }
         }
     }
 }
 
-/// White to dark blue, by even steps of lightness.
-fn colour(value: f64) -> String {
-    const STOPS: [[f64; 3]; 5] = [
-        [255.0, 255.0, 255.0],
-        [206.0, 221.0, 236.0],
-        [142.0, 178.0, 212.0],
-        [75.0, 125.0, 175.0],
-        [20.0, 61.0, 110.0],
-    ];
-    let place = value.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let low = (place.floor() as usize).min(STOPS.len() - 2);
-    let part = place - low as f64;
-    let mixed: [u8; 3] = std::array::from_fn(|k| {
-        (STOPS[low][k] * (1.0 - part) + STOPS[low + 1][k] * part).round() as u8
-    });
-    format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
+fn fill(value: f64) -> String {
+    format!("fill=\"{}\"", palette::hex(palette::blues(value)))
 }
 
 /// What the colours mean, at the right.
@@ -210,24 +161,12 @@ fn bar(out: &mut String, [x, top]: [f64; 2]) {
     for k in 0..STEPS {
         let value = 1.0 - (k as f64 + 0.5) / STEPS as f64;
         let y = top + k as f64 * height;
-        let _ = write!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"14\" height=\"{:.1}\" fill=\"{}\"/>",
-            height + 0.3,
-            colour(value)
-        );
+        svg::rect(out, &fill(value), [x, y, 14.0, height + 0.3], "");
     }
-    let _ = write!(
-        out,
-        "<rect class=\"frame\" x=\"{x:.1}\" y=\"{top:.1}\" width=\"14\" height=\"140\"/>"
-    );
+    svg::rect(out, "class=\"frame\"", [x, top, 14.0, 140.0], "");
     for (value, text) in [(1.0, "1"), (0.5, "0.5"), (0.0, "0")] {
         let y = top + 140.0 * (1.0 - value) + 4.0;
-        let _ = write!(
-            out,
-            "<text x=\"{:.1}\" y=\"{y:.1}\">{text}</text>",
-            x + 20.0
-        );
+        svg::text(out, "", [x + 20.0, y], text);
     }
 }
 
@@ -250,13 +189,17 @@ mod tests {
         let svg = draw(&matrix(&[[1.0, 0.001], [0.25, 0.5]])).expect("a valid matrix");
         for text in [
             "<title>MAC</title>",
-            "fill=\"#143d6e\"><title>&lt;1&gt;, &lt;1&gt;: 1.000</title>",
             ">0.25</text>",
             "class=\"light\"",
             "class=\"dark\"",
         ] {
             assert!(svg.contains(text), "{text}");
         }
+        let dark = |cell: &str| {
+            let named = cell.contains("><title>&lt;1&gt;, &lt;1&gt;: 1.000</title>");
+            named && cell.starts_with("fill=\"#143d6e\"")
+        };
+        assert_eq!(svg.split("<rect ").filter(|cell| dark(cell)).count(), 1);
         assert!(!svg.contains(">0.00</text>"));
     }
 

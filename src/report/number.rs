@@ -82,8 +82,17 @@ fn raised(c: char) -> char {
 
 /// A unit as it is printed: "m/s^2" becomes "m/s²", "kg*m" becomes "kg·m"; powers with a decimal point stay
 /// ("N/m^1.5").
-pub fn pretty_unit(unit: &str) -> String {
+pub(crate) fn pretty_unit(unit: &str) -> String {
     raised_powers(unit).replace('*', "·")
+}
+
+/// A name with its unit in brackets: "Frequency \[Hz\]"; the name alone without a unit.
+pub(super) fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} [{unit}]")
+    }
 }
 
 /// Text with its powers as they are printed: "340 m/s^2" becomes "340 m/s²"; those with a decimal point stay.

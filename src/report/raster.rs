@@ -1,52 +1,20 @@
-//! Values over the area of a plot as a picture, such as a scalogram, with a bar that says what its colours are.
+//! Draws values over the area of a plot as a picture, such as a scalogram, with a bar that says what its colours are.
 
 use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::layout::{AxisView, Layout};
-use super::plot::{Axis, Plot};
-use super::svg::escape;
-use super::ticks;
+use super::layout::{AxisView, BAR_ROOM, Layout};
+use super::palette::{VIRIDIS, hex, viridis};
+use super::plot::{Plot, Raster};
+use super::{ReportError, svg};
 
-/// Room for the bar, right of the area, its distance from the area and its width, pixels.
-pub(super) const BAR_ROOM: f64 = 88.0;
+/// Distance of the bar from the area, and its width, pixels.
 const BAR: [f64; 2] = [14.0, 14.0];
 
 /// Ticks wanted on the bar.
 const BAR_TICKS: usize = 5;
-
-/// Colours from the least to the largest value, dark to light, evenly spaced: as bright in grey as in colour (viridis, by S. van der
-/// Walt and N. Smith, in the public domain).
-const COLOURS: [[u8; 3]; 9] = [
-    [68, 1, 84],
-    [71, 45, 123],
-    [59, 82, 139],
-    [44, 114, 142],
-    [33, 145, 140],
-    [40, 174, 128],
-    [94, 201, 98],
-    [173, 220, 48],
-    [253, 231, 37],
-];
-
-/// Values on a grid, even on both axes of the plot: on a logarithmic one in the logarithm.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Raster {
-    /// Left and right edge of the grid, in the x axis' unit.
-    pub x: [f64; 2],
-    /// Lower and upper edge, in the y axis' unit.
-    pub y: [f64; 2],
-    /// Cells in a row.
-    pub columns: usize,
-    /// \[rows x columns\], from the lowest row on. What is not finite, or not positive on a logarithmic scale of colours, is as the least.
-    pub values: Vec<f64>,
-    /// What the values are, their unit and scale, and with its `range` what the first and the last colour stand for.
-    pub colours: Axis,
-}
 
 impl Raster {
     /// A view of the colours, with checked range and shape.
@@ -93,24 +61,13 @@ fn png(pixels: &[u8], [width, height]: [usize; 2]) -> Result<Vec<u8>, png::Encod
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
     let palette: Vec<u8> = (0..=255)
-        .flat_map(|k| colour(f64::from(k) / 255.0))
+        .flat_map(|k| viridis(f64::from(k) / 255.0))
         .collect();
     encoder.set_palette(palette);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
     writer.finish()?;
     Ok(out)
-}
-
-/// The colour of a part of the range, 0 to 1.
-fn colour(part: f64) -> [u8; 3] {
-    let place = part * (COLOURS.len() - 1) as f64;
-    let before = (place.floor() as usize).min(COLOURS.len() - 2);
-    let share = place - before as f64;
-    [0, 1, 2].map(|k| {
-        let [a, b] = [before, before + 1].map(|at| f64::from(COLOURS[at][k]));
-        (a + share * (b - a)).round() as u8
-    })
 }
 
 /// The picture of a plot that has one, inside its clip path.
@@ -133,57 +90,47 @@ pub(super) fn picture(
 
 /// The bar of its colours, right of the area.
 pub(super) fn bar(
+    out: &mut String,
     raster: &Raster,
     plot: &Plot,
     layout: &Layout,
     id: &str,
-) -> Result<String, ReportError> {
+) -> Result<(), ReportError> {
     let view = raster.view(plot)?;
     let [gap, width] = BAR;
     let (left, top, height) = (layout.right + gap, layout.top, layout.bottom - layout.top);
-    let mut out = format!("<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
-    for (k, [r, g, b]) in COLOURS.into_iter().enumerate() {
-        let offset = k as f64 / (COLOURS.len() - 1) as f64;
-        // Writing to a string cannot fail, here and below.
+    // Writing to a string cannot fail, here and below.
+    let _ = write!(
+        out,
+        "<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">"
+    );
+    for (k, colour) in VIRIDIS.into_iter().enumerate() {
+        let offset = k as f64 / (VIRIDIS.len() - 1) as f64;
         let _ = write!(
             out,
-            "<stop offset=\"{offset}\" stop-color=\"rgb({r},{g},{b})\"/>"
+            "<stop offset=\"{offset:.4}\" stop-color=\"{}\"/>",
+            hex(colour)
         );
     }
-    let _ = write!(
-        out,
-        "</linearGradient><rect class=\"frame\" x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" style=\"fill:url(#{id}-bar)\"/>"
-    );
-    let ticks = if view.log {
-        ticks::log(view.low, view.high, BAR_TICKS)
-    } else {
-        ticks::linear(view.low, view.high, BAR_TICKS)
-    };
-    for tick in ticks {
+    out.push_str("</linearGradient>");
+    let look = format!("class=\"frame\" style=\"fill:url(#{id}-bar)\"");
+    svg::rect(out, &look, [left, top, width, height], "");
+    for tick in view.ticks(BAR_TICKS) {
         if let Some(label) = tick.label {
             let y = layout.bottom - view.part(tick.at) * height;
-            let _ = write!(
-                out,
-                "<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\">{label}</text>",
-                left + width + 4.0,
-                y + 4.0
-            );
+            let at = [left + width + 4.0, y + 4.0];
+            svg::text(out, "class=\"tick\"", at, &label);
         }
     }
-    let middle = top + 0.5 * height;
-    let _ = write!(
-        out,
-        "<text class=\"title\" transform=\"translate({:.1} {middle:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        layout.right + BAR_ROOM + 8.0,
-        escape(&view.title)
-    );
-    Ok(out)
+    let at = [layout.right + BAR_ROOM + 8.0, top + 0.5 * height];
+    svg::title_upward(out, at, &view.title);
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Abscissa;
-    use super::super::plot::{Curve, Marker};
+    use super::super::curve::{Abscissa, Curve};
+    use super::super::plot::{Axis, Marker};
     use super::*;
 
     /// Two rows of three, from 1 to 100 on a logarithmic scale.
@@ -221,7 +168,7 @@ mod tests {
         let view = raster.view(&plot).unwrap();
         let (info, pixels) = decoded(&raster.address(&plot, &view).unwrap());
         assert_eq!((info.width, info.height), (3, 2));
-        let [least, middle, most] = [COLOURS[0], COLOURS[4], COLOURS[8]];
+        let [least, middle, most] = [0.0, 0.5, 1.0].map(viridis);
         // what is beyond the range, or no number, has the colour of its end
         let expected = [least, least, most, least, middle, most].concat();
         // 127.5 of 255 parts is rounded: the colour of half the range within one

@@ -1,13 +1,10 @@
 //! Spans beside each other: what each of several causes does to one quantity.
 
-use std::fmt::Write;
-
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
 use super::number::significant;
-use super::svg::escape;
-use super::svg_plot::COLOURS;
+use super::svg;
 use super::ticks;
 
 const WIDTH: f64 = 920.0;
@@ -20,12 +17,13 @@ const BOTTOM: f64 = 50.0;
 const ROW: [f64; 2] = [30.0, 12.0];
 /// Part of the range left free on both sides.
 const HEADROOM: f64 = 0.06;
-/// Width of a character of a label, pixels.
+/// Look of a label, and the width of a character of it, pixels.
+const SMALL: &str = "text-anchor=\"middle\" style=\"font-size:10.5px\"";
 const CHARACTER: f64 = 5.6;
 
 /// One value that a cause can take, and where the quantity then is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SpanPoint {
+pub(crate) struct SpanPoint {
     /// The value, in a word or two.
     pub label: String,
     /// Where the quantity is.
@@ -34,7 +32,7 @@ pub struct SpanPoint {
 
 /// A cause with its values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SpanRow {
+pub(crate) struct SpanRow {
     /// The cause.
     pub name: String,
     /// Its values.
@@ -44,7 +42,7 @@ pub struct SpanRow {
 /// A chart with a row for each cause: a bar from the lowest to the highest place of the quantity, a dot for each value, and a
 /// line through all rows where the quantity is without a change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Spans {
+pub(crate) struct Spans {
     /// What it shows.
     pub title: String,
     /// Caption; `None`: the title.
@@ -60,24 +58,17 @@ pub struct Spans {
 impl Spans {
     fn check(&self) -> Result<(), ReportError> {
         if self.rows.is_empty() || !self.base.is_finite() {
-            return Err(ReportError::ChartLength {
-                chart: self.title.clone(),
-                row: 1,
-                found: 0,
-                expected: 1,
-            });
+            return Err(ReportError::wrong_length(&self.title, 1, [0, 1]));
         }
         for (row, span) in (1..).zip(&self.rows) {
-            if let Some(k) = span.points.iter().position(|point| !point.at.is_finite()) {
-                return Err(ReportError::ChartValue {
-                    chart: self.title.clone(),
-                    row,
-                    column: k + 1,
-                    value: span.points[k].at,
-                });
-            }
+            let places = span.points.iter().map(|point| point.at);
+            ReportError::check_row(&self.title, row, places, f64::is_finite)?;
         }
         Ok(())
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        TOP + ROW[0] * self.rows.len() as f64 + BOTTOM
     }
 
     /// Lowest and highest value shown.
@@ -100,42 +91,26 @@ impl Spans {
 pub(super) fn draw(spans: &Spans) -> Result<String, ReportError> {
     spans.check()?;
     let [low, high] = spans.range();
-    let (right, bottom) = (WIDTH - RIGHT, TOP + ROW[0] * spans.rows.len() as f64);
-    let height = bottom + BOTTOM;
+    let height = spans.height();
+    let (right, bottom) = (WIDTH - RIGHT, height - BOTTOM);
     let x_of = |value: f64| LEFT + (value - low) / (high - low) * (right - LEFT);
-    let title = escape(&spans.title);
-    let mut out = format!(
-        "<svg class=\"bars\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    );
+    let mut out = svg::opening(svg::CHART, [WIDTH, height], &spans.title);
     for tick in ticks::linear(low, high, 9) {
         let x = x_of(tick.at);
-        // Writing to a string cannot fail, here and below.
-        let _ = write!(
-            out,
-            "<line class=\"grid\" x1=\"{x:.1}\" y1=\"{TOP}\" x2=\"{x:.1}\" y2=\"{bottom}\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-            bottom + 16.0,
-            tick.label.unwrap_or_default()
-        );
+        svg::line(&mut out, "class=\"grid\"", [x, TOP, x, bottom]);
+        let label = tick.label.unwrap_or_default();
+        svg::text(&mut out, svg::MIDDLE, [x, bottom + 16.0], &label);
     }
     for (number, row) in spans.rows.iter().enumerate() {
-        draw_row(
-            &mut out,
-            row,
-            spans.base,
-            TOP + ROW[0] * number as f64,
-            &x_of,
-        );
+        let top = TOP + ROW[0] * number as f64;
+        draw_row(&mut out, row, spans.base, top, &x_of);
     }
     let base = x_of(spans.base);
-    let _ = write!(
-        out,
-        "<path class=\"frame\" d=\"M{LEFT} {TOP}V{bottom}H{right}M{base:.1} {TOP}V{bottom}\"/>\
-         <text class=\"title\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text></svg>",
-        0.5 * (LEFT + right),
-        height - 8.0,
-        escape(&spans.axis)
-    );
-    Ok(out)
+    let frame = format!("M{LEFT} {TOP}V{bottom}H{right}M{base:.1} {TOP}V{bottom}");
+    svg::path(&mut out, "class=\"frame\"", &frame, "");
+    let below = [0.5 * (LEFT + right), height - 8.0];
+    svg::title_across(&mut out, below, &spans.axis);
+    Ok(out + "</svg>")
 }
 
 fn draw_row(out: &mut String, row: &SpanRow, base: f64, top: f64, x_of: &impl Fn(f64) -> f64) {
@@ -143,40 +118,22 @@ fn draw_row(out: &mut String, row: &SpanRow, base: f64, top: f64, x_of: &impl Fn
     let (low, high) = (at().fold(base, f64::min), at().fold(base, f64::max));
     let (left, right) = (x_of(low), x_of(high));
     let bar = top + ROW[0] - ROW[1] - 3.0;
-    let _ = write!(
-        out,
-        "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text><rect class=\"b0\" x=\"{left:.1}\" y=\"{bar:.1}\" width=\"{:.1}\" height=\"{}\" fill-opacity=\"0.35\"/>",
-        LEFT - 8.0,
-        bar + 10.0,
-        escape(&row.name),
-        (right - left).max(1.0),
-        ROW[1]
-    );
+    svg::text(out, svg::END, [LEFT - 8.0, bar + 10.0], &row.name);
+    let whole = [left, bar, (right - left).max(1.0), ROW[1]];
+    svg::rect(out, "class=\"b0\" fill-opacity=\"0.35\"", whole, "");
     // labels from the left; one that would cover another is left to the tool tip
     let mut points: Vec<&SpanPoint> = row.points.iter().collect();
     points.sort_by(|a, b| a.at.total_cmp(&b.at));
     let mut free = f64::NEG_INFINITY;
-    for point in points {
-        let x = x_of(point.at);
-        let label = escape(&point.label);
-        let _ = write!(
-            out,
-            "<rect class=\"b{}\" x=\"{:.1}\" y=\"{bar:.1}\" width=\"3\" height=\"{}\"><title>{}, {label}: {}</title></rect>",
-            1 % COLOURS,
-            x - 1.5,
-            ROW[1],
-            escape(&row.name),
-            significant(point.at, 4)
-        );
-        let half = 0.5 * CHARACTER * point.label.chars().count() as f64;
+    for SpanPoint { label, at } in points {
+        let x = x_of(*at);
+        let tip = format!("{}, {label}: {}", row.name, significant(*at, 4));
+        svg::rect(out, "class=\"b1\"", [x - 1.5, bar, 3.0, ROW[1]], &tip);
+        let half = 0.5 * CHARACTER * label.chars().count() as f64;
         let centre = x.clamp(LEFT + half, WIDTH - half);
         if centre - half > free {
             free = centre + half + 4.0;
-            let _ = write!(
-                out,
-                "<text x=\"{centre:.1}\" y=\"{:.1}\" text-anchor=\"middle\" style=\"font-size:10.5px\">{label}</text>",
-                bar - 2.5
-            );
+            svg::text(out, SMALL, [centre, bar - 2.5], label);
         }
     }
 }

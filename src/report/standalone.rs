@@ -2,18 +2,16 @@
 
 use std::fmt::Write;
 
+use super::content::{Block, Report};
 use super::csv::plain_name;
+use super::curve::{Curve, CurveStyle};
 use super::layout::{Layout, WIDTH};
-use super::svg::escape;
-use super::svg_plot::COLOURS;
-use super::{
-    Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg_plot,
-};
-
-/// The report's colours, written out: a file of its own has no style sheet to ask.
-const PALETTE: [&str; COLOURS] = [
-    "#1f5a99", "#c8511b", "#2e7d4f", "#7b4ea3", "#8c6d1f", "#4d5761",
-];
+use super::palette::SERIES;
+use super::plot::Plot;
+use super::spans::{self, Spans};
+use super::step_map::{self, StepMap};
+use super::svg::{self, escape};
+use super::{ReportError, svg_plot};
 
 /// Height of the title's line and of the legend's, pixels.
 const HEAD: [f64; 2] = [30.0, 22.0];
@@ -57,13 +55,9 @@ impl Spans {
     ///
     /// # Errors
     /// [`ReportError`] for values that cannot be shown.
-    pub fn to_svg(&self) -> Result<String, ReportError> {
+    pub(crate) fn to_svg(&self) -> Result<String, ReportError> {
         let inner = spans::draw(self)?;
-        let height = inner
-            .split("viewBox=\"0 0 ")
-            .nth(1)
-            .and_then(|rest| rest.split('"').next()?.split(' ').nth(1)?.parse().ok());
-        Ok(file(&self.title, &[], &inner, height.unwrap_or(WIDTH)))
+        Ok(file(&self.title, &[], &inner, self.height()))
     }
 }
 
@@ -72,7 +66,7 @@ impl StepMap {
     ///
     /// # Errors
     /// [`ReportError`] for values that cannot be shown.
-    pub fn to_svg(&self) -> Result<String, ReportError> {
+    pub(crate) fn to_svg(&self) -> Result<String, ReportError> {
         let inner = step_map::draw(self)?;
         Ok(file(&self.title, &[], &inner, self.height()))
     }
@@ -86,25 +80,20 @@ struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     fn of(curve: &'a Curve, number: usize) -> Self {
-        let colour = PALETTE[svg_plot::colour(curve, number)];
-        let sign = match curve.style {
-            CurveStyle::Line => {
-                format!("<path d=\"M0 0H18\" stroke=\"{colour}\" stroke-width=\"2\"/>")
+        let colour = SERIES[svg_plot::colour(curve, number)];
+        let stroke = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"");
+        let at = "transform=\"translate(9 0)";
+        let dashes = "stroke-dasharray=\"6 4\"";
+        let (look, data) = match curve.style {
+            CurveStyle::Line => (stroke, "M0 0H18".to_owned()),
+            CurveStyle::Dashed => (format!("{stroke} {dashes}"), "M0 0H18".to_owned()),
+            CurveStyle::Points if curve.symbol.is_open() => {
+                (format!("{at} scale(.8)\" {stroke}"), curve.symbol.path())
             }
-            CurveStyle::Dashed => format!(
-                "<path d=\"M0 0H18\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>"
-            ),
-            CurveStyle::Points => {
-                let (path, at) = (curve.symbol.path(), "translate(9 0)");
-                if curve.symbol.is_open() {
-                    format!(
-                        "<path transform=\"{at} scale(.8)\" d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>"
-                    )
-                } else {
-                    format!("<path transform=\"{at}\" d=\"{path}\" fill=\"{colour}\"/>")
-                }
-            }
+            CurveStyle::Points => (format!("{at}\" fill=\"{colour}\""), curve.symbol.path()),
         };
+        let mut sign = String::new();
+        svg::path(&mut sign, &look, &data, "");
         Self {
             name: &curve.name,
             sign,
@@ -126,16 +115,14 @@ fn file(title: &str, names: &[Entry], inner: &str, height: f64) -> String {
             rows += 1.0;
         }
         let y = HEAD[0] + HEAD[1] * (rows - 1.0);
-        // Writing to a string cannot fail.
-        let _ = writeln!(
+        let (sign, below) = (&entry.sign, y + 8.0);
+        // Writing to a string cannot fail, here and below.
+        let _ = write!(
             legend,
-            "<g transform=\"translate({x:.0} {:.0})\">{}</g><text x=\"{:.0}\" y=\"{:.0}\">{}</text>",
-            y + 8.0,
-            entry.sign,
-            x + 24.0,
-            y + 12.0,
-            escape(entry.name)
+            "<g transform=\"translate({x:.0} {below:.0})\">{sign}</g>"
         );
+        svg::text(&mut legend, "", [x + 24.0, y + 12.0], entry.name);
+        legend.push('\n');
         x += entry.width();
     }
     let head = HEAD[0] + HEAD[1] * rows;
@@ -163,7 +150,7 @@ fn style() -> String {
          .dots{fill-opacity:.85}.marker line,.level line{stroke:#8794a0;stroke-dasharray:4 3}\
          .level text{font-size:11px;fill:#5a6672;paint-order:stroke;stroke:#fff;stroke-width:3px}",
     );
-    for (number, colour) in PALETTE.iter().enumerate() {
+    for (number, colour) in SERIES.iter().enumerate() {
         let _ = write!(
             style,
             ".c{number}{{stroke:{colour}}}.dots.c{number}{{fill:{colour};stroke:#fff;stroke-width:.6}}.dots.open.c{number}{{fill:none;stroke:{colour};stroke-width:1.8}}.b{number}{{fill:{colour}}}.marker.m{number} line{{stroke:{colour}}}"
@@ -174,7 +161,9 @@ fn style() -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Abscissa, Axis, SpanPoint, SpanRow};
+    use super::super::curve::Abscissa;
+    use super::super::plot::Axis;
+    use super::super::spans::{SpanPoint, SpanRow};
     use super::*;
 
     #[test]

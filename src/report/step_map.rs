@@ -1,12 +1,10 @@
 //! What steps do: a row a condition, a panel a method, a cell a step, with the limits that were predicted and measured.
 
-use std::fmt::Write;
-
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
-use super::number::significant;
-use super::svg::escape;
+use super::number::{significant, with_unit};
+use super::svg;
 use super::ticks;
 
 const WIDTH: f64 = 920.0;
@@ -21,6 +19,11 @@ const BOTTOM: f64 = 78.0;
 const ROW: f64 = 16.0;
 /// Between rows.
 const SPACE: f64 = 2.0;
+
+/// Looks of the names of rows and of panels, and of the numbers of the axis.
+const ROW_NAME: &str = "text-anchor=\"end\" style=\"font-size:11px\"";
+const PANEL_NAME: &str = "text-anchor=\"middle\" style=\"font-size:11.5px;font-weight:600\"";
+const TICK: &str = "text-anchor=\"middle\" style=\"font-size:10.5px\"";
 
 /// What a method does in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -87,32 +90,26 @@ pub struct StepMap {
 
 impl StepMap {
     fn check(&self) -> Result<(), ReportError> {
-        let length = |row, found, expected| ReportError::ChartLength {
-            chart: self.title.clone(),
-            row,
-            found,
-            expected,
+        let length = |row, found, expected| {
+            Err(ReportError::wrong_length(
+                &self.title,
+                row,
+                [found, expected],
+            ))
         };
-        let bad = |step: &f64| !(*step > 0.0 && step.is_finite());
-        if let Some(column) = self.steps.iter().position(bad) {
-            return Err(ReportError::ChartValue {
-                chart: self.title.clone(),
-                row: 1,
-                column: column + 1,
-                value: self.steps[column],
-            });
-        }
+        let good = |step: f64| step > 0.0 && step.is_finite();
+        ReportError::check_row(&self.title, 1, self.steps.iter().copied(), good)?;
         if self.steps.len() < 2 || self.panels.is_empty() || self.rows.is_empty() {
-            return Err(length(1, self.steps.len().min(1), 2));
+            return length(1, self.steps.len().min(1), 2);
         }
         for panel in &self.panels {
             let rows = panel.cells.len().min(panel.limits.len());
             if rows != self.rows.len() || panel.cells.len() != panel.limits.len() {
-                return Err(length(rows + 1, 0, self.steps.len()));
+                return length(rows + 1, 0, self.steps.len());
             }
             for (row, cells) in (1..).zip(&panel.cells) {
                 if cells.len() != self.steps.len() {
-                    return Err(length(row, cells.len(), self.steps.len()));
+                    return length(row, cells.len(), self.steps.len());
                 }
             }
         }
@@ -128,19 +125,10 @@ impl StepMap {
 pub(super) fn draw(map: &StepMap) -> Result<String, ReportError> {
     map.check()?;
     let height = map.height();
-    let title = escape(&map.title);
-    let mut out = format!(
-        "<svg class=\"bars\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    );
+    let mut out = svg::opening(svg::CHART, [WIDTH, height], &map.title);
     for (number, name) in map.rows.iter().enumerate() {
-        // Writing to a string cannot fail, here and below.
-        let _ = write!(
-            out,
-            "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\" style=\"font-size:11px\">{}</text>",
-            LEFT - 7.0,
-            TOP + ROW * number as f64 + 12.0,
-            escape(name)
-        );
+        let at = [LEFT - 7.0, TOP + ROW * number as f64 + 12.0];
+        svg::text(&mut out, ROW_NAME, at, name);
     }
     let count = map.panels.len() as f64;
     let width = (WIDTH - LEFT - RIGHT - GAP * (count - 1.0)) / count;
@@ -148,16 +136,10 @@ pub(super) fn draw(map: &StepMap) -> Result<String, ReportError> {
         let left = LEFT + number as f64 * (width + GAP);
         draw_panel(&mut out, map, panel, [left, width]);
     }
-    let _ = write!(
-        out,
-        "<text class=\"title\" x=\"{}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-        0.5 * (LEFT + WIDTH - RIGHT),
-        height - BOTTOM + 36.0,
-        escape(&format!("{} [{}]", map.axis, map.unit))
-    );
+    let below = [0.5 * (LEFT + WIDTH - RIGHT), height - BOTTOM + 36.0];
+    svg::title_across(&mut out, below, &with_unit(&map.axis, &map.unit));
     legend(&mut out, height - 16.0);
-    out.push_str("</svg>");
-    Ok(out)
+    Ok(out + "</svg>")
 }
 
 fn draw_panel(out: &mut String, map: &StepMap, panel: &StepPanel, [left, width]: [f64; 2]) {
@@ -166,89 +148,64 @@ fn draw_panel(out: &mut String, map: &StepMap, panel: &StepPanel, [left, width]:
     let half = 0.5 * (steps[steps.len() - 1] / steps[0]).ln() / (steps.len() - 1) as f64;
     let (low, high) = (steps[0].ln() - half, steps[steps.len() - 1].ln() + half);
     let x_of = |step: f64| left + (step.ln() - low) / (high - low) * width;
-    let bottom = TOP + ROW * map.rows.len() as f64;
-    let _ = write!(
-        out,
-        "<text x=\"{:.1}\" y=\"15\" text-anchor=\"middle\" style=\"font-size:11.5px;font-weight:600\">{}</text>",
-        left + 0.5 * width,
-        escape(&panel.name)
-    );
+    let cell_width = 2.0 * half / (high - low) * width + 0.15;
+    let in_unit = |step: f64| format!("{} {}", significant(step, 3), map.unit);
+    svg::text(out, PANEL_NAME, [left + 0.5 * width, 15.0], &panel.name);
     for (row, cells) in panel.cells.iter().enumerate() {
         let (y, tall) = (TOP + ROW * row as f64, ROW - SPACE);
-        for (step, state) in steps.iter().zip(cells) {
+        for (&step, state) in steps.iter().zip(cells) {
             let Some(state) = state else { continue };
-            let x = x_of(step * (-half).exp());
-            let _ = write!(
-                out,
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{tall}\" shape-rendering=\"crispEdges\" fill=\"{}\"><title>{}, {}: {} {} {}</title></rect>",
-                2.0 * half / (high - low) * width + 0.15,
-                state.colour(),
-                escape(&panel.name),
-                escape(&map.rows[row]),
-                significant(*step, 3),
-                escape(&map.unit),
-                state.name()
-            );
+            let (name, condition) = (&panel.name, &map.rows[row]);
+            let tip = format!("{name}, {condition}: {} {}", in_unit(step), state.name());
+            let cell = [x_of(step * (-half).exp()), y, cell_width, tall];
+            let look = format!("shape-rendering=\"crispEdges\" fill=\"{}\"", state.colour());
+            svg::rect(out, &look, cell, &tip);
         }
         let inside = |limit: &f64| (low..=high).contains(&limit.ln());
         let [predicted, measured] = panel.limits[row];
         if let Some(limit) = predicted.filter(inside) {
-            let _ = write!(
-                out,
-                "<path d=\"M{:.1} {y:.1}v{tall}\" stroke=\"#10161c\" stroke-width=\"2\"><title>predicted limit {} {}</title></path>",
-                x_of(limit),
-                significant(limit, 3),
-                escape(&map.unit)
-            );
+            let tip = format!("predicted limit {}", in_unit(limit));
+            predicted_mark(out, [x_of(limit), y], &tip);
         }
         if let Some(limit) = measured.filter(inside) {
-            let _ = write!(
-                out,
-                "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.4\" fill=\"#fff\" stroke=\"#10161c\" stroke-width=\"1.4\"><title>measured limit {} {}</title></circle>",
-                x_of(limit),
-                y + 0.5 * tall,
-                significant(limit, 3),
-                escape(&map.unit)
-            );
+            let tip = format!("measured limit {}", in_unit(limit));
+            measured_mark(out, [x_of(limit), y + 0.5 * tall], &tip);
         }
     }
+    let bottom = TOP + ROW * map.rows.len() as f64;
     for tick in ticks::log(low.exp(), high.exp(), 4) {
         let is_power = (tick.at.log10() - tick.at.log10().round()).abs() < 1e-6;
         let (x, Some(label), true) = (x_of(tick.at), tick.label, is_power) else {
             continue;
         };
-        let _ = write!(
-            out,
-            "<path d=\"M{x:.1} {bottom:.1}v4\" class=\"frame\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" style=\"font-size:10.5px\">{label}</text>",
-            bottom + 16.0
-        );
+        svg::line(out, "class=\"frame\"", [x, bottom, x, bottom + 4.0]);
+        svg::text(out, TICK, [x, bottom + 16.0], &label);
     }
+}
+
+/// The sign of a predicted limit, downwards from a place; that of a measured one, round a place.
+fn predicted_mark(out: &mut String, [x, y]: [f64; 2], tip: &str) {
+    let data = format!("M{x:.1} {y:.1}v{}", ROW - SPACE);
+    svg::path(out, "stroke=\"#10161c\" stroke-width=\"2\"", &data, tip);
+}
+
+fn measured_mark(out: &mut String, at: [f64; 2], tip: &str) {
+    let look = "fill=\"#fff\" stroke=\"#10161c\" stroke-width=\"1.4\"";
+    svg::circle(out, look, at, 3.4, tip);
 }
 
 fn legend(out: &mut String, y: f64) {
     let mut x = LEFT;
     for state in [StepState::Stable, StepState::Resonant, StepState::Unstable] {
-        let _ = write!(
-            out,
-            "<rect x=\"{x}\" y=\"{}\" width=\"16\" height=\"12\" fill=\"{}\"/><text x=\"{}\" y=\"{y}\">{}</text>",
-            y - 10.0,
-            state.colour(),
-            x + 22.0,
-            state.name()
-        );
+        let look = format!("fill=\"{}\"", state.colour());
+        svg::rect(out, &look, [x, y - 10.0, 16.0, 12.0], "");
+        svg::text(out, "", [x + 22.0, y], state.name());
         x += 100.0;
     }
-    let _ = write!(
-        out,
-        "<path d=\"M{} {}v14\" stroke=\"#10161c\" stroke-width=\"2\"/><text x=\"{}\" y=\"{y}\">predicted limit</text>\
-         <circle cx=\"{}\" cy=\"{}\" r=\"3.4\" fill=\"#fff\" stroke=\"#10161c\" stroke-width=\"1.4\"/><text x=\"{}\" y=\"{y}\">measured limit</text>",
-        x + 8.0,
-        y - 11.0,
-        x + 18.0,
-        x + 148.0,
-        y - 4.0,
-        x + 160.0
-    );
+    predicted_mark(out, [x + 8.0, y - 11.0], "");
+    svg::text(out, "", [x + 18.0, y], "predicted limit");
+    measured_mark(out, [x + 148.0, y - 4.0], "");
+    svg::text(out, "", [x + 160.0, y], "measured limit");
 }
 
 #[cfg(test)]

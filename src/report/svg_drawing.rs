@@ -1,12 +1,10 @@
 //! Draws the model as SVG: mesh, ring, balls, springs, dents, sensors, a scale bar and a key.
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fmt::Write;
 
 use super::ReportError;
-use super::drawing::{Dent, Drawing, Point, Sensor, Spring};
-use super::number::display_unit;
-use super::svg::{Path, escape};
+use super::drawing::{Circle, Dent, Drawing, Point, Sensor, Spring};
+use super::svg::{self, Path, ScaleBar};
 
 const WIDTH: f64 = 920.0;
 /// Largest width and height of the model on the page, pixels.
@@ -21,6 +19,16 @@ const COIL: f64 = 18.0;
 const DENT: f64 = 9.0;
 /// Length of a sensor's arrow, pixels.
 const ARROW: f64 = 42.0;
+
+/// Radius of a node, pixels.
+const NODE_RADIUS: f64 = 2.2;
+/// Looks of what stands in the key too.
+const MESH: &str = "class=\"mesh\"";
+const RACE: &str = "class=\"race\"";
+const RING: &str = "class=\"ring\"";
+const NODE: &str = "class=\"node\"";
+const BALL: &str = "class=\"ball\"";
+const DENTED: &str = "class=\"dent\"";
 
 /// From metres to pixels.
 #[derive(Debug, Clone, Copy)]
@@ -90,45 +98,27 @@ fn extremes(drawing: &Drawing) -> impl Iterator<Item = Point> + '_ {
 /// The SVG element of a drawing.
 pub(super) fn draw(drawing: &Drawing) -> Result<String, ReportError> {
     let view = View::of(drawing)?;
-    let mut out = format!(
-        "<svg class=\"drawing\" viewBox=\"0 0 {WIDTH} {:.0}\" role=\"img\" aria-label=\"{}\">",
-        view.height,
-        escape(&drawing.title)
-    );
+    let size = [WIDTH, view.height.round()];
+    let mut out = svg::opening("class=\"drawing\"", size, &drawing.title);
     let mut mesh = Path::default();
     for edge in &drawing.mesh_edges {
-        mesh.gap();
-        for [x, y] in edge.iter().map(|p| view.px(*p)) {
-            mesh.to(x, y);
-        }
+        mesh.line(edge.iter().map(|p| view.px(*p)));
     }
-    // Writing to a string cannot fail, here and below.
-    let _ = write!(out, "<path class=\"mesh\" d=\"{}\"/>", mesh.data());
+    svg::path(&mut out, MESH, &mesh.data(), "");
     for spring in &drawing.springs {
         draw_spring(&mut out, view.px(spring.at), spring);
     }
     for race in &drawing.races {
-        circle(
-            &mut out,
-            "race",
-            view.px(race.centre),
-            race.radius * view.scale,
-        );
+        circle(&mut out, RACE, &view, race);
     }
     if let Some(ring) = &drawing.ring {
-        let radius = ring.circle.radius * view.scale;
-        circle(&mut out, "ring", view.px(ring.circle.centre), radius);
+        circle(&mut out, RING, &view, &ring.circle);
         for node in &ring.nodes {
-            circle(&mut out, "node", view.px(*node), 2.2);
+            svg::circle(&mut out, NODE, view.px(*node), NODE_RADIUS, "");
         }
     }
     for ball in &drawing.balls {
-        circle(
-            &mut out,
-            "ball",
-            view.px(ball.centre),
-            ball.radius * view.scale,
-        );
+        circle(&mut out, BALL, &view, ball);
     }
     for dent in &drawing.dents {
         draw_dent(&mut out, &view, dent);
@@ -136,52 +126,37 @@ pub(super) fn draw(drawing: &Drawing) -> Result<String, ReportError> {
     for sensor in &drawing.sensors {
         draw_sensor(&mut out, view.px(sensor.at), sensor);
     }
-    scale_bar(&mut out, &view);
+    scale_and_axes(&mut out, &view);
     key(&mut out, drawing);
-    out.push_str("</svg>");
-    Ok(out)
+    Ok(out + "</svg>")
 }
 
-fn circle(out: &mut String, class: &str, [x, y]: [f64; 2], radius: f64) {
-    let _ = write!(
-        out,
-        "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"/>"
-    );
+fn circle(out: &mut String, look: &str, view: &View, circle: &Circle) {
+    let radius = circle.radius * view.scale;
+    svg::circle(out, look, view.px(circle.centre), radius, "");
 }
 
 /// A coil from the attachment to a hatched line, drawn at a fixed size.
 fn draw_spring(out: &mut String, [x, y]: [f64; 2], spring: &Spring) {
+    let (s, c) = spring.towards_rad.sin_cos();
+    // Pixels count downwards.
+    let place =
+        |[along, across]: [f64; 2]| [x + c * along - s * across, y - s * along - c * across];
+    let turn = |k: usize| {
+        let side = if k.is_multiple_of(2) { 3.4 } else { -3.4 };
+        [COIL * (0.25 + 0.1 * k as f64), side]
+    };
+    let begin = [[0.0, 0.0], [0.2 * COIL, 0.0]].into_iter();
+    let end = [[0.8 * COIL, 0.0], [COIL, 0.0]];
     let mut coil = Path::default();
-    let place = |along: f64, across: f64| {
-        let (s, c) = spring.towards_rad.sin_cos();
-        // Pixels count downwards.
-        [x + c * along - s * across, y - s * along - c * across]
-    };
-    let mut go = |along, across| {
-        let [x, y] = place(along, across);
-        coil.to(x, y);
-    };
-    go(0.0, 0.0);
-    go(0.2 * COIL, 0.0);
-    for k in 0..6 {
-        let side = if k % 2 == 0 { 3.4 } else { -3.4 };
-        go(COIL * (0.25 + 0.1 * f64::from(k)), side);
-    }
-    go(0.8 * COIL, 0.0);
-    go(COIL, 0.0);
-    let _ = write!(out, "<path class=\"spring\" d=\"{}\"/>", coil.data());
+    coil.line(begin.chain((0..6).map(turn)).chain(end).map(place));
+    svg::path(out, "class=\"spring\"", &coil.data(), "");
     let mut ground = Path::default();
-    for (along, across) in [(0.0, -5.0), (0.0, 5.0)] {
-        let [x, y] = place(COIL + along, across);
-        ground.to(x, y);
-    }
+    ground.line([[COIL, -5.0], [COIL, 5.0]].map(place));
     for across in [-3.0, 1.0, 5.0] {
-        ground.gap();
-        for [x, y] in [place(COIL, across), place(COIL + 4.0, across - 3.0)] {
-            ground.to(x, y);
-        }
+        ground.line([[COIL, across], [COIL + 4.0, across - 3.0]].map(place));
     }
-    let _ = write!(out, "<path class=\"ground\" d=\"{}\"/>", ground.data());
+    svg::path(out, "class=\"ground\"", &ground.data(), "");
 }
 
 /// The dent's arc on its race, and its label towards the centre.
@@ -190,189 +165,137 @@ fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
     let least = DENT / view.scale;
     let half = 0.5 * dent.length.max(least) / race.radius.max(least);
     let mut arc = Path::default();
-    for k in 0..=12 {
+    arc.line((0..=12).map(|k| {
         let angle = dent.angle_rad + half * (f64::from(k) / 6.0 - 1.0);
-        let [x, y] = view.px(race.centre.polar(race.radius, angle));
-        arc.to(x, y);
-    }
-    let [x1, y1] = view.px(race.centre.polar(0.97 * race.radius, dent.angle_rad));
-    let [x2, y2] = view.px(race.centre.polar(0.22 * race.radius, dent.angle_rad));
-    let below = if dent.angle_rad.sin() < 0.0 {
-        -6.0
-    } else {
-        14.0
-    };
-    let _ = write!(
-        out,
-        "<path class=\"dent\" d=\"{}\"/><line class=\"leader\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>\
-         <text class=\"dent-label\" x=\"{x2:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-        arc.data(),
-        y2 + below,
-        escape(&dent.label)
-    );
+        view.px(race.centre.polar(race.radius, angle))
+    }));
+    svg::path(out, DENTED, &arc.data(), "");
+    let inside = |part: f64| view.px(race.centre.polar(part * race.radius, dent.angle_rad));
+    let ([x1, y1], [x2, y2]) = (inside(0.97), inside(0.22));
+    svg::line(out, "class=\"leader\"", [x1, y1, x2, y2]);
+    let is_below = dent.angle_rad.sin() < 0.0;
+    let label = [x2, y2 + if is_below { -6.0 } else { 14.0 }];
+    let look = "class=\"dent-label\" text-anchor=\"middle\"";
+    svg::text(out, look, label, &dent.label);
 }
 
 /// An arrow from the sensor's place in the direction in which it measures, with the name at its tip; a dot in a circle,
 /// the name beside it, for one that measures across the drawing.
 fn draw_sensor(out: &mut String, [x, y]: [f64; 2], sensor: &Sensor) {
-    let Some(angle) = sensor.direction_rad else {
-        let _ = write!(
-            out,
-            "<g class=\"sensor\"><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>\
-             <circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7.5\" style=\"fill:none;stroke:currentColor\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\">{}</text></g>",
-            x + 13.0,
-            y + 4.0,
-            escape(&sensor.name)
+    out.push_str("<g class=\"sensor\">");
+    svg::circle(out, "", [x, y], 3.5, "");
+    if let Some(angle) = sensor.direction_rad {
+        let (s, c) = angle.sin_cos();
+        let tip = [x + ARROW * c, y - ARROW * s];
+        svg::line(out, "", [x, y, tip[0] - 6.0 * c, tip[1] + 6.0 * s]);
+        let mut head = Path::default();
+        head.line(
+            [(0.85 * PI, 11.0), (0.0, 0.0), (-0.85 * PI, 11.0)].map(|(turn, length)| {
+                let (s, c) = (angle + turn).sin_cos();
+                [tip[0] + length * c, tip[1] - length * s]
+            }),
         );
-        return;
-    };
-    let (s, c) = angle.sin_cos();
-    let tip = [x + ARROW * c, y - ARROW * s];
-    let mut head = Path::default();
-    for turn in [0.85 * PI, 0.0, -0.85 * PI] {
-        let length = if turn.abs() > 0.0 { 11.0 } else { 0.0 };
-        let (s, c) = (angle + turn).sin_cos();
-        head.to(tip[0] + length * c, tip[1] - length * s);
+        svg::path(out, "", &(head.data() + "Z"), "");
+        let look = match c {
+            c if c > 0.5 => "",
+            c if c < -0.5 => svg::END,
+            _ => svg::MIDDLE,
+        };
+        let beside = [tip[0] + 10.0 * c, tip[1] - 10.0 * s + 4.0];
+        svg::text(out, look, beside, &sensor.name);
+    } else {
+        let look = "style=\"fill:none;stroke:currentColor\"";
+        svg::circle(out, look, [x, y], 7.5, "");
+        svg::text(out, "", [x + 13.0, y + 4.0], &sensor.name);
     }
-    let anchor = match c {
-        c if c > 0.5 => "start",
-        c if c < -0.5 => "end",
-        _ => "middle",
-    };
-    let _ = write!(
-        out,
-        "<g class=\"sensor\"><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/><line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{:.1}\"/>\
-         <path d=\"{}Z\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text></g>",
-        tip[0] - 6.0 * c,
-        tip[1] + 6.0 * s,
-        head.data(),
-        tip[0] + 10.0 * c,
-        tip[1] - 10.0 * s + 4.0,
-        escape(&sensor.name)
-    );
+    out.push_str("</g>");
 }
 
 /// A bar of a round length and the directions of x and y, at the lower left.
-fn scale_bar(out: &mut String, view: &View) {
-    let length = round_length(110.0 / view.scale);
-    let unit = display_unit("m", length);
-    let (x, y, pixels) = (18.0, view.height - 16.0, length * view.scale);
-    let _ = write!(
-        out,
-        "<g class=\"scale\"><path d=\"M{x} {y1}V{y}H{right:.1}V{y1}\"/><text x=\"{text:.1}\" y=\"{y}\">{shown:.0} {unit}</text>\
-         <path d=\"M{x} {low}V{high}M{a} {b}L{x} {high}L{c} {b}M{x} {low}H{far}M{d} {e}L{far} {low}L{d} {f}\"/>\
-         <text x=\"{far_text}\" y=\"{low_text}\">x</text><text x=\"{y_text}\" y=\"{high_text}\" text-anchor=\"middle\">y</text></g>",
-        y1 = y - 5.0,
-        right = x + pixels,
-        text = x + pixels + 8.0,
-        shown = length / unit.factor,
-        unit = unit.text,
-        low = y - 22.0,
-        high = y - 52.0,
-        a = x - 3.5,
-        b = y - 45.0,
-        c = x + 3.5,
-        far = x + 30.0,
-        d = x + 23.0,
-        e = y - 25.5,
-        f = y - 18.5,
-        far_text = x + 34.0,
-        low_text = y - 18.0,
-        y_text = x,
-        high_text = y - 56.0,
-    );
-}
-
-/// The nearest of 1, 2 or 5 times a power of ten.
-pub(super) fn round_length(wanted: f64) -> f64 {
-    let power = 10_f64.powf(wanted.log10().floor());
-    let far = |nice: f64| (nice * power / wanted).ln().abs();
-    let nearest = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .min_by(|a, b| far(*a).total_cmp(&far(*b)));
-    nearest.unwrap_or(1.0) * power
+fn scale_and_axes(out: &mut String, view: &View) {
+    let bar = ScaleBar::of(view.scale);
+    let (x, y) = (18.0, view.height - 16.0);
+    out.push_str("<g class=\"scale\">");
+    bar.draw(out, [x, y]);
+    svg::text(out, "", [x + bar.pixels + 8.0, y], &bar.label);
+    // both axes from one corner, each with the two strokes of its head
+    let (low, high, far) = (y - 22.0, y - 52.0, x + 30.0);
+    let mut axes = Path::default();
+    axes.line([[x, low], [x, high]]);
+    axes.line([[x - 3.5, high + 7.0], [x, high], [x + 3.5, high + 7.0]]);
+    axes.line([[x, low], [far, low]]);
+    axes.line([[far - 7.0, low - 3.5], [far, low], [far - 7.0, low + 3.5]]);
+    svg::path(out, "", &axes.data(), "");
+    svg::text(out, "", [far + 4.0, low + 4.0], "x");
+    svg::text(out, svg::MIDDLE, [x, high - 4.0], "y");
+    out.push_str("</g>");
 }
 
 /// What the signs mean, at the right; only for what the drawing has.
 fn key(out: &mut String, drawing: &Drawing) {
-    let count =
-        |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+    let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
     let mut y = 60.0;
     let mut entry = |sign: &dyn Fn(&mut String, [f64; 2]), text: String| {
         sign(out, [KEY + 14.0, y]);
-        let (x, text_y) = (KEY + 40.0, y + 4.0);
-        let _ = write!(
-            out,
-            "<text class=\"key\" x=\"{x}\" y=\"{text_y}\">{text}</text>"
-        );
+        svg::text(out, "class=\"key\"", [KEY + 40.0, y + 4.0], &text);
         y += 30.0;
     };
-    let stroke = |class: &'static str| {
+    let stroke = |look: &'static str| {
         move |out: &mut String, [x, y]: [f64; 2]| {
-            let (x1, x2) = (x - 13.0, x + 13.0);
-            let _ = write!(out, "<path class=\"{class}\" d=\"M{x1} {y}H{x2}\"/>");
+            let data = format!("M{} {y}H{}", x - 13.0, x + 13.0);
+            svg::path(out, look, &data, "");
         }
     };
+    let origin = Point { x: 0.0, y: 0.0 };
     if !drawing.mesh_edges.is_empty() {
         let sign = |out: &mut String, [x, y]: [f64; 2]| {
-            let (x, y) = (x - 10.0, y - 8.0);
-            let _ = write!(
-                out,
-                "<path class=\"mesh\" d=\"M{x} {y}h20v16h-20zm10 0v16m-10 -8h20\"/>"
-            );
+            let data = format!("M{} {}h20v16h-20zm10 0v16m-10 -8h20", x - 10.0, y - 8.0);
+            svg::path(out, MESH, &data, "");
         };
         entry(&sign, "housing mesh".to_owned());
     }
     if let Some(ring) = &drawing.ring {
         let sign = |out: &mut String, [x, y]: [f64; 2]| {
-            stroke("ring")(out, [x, y]);
-            circle(out, "node", [x - 8.0, y], 2.2);
-            circle(out, "node", [x + 8.0, y], 2.2);
+            stroke(RING)(out, [x, y]);
+            svg::circle(out, NODE, [x - 8.0, y], NODE_RADIUS, "");
+            svg::circle(out, NODE, [x + 8.0, y], NODE_RADIUS, "");
         };
-        entry(
-            &sign,
-            format!("bearing ring, {}", count(ring.nodes.len(), "node", "nodes")),
-        );
+        let nodes = count(ring.nodes.len(), "node");
+        entry(&sign, format!("bearing ring, {nodes}"));
     }
     if !drawing.races.is_empty() {
-        entry(&stroke("race"), "races".to_owned());
+        entry(&stroke(RACE), "races".to_owned());
     }
     if !drawing.balls.is_empty() {
-        let sign = |out: &mut String, at| circle(out, "ball", at, 8.0);
-        entry(&sign, count(drawing.balls.len(), "ball", "balls"));
+        let sign = |out: &mut String, at| svg::circle(out, BALL, at, 8.0, "");
+        entry(&sign, count(drawing.balls.len(), "ball"));
     }
     if !drawing.springs.is_empty() {
         let down = Spring {
-            at: Point { x: 0.0, y: 0.0 },
+            at: origin,
             towards_rad: -FRAC_PI_2,
         };
         let sign = |out: &mut String, [x, y]: [f64; 2]| draw_spring(out, [x, y - 11.0], &down);
-        entry(
-            &sign,
-            count(drawing.springs.len(), "support spring", "support springs"),
-        );
+        entry(&sign, count(drawing.springs.len(), "support spring"));
     }
     if !drawing.dents.is_empty() {
-        entry(&stroke("dent"), count(drawing.dents.len(), "dent", "dents"));
+        entry(&stroke(DENTED), count(drawing.dents.len(), "dent"));
     }
     if !drawing.sensors.is_empty() {
-        let sign = |out: &mut String, [x, y]: [f64; 2]| {
-            let right = Sensor {
-                name: String::new(),
-                at: Point { x: 0.0, y: 0.0 },
-                direction_rad: Some(0.0),
-            };
-            draw_sensor(out, [x - 28.0, y], &right);
+        let right = Sensor {
+            name: String::new(),
+            at: origin,
+            direction_rad: Some(0.0),
         };
-        entry(&sign, count(drawing.sensors.len(), "sensor", "sensors"));
+        let sign = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], &right);
+        entry(&sign, count(drawing.sensors.len(), "sensor"));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Circle, Ring};
+    use crate::report::drawing::Ring;
 
     const CENTRE: Point = Point { x: 0.0, y: 0.0 };
 

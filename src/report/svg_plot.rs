@@ -2,15 +2,14 @@
 
 use std::fmt::Write;
 
+use super::curve::{Curve, CurveStyle};
 use super::decimate;
 use super::layout::{Layout, MARKER_ROW, PlacedMarker, TICKS, WIDTH};
-use super::plot::{Curve, CurveStyle, Plot};
-use super::svg::{Path, escape};
-use super::ticks::{self, Tick};
+use super::palette::COLOURS;
+use super::plot::Plot;
+use super::svg::{self, Path, escape};
+use super::ticks::Tick;
 use super::{ReportError, raster};
-
-/// Colours in the style sheet; the next curve begins again.
-pub(super) const COLOURS: usize = 6;
 
 /// Most points of a curve in the picture: two a pixel column.
 const MOST_POINTS: usize = 2 * WIDTH as usize;
@@ -30,10 +29,13 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
     );
     let (left, top) = (layout.left, layout.top);
     let (width, height) = (layout.right - left, layout.bottom - top);
-    let area = format!("x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"");
-    // Writing to a string cannot fail.
-    let _ = write!(out, "<clipPath id=\"{id}-clip\"><rect {area}/></clipPath>");
-    let _ = write!(out, "<rect class=\"area\" {area}/><g class=\"view\">");
+    let area = [left, top, width, height];
+    // Writing to a string cannot fail, here and below.
+    let _ = write!(out, "<clipPath id=\"{id}-clip\">");
+    svg::rect(&mut out, "", area, "");
+    out.push_str("</clipPath>");
+    svg::rect(&mut out, "class=\"area\"", area, "");
+    out.push_str("<g class=\"view\">");
     if let Some(raster) = &plot.raster {
         out.push_str(&raster::picture(raster, plot, layout, id)?);
     }
@@ -45,68 +47,40 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
         draw_curve(&mut out, curve, layout, k);
     }
     out.push_str("</g></g>");
-    let _ = write!(out, "<rect class=\"frame\" {area}/>");
+    svg::rect(&mut out, "class=\"frame\"", area, "");
     if let Some(raster) = &plot.raster {
-        out.push_str(&raster::bar(raster, plot, layout, id)?);
+        raster::bar(&mut out, raster, plot, layout, id)?;
     }
-    let _ = write!(
-        out,
-        "<text class=\"title\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-        left + 0.5 * width,
-        layout.height - 8.0,
-        escape(&layout.x.title)
-    );
-    let middle = top + 0.5 * height;
-    let _ = write!(
-        out,
-        "<text class=\"title\" transform=\"translate(16 {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        escape(&layout.y.title)
-    );
-    out.push_str("</svg>");
-    Ok(out)
+    let below = [left + 0.5 * width, layout.height - 8.0];
+    svg::title_across(&mut out, below, &layout.x.title);
+    svg::title_upward(&mut out, [16.0, top + 0.5 * height], &layout.y.title);
+    Ok(out + "</svg>")
 }
 
 fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
     // faint over a picture
-    let look = plot.raster.as_ref().map_or("", |_| FAINT);
-    let choose = |log: bool, low, high, wanted| -> Vec<Tick> {
-        if log {
-            ticks::log(low, high, wanted)
-        } else {
-            ticks::linear(low, high, wanted)
-        }
+    let faint = plot.raster.as_ref().map_or("", |_| FAINT);
+    let look = |tick: &Tick| {
+        let class = if tick.label.is_some() { "grid" } else { "fine" };
+        format!("class=\"{class}\"{faint}")
     };
     let (left, right, top, bottom) = (layout.left, layout.right, layout.top, layout.bottom);
-    for tick in choose(layout.x.log, layout.x.low, layout.x.high, TICKS[0]) {
-        let x = tenth(layout.x_px(tick.at));
-        line(out, &tick, look, [x, top, x, bottom]);
+    for tick in layout.x.ticks(TICKS[0]) {
+        let x = layout.x_px(tick.at);
+        svg::line(out, &look(&tick), [x, top, x, bottom]);
         if let Some(label) = tick.label {
-            let y = bottom + 16.0;
-            let _ = write!(
-                out,
-                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{label}</text>"
-            );
+            let look = "class=\"tick\" text-anchor=\"middle\"";
+            svg::text(out, look, [x, bottom + 16.0], &label);
         }
     }
-    for tick in choose(layout.y.log, layout.y.low, layout.y.high, TICKS[1]) {
-        let y = tenth(layout.y_px(tick.at));
-        line(out, &tick, look, [left, y, right, y]);
+    for tick in layout.y.ticks(TICKS[1]) {
+        let y = layout.y_px(tick.at);
+        svg::line(out, &look(&tick), [left, y, right, y]);
         if let Some(label) = tick.label {
-            let (x, y) = (left - 7.0, y + 4.0);
-            let _ = write!(
-                out,
-                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"end\">{label}</text>"
-            );
+            let look = "class=\"tick\" text-anchor=\"end\"";
+            svg::text(out, look, [left - 7.0, y + 4.0], &label);
         }
     }
-}
-
-fn line(out: &mut String, tick: &Tick, look: &str, [x1, y1, x2, y2]: [f64; 4]) {
-    let class = if tick.label.is_some() { "grid" } else { "fine" };
-    let _ = write!(
-        out,
-        "<line class=\"{class}\"{look} x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
-    );
 }
 
 /// Lines first, labels after: a label covers the lines behind it.
@@ -114,23 +88,22 @@ fn markers(out: &mut String, layout: &Layout) {
     let top = |placed: &PlacedMarker| {
         layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64
     };
+    let begin = |out: &mut String, placed: &PlacedMarker| {
+        let family = placed.marker.family % COLOURS;
+        let _ = write!(out, "<g class=\"marker m{family}\">");
+    };
     for placed in &layout.markers {
-        let x = tenth(placed.x);
-        let (family, name) = (placed.marker.family % COLOURS, escape(&placed.marker.label));
-        let (top, bottom) = (top(placed), layout.bottom);
-        let _ = write!(
-            out,
-            "<g class=\"marker m{family}\"><title>{name}</title><line x1=\"{x}\" y1=\"{top}\" x2=\"{x}\" y2=\"{bottom}\"/></g>"
-        );
+        begin(out, placed);
+        let _ = write!(out, "<title>{}</title>", escape(&placed.marker.label));
+        svg::line(out, "", [placed.x, top(placed), placed.x, layout.bottom]);
+        out.push_str("</g>");
     }
     for placed in &layout.markers {
         if let Some((_, centre)) = placed.label {
-            let (x, y) = (tenth(centre), top(placed) - 4.0);
-            let (family, name) = (placed.marker.family % COLOURS, escape(&placed.marker.label));
-            let _ = write!(
-                out,
-                "<g class=\"marker m{family}\"><text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{name}</text></g>"
-            );
+            begin(out, placed);
+            let at = [centre, top(placed) - 4.0];
+            svg::text(out, svg::MIDDLE, at, &placed.marker.label);
+            out.push_str("</g>");
         }
     }
 }
@@ -144,18 +117,12 @@ pub(super) fn colour(curve: &Curve, number: usize) -> usize {
 fn levels(out: &mut String, plot: &Plot, layout: &Layout) {
     for level in &plot.levels {
         let y = tenth(layout.y_px(level.at / layout.y.factor));
-        if !(layout.top..=layout.bottom).contains(&y) {
-            continue;
+        if (layout.top..=layout.bottom).contains(&y) {
+            out.push_str("<g class=\"level\">");
+            svg::line(out, "", [layout.left, y, layout.right, y]);
+            svg::text(out, "", [layout.left + 6.0, y - 4.0], &level.label);
+            out.push_str("</g>");
         }
-        let (left, right) = (layout.left, layout.right);
-        let _ = write!(
-            out,
-            "<g class=\"level\"><line x1=\"{left}\" y1=\"{y}\" x2=\"{right}\" y2=\"{y}\"/>\
-             <text x=\"{}\" y=\"{}\">{}</text></g>",
-            left + 6.0,
-            y - 4.0,
-            escape(&level.label)
-        );
     }
 }
 
@@ -177,12 +144,9 @@ fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
         for place in points.into_iter().flatten() {
             let (x, y) = near(shown(place));
             if x.is_finite() && y.is_finite() {
-                let (x, y) = (tenth(x), tenth(y));
-                let _ = write!(out, "<path transform=\"translate({x} {y})\" d=\"{path}\">");
-                if let Some(label) = curve.labels.get(place) {
-                    let _ = write!(out, "<title>{}</title>", escape(label));
-                }
-                out.push_str("</path>");
+                let look = format!("transform=\"translate({} {})\"", tenth(x), tenth(y));
+                let tip = curve.labels.get(place).map_or("", String::as_str);
+                svg::path(out, &look, &path, tip);
             }
         }
         out.push_str("</g>");
@@ -200,8 +164,8 @@ fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
     } else {
         ""
     };
-    let data = path.data();
-    let _ = write!(out, "<path class=\"curve c{class}{dashed}\" d=\"{data}\"/>");
+    let look = format!("class=\"curve c{class}{dashed}\"");
+    svg::path(out, &look, &path.data(), "");
 }
 
 /// Points of a curve to draw, thinned to what a pixel column can show; `None` for a gap. Of curves with rising
@@ -256,7 +220,8 @@ fn tenth(pixels: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plot::{Abscissa, Axis, Marker, Symbol};
+    use super::super::curve::{Abscissa, Symbol};
+    use super::super::plot::{Axis, Marker};
     use super::*;
 
     fn svg(plot: &Plot) -> String {

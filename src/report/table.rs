@@ -2,8 +2,37 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::significant;
-use super::{ReportError, Verdict};
+use super::ReportError;
+use super::number::{significant, with_unit};
+
+/// Whether something came out as it should. Shown by a mark as well as by colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// As it should be.
+    Ok,
+    /// Not as it should be.
+    Bad,
+    /// Not judged.
+    #[default]
+    None,
+}
+
+impl Verdict {
+    /// `Ok` if the condition holds, `Bad` if not.
+    pub fn of(good: bool) -> Self {
+        if good { Self::Ok } else { Self::Bad }
+    }
+
+    /// "pass", "fail", or nothing where nothing was judged.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Ok => "pass",
+            Self::Bad => "fail",
+            Self::None => "",
+        }
+    }
+}
 
 /// On which side a column's cells stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,9 +137,8 @@ impl Cell {
     /// A badge: "pass", "fail", or a dash where nothing was judged.
     pub fn badge(verdict: Verdict) -> Self {
         let text = match verdict {
-            Verdict::Ok => "pass",
-            Verdict::Bad => "fail",
             Verdict::None => "–",
+            judged => judged.word(),
         };
         Self {
             verdict,
@@ -128,14 +156,14 @@ impl Cell {
 
     /// The cell with a verdict.
     #[must_use]
-    pub fn judged(mut self, verdict: Verdict) -> Self {
+    pub(crate) fn judged(mut self, verdict: Verdict) -> Self {
         self.verdict = verdict;
         self
     }
 
     /// The cell with a reference to footnote `number`, counted from 1.
     #[must_use]
-    pub fn footnote(mut self, number: usize) -> Self {
+    pub(crate) fn footnote(mut self, number: usize) -> Self {
         self.footnote = Some(number);
         self
     }
@@ -169,9 +197,40 @@ impl Table {
 
     /// The table with a footnote more.
     #[must_use]
-    pub fn footnote(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn footnote(mut self, text: impl Into<String>) -> Self {
         self.footnotes.push(text.into());
         self
+    }
+
+    /// The table in columns of equal width, two spaces apart; caption first, no line end after the last row.
+    pub(crate) fn plain(&self) -> String {
+        let heads = self.columns.iter().map(|column| {
+            let unit = column.unit.as_deref().unwrap_or_default();
+            with_unit(&column.title, unit)
+        });
+        let mut lines = vec![heads.collect::<Vec<_>>()];
+        let texts = |row: &Vec<Cell>| row.iter().map(|cell| cell.text.clone()).collect();
+        lines.extend(self.rows.iter().map(texts));
+        let widths: Vec<usize> = (0..self.columns.len())
+            .map(|place| {
+                let width =
+                    |line: &Vec<String>| line.get(place).map_or(0, |text| text.chars().count());
+                lines.iter().map(width).max().unwrap_or(0)
+            })
+            .collect();
+        let mut text = self.caption.clone();
+        for line in &lines {
+            let mut cells = String::new();
+            for ((cell, width), column) in line.iter().zip(&widths).zip(&self.columns) {
+                cells += &match column.align {
+                    Align::Left => format!("  {cell:<width$}"),
+                    Align::Right => format!("  {cell:>width$}"),
+                };
+            }
+            text.push('\n');
+            text += cells.trim_end();
+        }
+        text
     }
 
     /// Whether each row fits the columns and each reference its footnote.
@@ -232,5 +291,16 @@ mod tests {
             "table \"Lines\": row 1 points to footnote 2, the table has 1"
         );
         assert!(noted.footnote("one").footnote("two").check().is_ok());
+    }
+
+    #[test]
+    fn columns_are_aligned_and_units_are_in_their_heads() {
+        let columns = [Column::text("What"), Column::number("Value", "\u{b5}m")];
+        let table = Table::new("Sizes", columns)
+            .row([Cell::text("play"), Cell::number(2.5, 3)])
+            .row([Cell::text("a longer name"), Cell::text("")]);
+        let expected =
+            "Sizes\n  What           Value [\u{b5}m]\n  play                 2.50\n  a longer name";
+        assert_eq!(table.plain(), expected);
     }
 }

@@ -1,38 +1,12 @@
 //! From where a structure is looked at: standard views and the parallel projection of points.
 
-use super::UpAxis;
+use serde::Serialize;
 
-/// A vector in space.
-pub(super) type Vector = [f64; 3];
-
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(super) fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// The vector of length 1, or as it is if it has none.
-pub(super) fn unit(a: Vector) -> Vector {
-    let length = dot(a, a).sqrt();
-    if length > 0.0 {
-        a.map(|v| v / length)
-    } else {
-        a
-    }
-}
+use super::vector::{Vector, cross, dot, magnitude, minus, unit};
+use super::view::UpAxis;
 
 /// Right, up and towards the viewer: three unit vectors, right-handed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Camera {
     pub(super) right: Vector,
     pub(super) up: Vector,
@@ -71,7 +45,7 @@ impl Camera {
     /// Which standard view suits a structure: across it if it is flat, else the isometric one.
     pub(super) fn best(views: &[Self; 4], low: Vector, high: Vector) -> usize {
         let size = minus(high, low);
-        let diagonal = dot(size, size).sqrt();
+        let diagonal = magnitude(&size);
         let flat = |camera: &Self| {
             let depth: f64 = (0..3).map(|k| (camera.back[k] * size[k]).abs()).sum();
             depth < 1e-3 * diagonal

@@ -14,10 +14,12 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
 use super::camera::{Camera, NAMES};
-use super::surface::{Surface, bounds};
-use super::{ModeShapeView, ShapeMode, legend, palette};
-use crate::report::ReportError;
-use crate::report::number::{fixed, significant};
+use super::surface::{Surface, SurfaceLine};
+use super::vector::{bounds, diagonal};
+use super::view::{LegendEntry, ModeShapeView, legend};
+use crate::report::embed::for_script;
+use crate::report::number::fixed;
+use crate::report::{ReportError, palette};
 
 /// Largest coordinate: 16 bits.
 const GRID: f64 = 65_535.0;
@@ -47,25 +49,17 @@ struct Data<'a> {
     size: f64,
     amplitude: f64,
     count: usize,
-    points: String,
-    triangles: String,
+    #[serde(flatten)]
+    geometry: Geometry,
     /// First triangle of each group, and the end of the last.
     starts: Vec<usize>,
-    edges: String,
-    outline: String,
-    lines: Vec<LineData>,
-    legend: Vec<super::LegendEntry>,
+    lines: &'a [SurfaceLine],
+    legend: Vec<LegendEntry>,
     modes: Vec<ModeData>,
     displacement_steps: f64,
     views: Vec<ViewData>,
     start: usize,
     palette: Vec<palette::Rgb>,
-}
-
-#[derive(Debug, Serialize)]
-struct LineData {
-    points: Vec<usize>,
-    closed: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -79,9 +73,8 @@ struct ModeData {
 #[derive(Debug, Serialize)]
 struct ViewData {
     name: &'static str,
-    right: [f64; 3],
-    up: [f64; 3],
-    back: [f64; 3],
+    #[serde(flatten)]
+    camera: Camera,
 }
 
 /// Packs a checked view into about `budget` bytes: fewer modes first, down to eight; then a coarser surface; then fewer
@@ -111,29 +104,18 @@ pub(in crate::report) fn pack(
     let left_out = left_out(view, whole, &surface, kept);
     let (low, high) = bounds(&surface.points);
     let views = Camera::standard(view.up);
-    let size: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum();
     let data = Data {
         title: &view.title,
         low,
         step: step(&surface),
-        size: size.sqrt(),
+        size: diagonal(&surface.points),
         amplitude: view.amplitude,
         count: surface.points.len(),
-        points: geometry.points,
-        triangles: geometry.triangles,
+        geometry,
         starts: (0..=view.groups.len())
             .map(|group| surface.groups.partition_point(|g| *g < group))
             .collect(),
-        edges: geometry.edges,
-        outline: geometry.outline,
-        lines: surface
-            .lines
-            .iter()
-            .map(|line| LineData {
-                points: line.points.clone(),
-                closed: line.closed,
-            })
-            .collect(),
+        lines: &surface.lines,
         legend: legend(view),
         modes,
         displacement_steps: STEPS,
@@ -141,28 +123,19 @@ pub(in crate::report) fn pack(
         views: NAMES
             .into_iter()
             .zip(views)
-            .map(|(name, camera)| ViewData {
-                name,
-                right: camera.right,
-                up: camera.up,
-                back: camera.back,
-            })
+            .map(|(name, camera)| ViewData { name, camera })
             .collect(),
         palette: palette::VIRIDIS.to_vec(),
     };
-    let json = serde_json::to_string(&data).map_err(|source| ReportError::Embed {
-        plot: view.title.clone(),
-        source,
-    })?;
     Ok(Packed {
-        // "</script" or "<!--" in a name would end the element.
-        json: json.replace('<', "\\u003c"),
+        json: for_script(&view.title, &data)?,
         left_out,
         modes: kept,
     })
 }
 
 /// What does not depend on a mode.
+#[derive(Debug, Serialize)]
 struct Geometry {
     points: String,
     triangles: String,
@@ -217,18 +190,6 @@ fn modes(view: &ModeShapeView, surface: &Surface, budget: usize) -> Vec<ModeData
         });
     }
     kept
-}
-
-impl ShapeMode {
-    /// The frequency as it is printed.
-    pub(in crate::report) fn frequency(&self) -> String {
-        format!("{} Hz", significant(self.frequency_hz, 4))
-    }
-
-    /// Label and frequency as they are printed.
-    pub(super) fn title(&self) -> String {
-        format!("Mode {} · {}", self.label, self.frequency())
-    }
 }
 
 fn left_out(

@@ -3,10 +3,11 @@
 
 use std::fmt::Write;
 
-use super::camera::{Camera, Vector, cross, dot, minus, unit};
+use super::camera::Camera;
 use super::depth::{DepthBuffer, Spot};
-use super::palette::{self, Rgb};
-use super::surface::{Surface, bounds, magnitude};
+use super::surface::Surface;
+use super::vector::{Vector, bounds, cross, diagonal, dot, magnitude, minus, unit};
+use crate::report::palette::{self, Rgb};
 
 /// Colours from no displacement to the largest.
 pub(super) const BANDS: usize = 14;
@@ -37,9 +38,7 @@ impl Frame {
         size: [f64; 2],
         [margin, amplitude]: [f64; 2],
     ) -> Self {
-        let (low, high) = bounds(points);
-        let span = minus(high, low);
-        let diagonal = dot(span, span).sqrt();
+        let diagonal = diagonal(points);
         let seen: Vec<Vector> = points.iter().map(|p| camera.project(*p)).collect();
         let (near, far) = bounds(&seen);
         // Seen end on, a bar has no width.
@@ -290,8 +289,8 @@ fn pair([x, y]: [i64; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::UpAxis;
     use super::super::samples::cube;
+    use super::super::view::UpAxis;
     use super::*;
 
     fn frame(surface: &Surface) -> Frame {

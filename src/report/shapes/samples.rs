@@ -1,6 +1,6 @@
 //! Structures for the tests.
 
-use super::{ModeShapeView, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle};
+use super::view::{ModeShapeView, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle};
 use std::collections::HashMap;
 
 /// The surface of a unit cube, `n` squares an edge, in two groups (the top and the rest), with `modes` smooth shapes and

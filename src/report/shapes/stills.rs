@@ -1,15 +1,12 @@
 //! The still pictures of a view: the mesh with its groups, and the first mode shapes side by side.
 
-use std::fmt::Write;
-
-use super::ModeShapeView;
-use super::camera::{Camera, NAMES, Vector, dot};
-use super::palette;
+use super::camera::{Camera, NAMES};
 use super::picture::{self, BANDS, Colouring, Frame};
-use super::surface::{Surface, bounds};
-use crate::report::number::display_unit;
-use crate::report::svg::escape;
-use crate::report::svg_drawing::round_length;
+use super::surface::Surface;
+use super::vector::{Vector, bounds};
+use super::view::ModeShapeView;
+use crate::report::palette;
+use crate::report::svg::{self, ScaleBar};
 
 /// Mode shapes in still pictures.
 pub(in crate::report) const MOST_STILLS: usize = 9;
@@ -22,6 +19,8 @@ const STILL_POINTS: usize = 5_000;
 const EDGE_PITCH: f64 = 5.0;
 /// Length of an axis of the triad, pixels.
 const TRIAD: f64 = 34.0;
+
+const SHAPE: &str = "class=\"shape\"";
 
 /// The mesh with its groups.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,14 +49,18 @@ pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -
         .map(|g| palette::group(g.colour))
         .collect();
     let fine = thin.points.len() == surface.points.len() && wide_apart(&thin, &frame);
-    let mut svg = opening(MESH_SIZE, &format!("{}: mesh and groups", view.title));
+    let mut out = svg::opening(
+        SHAPE,
+        MESH_SIZE,
+        &format!("{}: mesh and groups", view.title),
+    );
     let grouped = Colouring::Groups(&colours);
-    picture::draw(&mut svg, &frame, &thin, &[], &grouped, fine);
-    triad(&mut svg, &camera);
-    scale_bar(&mut svg, &frame);
-    svg.push_str("</svg>");
+    picture::draw(&mut out, &frame, &thin, &[], &grouped, fine);
+    triad(&mut out, &camera);
+    scale_bar(&mut out, &frame);
+    out.push_str("</svg>");
     MeshPicture {
-        svg,
+        svg: out,
         edges: if fine {
             "Thin lines are the edges of the elements."
         } else {
@@ -78,12 +81,12 @@ pub(in crate::report) fn stills(view: &ModeShapeView, surface: &Surface) -> Vec<
             let metres = view.amplitude * frame.diagonal;
             let shown: Vec<Vector> = unit.iter().map(|d| d.map(|v| v * metres)).collect();
             let title = mode.title();
-            let mut svg = opening(STILL_SIZE, &title);
+            let mut out = svg::opening(SHAPE, STILL_SIZE, &title);
             let coloured = Colouring::Displacement(&unit);
-            picture::draw(&mut svg, &frame, &thin, &shown, &coloured, false);
-            svg.push_str("</svg>");
+            picture::draw(&mut out, &frame, &thin, &shown, &coloured, false);
+            out.push_str("</svg>");
             Still {
-                svg,
+                svg: out,
                 title,
                 note: mode.note.clone(),
             }
@@ -93,24 +96,19 @@ pub(in crate::report) fn stills(view: &ModeShapeView, surface: &Surface) -> Vec<
 
 /// The bar of colours from no displacement to the largest, as the still pictures use them.
 pub(in crate::report) fn bar() -> String {
-    let mut svg = opening([300.0, 34.0], "Colours: displacement from 0 to the largest");
+    let title = "Colours: displacement from 0 to the largest";
+    let mut out = svg::opening(SHAPE, [300.0, 34.0], title);
     let width = 240.0 / BANDS as f64;
     for band in 0..BANDS {
         let colour = palette::viridis((band as f64 + 0.5) / BANDS as f64);
+        let look = format!("fill=\"{}\"", palette::hex(colour));
         let x = 30.0 + width * band as f64;
-        // Writing to a string cannot fail, here and below.
-        let _ = write!(
-            svg,
-            "<rect x=\"{x:.1}\" y=\"2\" width=\"{:.1}\" height=\"12\" fill=\"{}\"/>",
-            width + 0.3,
-            palette::hex(colour)
-        );
+        svg::rect(&mut out, &look, [x, 2.0, width + 0.3, 12.0], "");
     }
-    svg.push_str(
-        "<text x=\"30\" y=\"29\" text-anchor=\"middle\">0</text><text x=\"150\" y=\"29\" text-anchor=\"middle\">0.5</text>\
-         <text x=\"270\" y=\"29\" text-anchor=\"middle\">largest</text></svg>",
-    );
-    svg
+    for (x, text) in [(30.0, "0"), (150.0, "0.5"), (270.0, "largest")] {
+        svg::text(&mut out, svg::MIDDLE, [x, 29.0], text);
+    }
+    out + "</svg>"
 }
 
 /// The standard view that suits a structure.
@@ -118,13 +116,6 @@ fn chosen(view: &ModeShapeView, surface: &Surface) -> Camera {
     let views = Camera::standard(view.up);
     let (low, high) = bounds(&surface.points);
     views[Camera::best(&views, low, high).min(NAMES.len() - 1)]
-}
-
-fn opening([width, height]: [f64; 2], title: &str) -> String {
-    let title = escape(title);
-    format!(
-        "<svg class=\"shape\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    )
 }
 
 /// Whether the elements' edges are long enough in the picture.
@@ -141,58 +132,45 @@ fn wide_apart(surface: &Surface, frame: &Frame) -> bool {
 }
 
 /// The directions of x, y and z, at the lower left.
-fn triad(svg: &mut String, camera: &Camera) {
+fn triad(out: &mut String, camera: &Camera) {
     let (x0, y0) = (52.0, MESH_SIZE[1] - 52.0);
-    svg.push_str("<g class=\"triad\">");
+    out.push_str("<g class=\"triad\">");
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let look = format!("class=\"a{axis}\"");
         let mut e = [0.0; 3];
         e[axis] = 1.0;
         let [u, v, _] = camera.project(e);
         if u.hypot(v) < 0.05 {
-            let _ = write!(
-                svg,
-                "<circle cx=\"{x0}\" cy=\"{y0}\" r=\"3\" class=\"a{axis}\"/><text x=\"{}\" y=\"{}\">{name}</text>",
-                x0 - 13.0,
-                y0 + 14.0
-            );
+            svg::circle(out, &look, [x0, y0], 3.0, "");
+            svg::text(out, "", [x0 - 13.0, y0 + 14.0], name);
             continue;
         }
-        let end = |length: f64| (x0 + length * u, y0 - length * v);
-        let ((x, y), (tx, ty)) = (end(TRIAD), end(TRIAD + 10.0 / u.hypot(v)));
-        let _ = write!(
-            svg,
-            "<path class=\"a{axis}\" d=\"M{x0} {y0}L{x:.1} {y:.1}\"/><text x=\"{tx:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{name}</text>",
-            ty + 4.0
-        );
+        let end = |length: f64| [x0 + length * u, y0 - length * v];
+        let ([x, y], [tx, ty]) = (end(TRIAD), end(TRIAD + 10.0 / u.hypot(v)));
+        svg::path(out, &look, &format!("M{x0} {y0}L{x:.1} {y:.1}"), "");
+        svg::text(out, svg::MIDDLE, [tx, ty + 4.0], name);
     }
-    svg.push_str("</g>");
+    out.push_str("</g>");
 }
 
 /// A bar of a round length, at the lower right. In the isometric view it measures along the axes, which are all
 /// shortened alike there.
-fn scale_bar(svg: &mut String, frame: &Frame) {
+fn scale_bar(out: &mut String, frame: &Frame) {
     let right = frame.camera.right;
     let isometric = right.iter().filter(|v| v.abs() > 0.1).count() > 1;
-    let shortening = if isometric {
+    let (shortening, along) = if isometric {
         let [u, v, _] = frame.camera.project([1.0, 0.0, 0.0]);
-        dot([u, v, 0.0], [u, v, 0.0]).sqrt()
+        (u.hypot(v), " along x, y, z")
     } else {
-        1.0
+        (1.0, "")
     };
-    let pixels = frame.scale * shortening;
-    let length = round_length(110.0 / pixels);
-    let unit = display_unit("m", length);
-    let (x2, y) = (MESH_SIZE[0] - 20.0, MESH_SIZE[1] - 34.0);
-    let x1 = x2 - length * pixels;
-    let _ = write!(
-        svg,
-        "<g class=\"scale\"><path d=\"M{x1:.1} {top}V{y}H{x2:.1}V{top}\"/><text x=\"{x2:.1}\" y=\"{text}\" text-anchor=\"end\">{} {}{}</text></g>",
-        length / unit.factor,
-        unit.text,
-        if isometric { " along x, y, z" } else { "" },
-        top = y - 5.0,
-        text = y + 17.0,
-    );
+    let bar = ScaleBar::of(frame.scale * shortening);
+    let (x, y) = (MESH_SIZE[0] - 20.0, MESH_SIZE[1] - 34.0);
+    out.push_str("<g class=\"scale\">");
+    bar.draw(out, [x - bar.pixels, y]);
+    let label = format!("{}{along}", bar.label);
+    svg::text(out, svg::END, [x, y + 17.0], &label);
+    out.push_str("</g>");
 }
 
 #[cfg(test)]

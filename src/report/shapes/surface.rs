@@ -1,9 +1,14 @@
 //! What of a structure is shown: the points that its surface and lines use, near ones near each other in order.
 
-use super::{ModeShapeView, features};
+use std::collections::HashMap;
+
+use serde::Serialize;
+
+use super::vector::{Vector, bounds, cross, dot, magnitude, minus, unit};
+use super::view::ModeShapeView;
 
 /// A line through points of the surface.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(in crate::report) struct SurfaceLine {
     pub(super) points: Vec<usize>,
     pub(super) closed: bool,
@@ -27,12 +32,12 @@ impl Surface {
     /// The surface of a checked view.
     pub(in crate::report) fn of(view: &ModeShapeView) -> Self {
         let outline = if view.outline.is_empty() {
-            features::outline(view)
+            outline(view)
         } else {
             view.outline.clone()
         };
         let edges = if view.edges.is_empty() {
-            features::all(view)
+            all_edges(view)
         } else {
             view.edges.clone()
         };
@@ -87,22 +92,56 @@ impl Surface {
     }
 }
 
-/// Length of a displacement.
-pub(super) fn magnitude(d: &[f64; 3]) -> f64 {
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+/// Least angle between two triangles that makes an edge: cosine of 30 degrees.
+const SHARP: f64 = 0.866_025_403_784_438_6;
+
+/// What is known of an edge: the first triangle on it, and whether it is drawn.
+struct Found {
+    normal: Vector,
+    group: usize,
+    count: usize,
+    sharp: bool,
 }
 
-/// Lowest and highest coordinates; zero without points.
-pub(super) fn bounds(points: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
-    let Some(first) = points.first() else {
-        return ([0.0; 3], [0.0; 3]);
-    };
-    points.iter().fold((*first, *first), |(low, high), p| {
-        (
-            std::array::from_fn(|k| low[k].min(p[k])),
-            std::array::from_fn(|k| high[k].max(p[k])),
-        )
-    })
+/// Edges where the surface has a kink, ends, branches, or meets another group; sorted.
+fn outline(view: &ModeShapeView) -> Vec<[usize; 2]> {
+    let mut edges: HashMap<[usize; 2], Found> = HashMap::new();
+    for triangle in &view.triangles {
+        let [a, b, c] = triangle.corners.map(|k| view.points[k]);
+        let normal = unit(cross(minus(b, a), minus(c, a)));
+        for edge in sides(triangle.corners) {
+            let found = edges.entry(edge).or_insert(Found {
+                normal,
+                group: triangle.group,
+                count: 0,
+                sharp: false,
+            });
+            found.count += 1;
+            // The sense of rotation of a triangle may be either.
+            let kink = dot(found.normal, normal).abs() < SHARP;
+            found.sharp |= kink || found.group != triangle.group;
+        }
+    }
+    let mut sharp: Vec<_> = edges
+        .into_iter()
+        .filter(|(_, found)| found.sharp || found.count != 2)
+        .map(|(edge, _)| edge)
+        .collect();
+    sharp.sort_unstable();
+    sharp
+}
+
+/// All edges of the triangles, each once; sorted.
+fn all_edges(view: &ModeShapeView) -> Vec<[usize; 2]> {
+    let corners = view.triangles.iter().map(|t| t.corners);
+    let mut edges: Vec<_> = corners.flat_map(sides).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+fn sides([a, b, c]: [usize; 3]) -> [[usize; 2]; 3] {
+    [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }
 
 /// The same triangle, its lowest corner first: sorted triangles then follow the points.
@@ -180,7 +219,6 @@ mod tests {
     }
 
     fn area(surface: &Surface, corners: [usize; 3]) -> f64 {
-        use super::super::camera::{cross, dot, minus};
         let [a, b, c] = corners.map(|k| surface.points[k]);
         let n = cross(minus(b, a), minus(c, a));
         0.5 * dot(n, n).sqrt()
@@ -205,5 +243,23 @@ mod tests {
         assert!(still.iter().flatten().all(|v| v.abs() < 1e-300));
         let tiny = Surface::of(&view).displacement(&[[1e-200, 0.0, 0.0]; 8]);
         assert!((tiny[0][0] - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_cube_has_twelve_edges() {
+        for n in [1, 3] {
+            assert_eq!(outline(&cube(n, 0)).len(), 12 * n, "{n}");
+        }
+        // 6 n^2 squares of two triangles: 3/2 edges a triangle
+        assert_eq!(all_edges(&cube(3, 0)).len(), 6 * 9 * 2 * 3 / 2);
+    }
+
+    #[test]
+    fn groups_and_free_ends_are_edges() {
+        let mut plate = cube(3, 0);
+        plate.triangles.retain(|t| t.group == 1);
+        assert_eq!(outline(&plate).len(), 12);
+        plate.triangles[0].group = 0;
+        assert!(outline(&plate).len() > 12);
     }
 }

@@ -94,10 +94,11 @@ pub fn run_report<R: Recording>(
 }
 
 fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
+    let complete = matches!(result.simulation.end, RunEnd::Complete);
     let mut report = report.headline(
         "Simulated",
         format!("{} s", significant(result.simulation.simulated_s, 4)),
-        Verdict::of(matches!(result.simulation.end, RunEnd::Complete)),
+        Verdict::of(complete && result.distrust().is_none()),
     );
     report = report.headline(
         "Real-time factor",
@@ -294,5 +295,23 @@ mod tests {
             matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors"))
         });
         assert_eq!(said.count(), 1);
+    }
+
+    /// A run to its end in steps that are too long is no good one.
+    #[test]
+    fn a_run_that_cannot_be_trusted_has_no_good_headline() {
+        let set = ["transient.end=1e-3", "transient.modes=3"];
+        let case = Case::example("scenes/smooth", &set);
+        let mut result = compute_run(&case, &Unwatched).unwrap();
+        let verdict = |result: &RunResult| {
+            let headlines = run_report(&case, result, "").unwrap().headlines;
+            let simulated = headlines.iter().find(|found| found.label == "Simulated");
+            simulated.unwrap().verdict
+        };
+        assert!(matches!(result.simulation.end, RunEnd::Complete));
+        assert_eq!(verdict(&result), Verdict::Ok);
+        result.choice.stable_s = Some(1e-9);
+        assert!(result.distrust().is_some());
+        assert_eq!(verdict(&result), Verdict::Bad);
     }
 }

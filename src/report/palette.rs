@@ -1,4 +1,4 @@
-//! Colours of the shapes, the same in the pictures and in the browser.
+//! Colours of plots, charts and shapes, the same in the pictures and in the browser.
 
 /// Red, green and blue, 0 to 255.
 pub(super) type Rgb = [u8; 3];
@@ -24,6 +24,23 @@ pub(super) const VIRIDIS: [Rgb; 16] = [
     [0xfd, 0xe7, 0x25],
 ];
 
+/// White to dark blue, by even steps of lightness.
+const BLUES: [Rgb; 5] = [
+    [255, 255, 255],
+    [206, 221, 236],
+    [142, 178, 212],
+    [75, 125, 175],
+    [20, 61, 110],
+];
+
+/// Colours of curves, bars and markers as the style sheet has them on white; the next one begins again.
+pub(super) const SERIES: [&str; 6] = [
+    "#1f5a99", "#c8511b", "#2e7d4f", "#7b4ea3", "#8c6d1f", "#4d5761",
+];
+
+/// How many colours curves, bars and markers have.
+pub(super) const COLOURS: usize = SERIES.len();
+
 /// Colours of groups: muted, of similar lightness, told apart in print.
 const GROUPS: [Rgb; 10] = [
     [0x8f, 0xae, 0xcb],
@@ -46,13 +63,23 @@ pub(super) fn group(index: usize) -> Rgb {
     GROUPS[index % GROUPS.len()]
 }
 
+/// The colour at a part of a scale, 0 to 1, straight between its `N` supports, two at least; `at` is taken to 0..1.
+fn between<const N: usize>(scale: [Rgb; N], at: f64) -> Rgb {
+    let place = at.clamp(0.0, 1.0) * (N - 1) as f64;
+    let low = (place.floor() as usize).min(N - 2);
+    let part = place - low as f64;
+    let (a, b) = (scale[low], scale[low + 1]);
+    std::array::from_fn(|k| (f64::from(a[k]) * (1.0 - part) + f64::from(b[k]) * part).round() as u8)
+}
+
 /// Viridis between its supports; `at` is taken to 0..1.
 pub(super) fn viridis(at: f64) -> Rgb {
-    let place = at.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
-    let low = (place.floor() as usize).min(VIRIDIS.len() - 2);
-    let part = place - low as f64;
-    let (a, b) = (VIRIDIS[low], VIRIDIS[low + 1]);
-    std::array::from_fn(|k| (f64::from(a[k]) * (1.0 - part) + f64::from(b[k]) * part).round() as u8)
+    between(VIRIDIS, at)
+}
+
+/// White to dark blue; `at` is taken to 0..1.
+pub(super) fn blues(at: f64) -> Rgb {
+    between(BLUES, at)
 }
 
 /// A colour made darker: 1 leaves it, 0 makes it black.
