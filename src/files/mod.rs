@@ -5,8 +5,7 @@ mod atomic;
 mod error;
 
 pub use atomic::{AtomicFile, write_atomic};
-pub use error::FileError;
-pub(crate) use error::bytes_of;
+pub use error::{Fault, FileError, Place};
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
@@ -42,6 +41,14 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::Read::read_to_end(&mut open(path)?, &mut bytes)?;
     Ok(bytes)
+}
+
+/// The content of a regular file.
+///
+/// # Errors
+/// [`FileError::Read`].
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
+    read(path).map_err(FileError::read(path))
 }
 
 /// The text of a regular file, UTF-8.

@@ -9,7 +9,7 @@ use super::CliError;
 use crate::app::case::Case;
 use crate::app::shell_word::shell_word;
 use crate::app::stages::MeshDigest;
-use crate::files;
+use crate::files::{self, FileError};
 
 /// Where a result has the digests of the files beside it.
 pub(super) const ARRAYS: &str = "arrays";
@@ -121,14 +121,11 @@ impl ResultsError {
 /// SHA-256 of files by their names, for the result that speaks of them.
 ///
 /// # Errors
-/// [`CliError::Write`] for a file that is gone.
+/// [`CliError::File`] for a file that is gone.
 pub(super) fn digests(files: &[PathBuf]) -> Result<Value, CliError> {
     let mut map = Map::new();
     for path in files {
-        let digest = MeshDigest::of_file(path).map_err(|source| CliError::Write {
-            path: path.clone(),
-            source,
-        })?;
+        let digest = MeshDigest::of_file(path).map_err(FileError::write(path))?;
         let name = path.file_name().unwrap_or_default();
         map.insert(name.to_string_lossy().into_owned(), json!(digest.sha256));
     }

@@ -1,7 +1,6 @@
 //! `plummer report`: the pages of earlier results, drawn again from their content.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
@@ -9,6 +8,7 @@ use thiserror::Error;
 
 use super::report_files::{ReportFiles, page_of};
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use crate::files::FileError;
 use crate::report::{Report, ReportError};
 
 /// The commands that write reports, by the names of their results.
@@ -28,14 +28,9 @@ const WITH_REPORT: [&str; 9] = [
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// The folder cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// Folder or file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    /// The folder or a file of it cannot be read.
+    #[error(transparent)]
+    Read(#[from] FileError),
     /// The folder has no content of a report.
     #[error("{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page", folder.display())]
     None {
@@ -69,7 +64,7 @@ impl RecordError {
             Self::Broken { .. } | Self::Command { .. } => {
                 Some("run the command again with --force".to_owned())
             }
-            Self::Read { .. } => None,
+            Self::Read(_) => None,
         }
     }
 }
@@ -123,10 +118,7 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
 
 /// The contents of reports in a folder, in order of their names, each with the name of its page.
 fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
-    let failed = |source| RecordError::Read {
-        path: folder.to_owned(),
-        source,
-    };
+    let failed = |source| FileError::read(folder)(source);
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let entry = entry.map_err(failed)?;
@@ -145,10 +137,7 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, RecordError> {
 
 /// The report that a file holds, and the command that it is of.
 fn read(path: &Path) -> Result<(String, Report), RecordError> {
-    let bytes = fs::read(path).map_err(|source| RecordError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
+    let bytes = fs::read(path).map_err(FileError::read(path))?;
     let report = Report::from_record(&bytes).map_err(|source| RecordError::Broken {
         path: path.to_owned(),
         source,

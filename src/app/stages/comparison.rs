@@ -144,7 +144,7 @@ impl<'c> ComparedFile<'c> {
     /// [`StageError::ModeShapes`] with file and line.
     pub fn read_all(case: &'c Case) -> Result<Vec<Self>, StageError> {
         let read = |asked: &'c ComparedModes| {
-            let modes = read_mode_shapes(&asked.file)?;
+            let modes = read_mode_shapes(&asked.file).map_err(StageError::ModeShapes)?;
             Ok(Self { asked, modes })
         };
         case.modes.compare.iter().map(read).collect()

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
+use super::super::ModeShapes;
 use super::super::mode_shapes::samples::two_modes;
 use super::*;
 

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::rc::Rc;
 
 use super::super::uff::{TimeAxis, read_times_uff};
+use super::channel::{Channel, choose};
 use super::clock::Clock;
-use super::{Channel, MeasuredError, SignalRequest, choose};
+use super::{MeasuredError, SignalRequest};
 
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let mut found: Vec<_> = read_times_uff(path)?.into_iter().map(Some).collect();

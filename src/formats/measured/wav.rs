@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::rc::Rc;
 
+use super::channel::{Channel, choose};
 use super::clock::Clock;
-use super::{Channel, MeasuredError, SignalRequest, choose};
+use super::{MeasuredError, SignalRequest};
 use crate::files::bytes_of;
 
 /// Format tags.
