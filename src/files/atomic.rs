@@ -10,7 +10,7 @@ use super::FileError;
 /// A file that is written under a temporary name (`NAME.partial` beside the target) and renamed by
 /// [`commit`](Self::commit). Dropped before that, it removes the temporary file and leaves an earlier file alone.
 #[derive(Debug)]
-pub struct AtomicFile {
+pub(crate) struct AtomicFile {
     path: PathBuf,
     partial: PathBuf,
     /// `None` only after `commit`.
@@ -22,7 +22,7 @@ impl AtomicFile {
     ///
     /// # Errors
     /// When `path` does not end in a name, or the temporary file cannot be made.
-    pub fn create(path: &Path) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.file_name().is_none() {
             return Err(io::ErrorKind::InvalidFilename.into());
         }
@@ -41,7 +41,7 @@ impl AtomicFile {
     }
 
     /// The temporary name of a file.
-    pub fn partial_of(path: &Path) -> PathBuf {
+    pub(crate) fn partial_of(path: &Path) -> PathBuf {
         let mut partial = OsString::from(path);
         partial.push(".partial");
         partial.into()
@@ -51,7 +51,7 @@ impl AtomicFile {
     ///
     /// # Errors
     /// When writing or renaming fails; the temporary file is then removed.
-    pub fn commit(mut self) -> io::Result<()> {
+    pub(crate) fn commit(mut self) -> io::Result<()> {
         let Some(buffer) = self.file.take() else {
             return Ok(());
         };
@@ -105,7 +105,7 @@ impl Drop for AtomicFile {
 /// # Errors
 /// [`FileError::Write`] with what `write` returns, or as [`AtomicFile::create`] and [`AtomicFile::commit`]; an earlier file
 /// of this name is then as it was.
-pub fn write_atomic(
+pub(crate) fn write_atomic(
     path: &Path,
     write: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
 ) -> Result<(), FileError> {

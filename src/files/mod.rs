@@ -4,7 +4,7 @@
 mod atomic;
 mod error;
 
-pub use atomic::{AtomicFile, write_atomic};
+pub(crate) use atomic::{AtomicFile, write_atomic};
 pub use error::{Fault, FileError, Place};
 
 use std::fs::{self, File};
@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 ///
 /// # Errors
 /// What the system says; [`io::ErrorKind::InvalidInput`] for a folder, a device or a pipe.
-pub fn open(path: &Path) -> io::Result<File> {
+pub(crate) fn open(path: &Path) -> io::Result<File> {
     let kind = fs::metadata(path)?.file_type();
     if kind.is_file() {
         return File::open(path);
@@ -37,7 +37,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// As [`open`].
-pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::Read::read_to_end(&mut open(path)?, &mut bytes)?;
     Ok(bytes)
@@ -55,7 +55,7 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
 ///
 /// # Errors
 /// As [`open`], and [`io::ErrorKind::InvalidData`] for what is not UTF-8.
-pub fn read_text(path: &Path) -> io::Result<String> {
+pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     io::read_to_string(open(path)?)
 }
 
@@ -90,7 +90,7 @@ pub fn hex(hasher: Sha256) -> String {
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] for a link.
-pub fn no_link(path: &Path) -> io::Result<()> {
+pub(crate) fn no_link(path: &Path) -> io::Result<()> {
     if path.is_symlink() {
         return Err(io::Error::new(
             io::ErrorKind::InvalidInput,
@@ -104,7 +104,7 @@ pub fn no_link(path: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// What the system says; [`io::ErrorKind::InvalidInput`] if one of them is a symbolic link.
-pub fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
+pub(crate) fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
     let mut path = root.to_owned();
     for part in name {
         path.push(part);

@@ -69,7 +69,11 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`].
-    pub fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, ColumnError> {
+    pub(crate) fn create(
+        folder: &Path,
+        sensors: Vec<String>,
+        balls: usize,
+    ) -> Result<Self, ColumnError> {
         Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
     }
 
@@ -77,7 +81,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`], [`ColumnError::Cut`] if a column has fewer.
-    pub fn resume(
+    pub(crate) fn resume(
         folder: &Path,
         sensors: Vec<String>,
         balls: usize,
@@ -144,7 +148,7 @@ impl ColumnFiles {
     }
 
     /// SHA-256 of the rows of all columns, 64 hexadecimal digits.
-    pub fn digest(&self) -> String {
+    pub(crate) fn digest(&self) -> String {
         let mut all = Sha256::new();
         for hasher in &self.hashers {
             all.update(hasher.clone().finalize());
@@ -156,7 +160,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`].
-    pub fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
+    pub(crate) fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
         let places = 0..rows.rows();
         let mut bytes = Vec::new();
         for ((column, file), hasher) in self.files.iter_mut().zip(&mut self.hashers) {
@@ -175,7 +179,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`].
-    pub fn sync(&self) -> Result<(), ColumnError> {
+    pub(crate) fn sync(&self) -> Result<(), ColumnError> {
         for (column, file) in &self.files {
             // with its length
             let synced = file.sync_data();

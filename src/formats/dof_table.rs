@@ -87,7 +87,7 @@ impl DofBody {
     }
 
     /// The body of this name, if there is one.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub(crate) fn of_name(name: &str) -> Option<Self> {
         let all = [Self::Housing, Self::Ring, Self::Interface, Self::Modal];
         all.into_iter().find(|body| body.name() == name)
     }
@@ -127,7 +127,7 @@ impl DofDirection {
     }
 
     /// The direction of this number, if there is one.
-    pub fn of_component(component: i64) -> Option<Self> {
+    pub(crate) fn of_component(component: i64) -> Option<Self> {
         let component = usize::try_from(component).ok()?;
         Some(match component {
             0 => Self::Generalised,

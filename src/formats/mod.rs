@@ -13,7 +13,7 @@
 //! | measured signals ([`measured`]) | `.npz`, `.mat`, `.csv`, `.wav`, `.uff` | | signals over time |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
-//! Every file is written under a temporary name and renamed ([`AtomicFile`](crate::files::AtomicFile)): a half-written file never carries its name.
+//! Every file is written under a temporary name and renamed: a half-written file never carries its name.
 //! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
 
 mod columns;

@@ -20,7 +20,5 @@ mod tests;
 mod write;
 
 pub(super) use read::line_of;
-#[cfg(test)]
-use read::modes_from_bytes;
 pub use read::read_modes_csv;
 pub use write::write_modes_csv;

@@ -28,7 +28,6 @@ mod read;
 mod stated;
 #[cfg(test)]
 mod tests;
-mod uff;
 mod wav;
 
 pub use channel::{MeasuredSignal, SignalRequest};

@@ -1,6 +1,6 @@
 //! ASCII files: whole numbers in columns of 8, reals as the header says.
 
-use super::super::fortran::{columns, real};
+use super::super::fortran::{columns, quoted, real};
 use super::Op4Matrix;
 use super::builder::{Builder, Column, Header};
 use crate::files::Fault;
@@ -171,12 +171,7 @@ impl Lines<'_> {
 
     /// Tells of the line that was read last.
     fn fault(&self, expected: &'static str, line: &str) -> Fault {
-        let text = line.trim();
-        let mut found: String = text.chars().take(60).collect();
-        if found.len() < text.len() {
-            found.push_str("...");
-        }
-        Fault::new(expected, format!("\"{found}\"")).at(format_args!("line {}", self.line))
+        Fault::new(expected, quoted(line)).at(format_args!("line {}", self.line))
     }
 
     /// So many numbers, from a row on.

@@ -1,6 +1,6 @@
 //! Lines of a universal file, with their numbers.
 
-use super::super::fortran::{columns, real};
+use super::super::fortran::{columns, quoted, real};
 use crate::files::Fault;
 
 /// A line and its number, counted from 1.
@@ -17,12 +17,7 @@ impl Line {
     }
 
     pub(super) fn fault(&self, expected: &'static str) -> Fault {
-        let text = self.text.trim();
-        let mut found: String = text.chars().take(60).collect();
-        if found.len() < text.len() {
-            found.push_str("...");
-        }
-        Fault::new(expected, format!("\"{found}\"")).line(self.number)
+        Fault::new(expected, quoted(&self.text)).line(self.number)
     }
 
     /// Whole numbers, in columns of 10 where they run together.

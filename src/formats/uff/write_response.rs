@@ -65,7 +65,7 @@ impl FrequencyResponse {
     /// Without the frequencies that the six digits of the format do not tell from the one before, as those of two resonances
     /// close together; evenly spaced ones stay as they are.
     #[must_use]
-    pub fn told_apart(mut self) -> Self {
+    pub(crate) fn told_apart(mut self) -> Self {
         if spacing(&self.frequency_hz).is_some() {
             return self;
         }
