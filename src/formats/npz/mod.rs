@@ -4,6 +4,9 @@
 //! of real and whole numbers and text. Format: a ZIP archive with one `NAME.npy` an array; each a header (NumPy "NPY format", version 1.0: magic,
 //! version, header length, Python dictionary with descr, fortran_order, shape) followed by the values, little-endian.
 //! Read back with `numpy.load(path)["NAME"]`.
+//!
+//! The crate `npyz` 0.9.1 is not used below: it reserves whatever length a header promises, up to 4 GiB, and 24
+//! nested brackets in a header keep its parser busy for more than a minute.
 
 mod decoder;
 mod header;

@@ -1,4 +1,7 @@
 //! Writes a grid: nodes, elements and fields.
+//!
+//! Numbers go straight from the mesh to the file. The crate `vtkio` 0.7.0-rc2 copies and encodes all of them in memory first:
+//! 400 MiB for a file of 132 MiB.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
