@@ -5,10 +5,12 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::FileError;
+
 /// A file that is written under a temporary name (`NAME.partial` beside the target) and renamed by
 /// [`commit`](Self::commit). Dropped before that, it removes the temporary file and leaves an earlier file alone.
 #[derive(Debug)]
-pub struct AtomicFile {
+pub(crate) struct AtomicFile {
     path: PathBuf,
     partial: PathBuf,
     /// `None` only after `commit`.
@@ -20,7 +22,7 @@ impl AtomicFile {
     ///
     /// # Errors
     /// When `path` does not end in a name, or the temporary file cannot be made.
-    pub fn create(path: &Path) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.file_name().is_none() {
             return Err(io::ErrorKind::InvalidFilename.into());
         }
@@ -39,7 +41,7 @@ impl AtomicFile {
     }
 
     /// The temporary name of a file.
-    pub fn partial_of(path: &Path) -> PathBuf {
+    pub(crate) fn partial_of(path: &Path) -> PathBuf {
         let mut partial = OsString::from(path);
         partial.push(".partial");
         partial.into()
@@ -49,7 +51,7 @@ impl AtomicFile {
     ///
     /// # Errors
     /// When writing or renaming fails; the temporary file is then removed.
-    pub fn commit(mut self) -> io::Result<()> {
+    pub(crate) fn commit(mut self) -> io::Result<()> {
         let Some(buffer) = self.file.take() else {
             return Ok(());
         };
@@ -101,15 +103,17 @@ impl Drop for AtomicFile {
 /// Writes a file by `write`, whole or not at all.
 ///
 /// # Errors
-/// What `write` returns, or as [`AtomicFile::create`] and [`AtomicFile::commit`]; an earlier file of this name is then
-/// as it was.
-pub fn write_atomic(
+/// [`FileError::Write`] with what `write` returns, or as [`AtomicFile::create`] and [`AtomicFile::commit`]; an earlier file
+/// of this name is then as it was.
+pub(crate) fn write_atomic(
     path: &Path,
     write: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = AtomicFile::create(path)?;
-    write(&mut file)?;
-    file.commit()
+) -> Result<(), FileError> {
+    let written = AtomicFile::create(path).and_then(|mut file| {
+        write(&mut file)?;
+        file.commit()
+    });
+    written.map_err(FileError::write(path))
 }
 
 #[cfg(test)]
@@ -135,7 +139,10 @@ mod tests {
             assert_eq!(names(folder.path()), ["a.txt", "a.txt.partial"]);
             Err(io::ErrorKind::StorageFull.into())
         });
-        assert_eq!(error.unwrap_err().kind(), io::ErrorKind::StorageFull);
+        let full = |error: &io::Error| error.kind() == io::ErrorKind::StorageFull;
+        assert!(
+            matches!(error, Err(FileError::Write { path: own, source }) if own == path && full(&source))
+        );
         assert_eq!(names(folder.path()), ["a.txt"]);
         assert_eq!(fs::read(&path).unwrap(), b"first");
     }

@@ -1,13 +1,13 @@
-//! What is wrong with any file that is read as lines: the file itself, or a line of it.
+//! What can be wrong with a file, and with data that a file holds or shall hold.
 
+use std::borrow::Cow;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::read;
-
-/// Why a file of lines cannot be read.
+/// Why a file cannot be read or written.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// The file cannot be opened or read.
@@ -18,27 +18,152 @@ pub enum FileError {
         /// What the system said.
         source: io::Error,
     },
+    /// The file cannot be made, written or renamed.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file that is read and written cannot be opened.
+    #[error("cannot open {}: {source}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// Something in the file is not what the format has there.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    #[error("{}{}: expected {}, found {}", path.display(), fault.place, fault.expected, fault.found)]
     Content {
         /// The file.
         path: PathBuf,
-        /// Line, counted from 1.
-        line: u64,
-        /// What the format has there.
-        expected: String,
-        /// What stands there.
-        found: String,
+        /// What is wrong, and where.
+        fault: Fault,
     },
 }
 
-/// All of a file.
-///
-/// # Errors
-/// [`FileError::Read`].
-pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
-    read(path).map_err(|source| FileError::Read {
-        path: path.to_owned(),
-        source,
-    })
+impl FileError {
+    /// What a failure to read this file is.
+    pub(crate) fn read(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        |source| Self::Read { path, source }
+    }
+
+    /// What a failure to write this file is.
+    pub(crate) fn write(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        |source| Self::Write { path, source }
+    }
+}
+
+/// Data that contradict themselves or their format: what was expected at a place, and what stands there.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub struct Fault {
+    /// Where it stands.
+    pub place: Place,
+    /// What should stand there.
+    pub expected: Cow<'static, str>,
+    /// What stands there.
+    pub found: String,
+}
+
+/// A place in a file or in data.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// The whole of it.
+    Whole,
+    /// A line, counted from 1.
+    Line(u64),
+    /// A position, such as "byte 24".
+    At(String),
+    /// A part with a name, such as `array "k"`.
+    In(String),
+}
+
+impl Fault {
+    /// A fault of the whole.
+    pub(crate) fn new(expected: impl Into<Cow<'static, str>>, found: impl fmt::Display) -> Self {
+        Self {
+            place: Place::Whole,
+            expected: expected.into(),
+            found: found.to_string(),
+        }
+    }
+
+    /// The same fault in a line, counted from 1.
+    pub(crate) fn line(self, line: u64) -> Self {
+        let place = Place::Line(line);
+        Self { place, ..self }
+    }
+
+    /// The same fault at a position.
+    pub(crate) fn at(self, position: impl fmt::Display) -> Self {
+        let place = Place::At(position.to_string());
+        Self { place, ..self }
+    }
+
+    /// The same fault in a part with a name.
+    pub(crate) fn within(self, part: impl Into<String>) -> Self {
+        let place = Place::In(part.into());
+        Self { place, ..self }
+    }
+
+    /// The same fault in a file.
+    pub(crate) fn of(self, path: &Path) -> FileError {
+        FileError::Content {
+            path: path.to_owned(),
+            fault: self,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Place::Whole => {}
+            Place::Line(line) => write!(to, "line {line}: ")?,
+            Place::At(place) | Place::In(place) => write!(to, "{place}: ")?,
+        }
+        write!(to, "expected {}, found {}", self.expected, self.found)
+    }
+}
+
+/// As it follows the name of a file.
+impl fmt::Display for Place {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => Ok(()),
+            Self::Line(line) => write!(to, ":{line}"),
+            Self::At(place) => write!(to, ", {place}"),
+            Self::In(place) => write!(to, ": {place}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_is_told_with_its_place_and_its_file() {
+        let fault = || Fault::new("a number", "\"x\"");
+        let cases = [
+            (fault(), "", ""),
+            (fault().line(3), "line 3: ", ":3"),
+            (fault().at("byte 24"), "byte 24: ", ", byte 24"),
+            (
+                fault().within("array \"k\""),
+                "array \"k\": ",
+                ": array \"k\"",
+            ),
+        ];
+        for (fault, before, after_path) in cases {
+            let expected = "expected a number, found \"x\"";
+            assert_eq!(fault.to_string(), format!("{before}{expected}"));
+            let told = fault.of(Path::new("a.txt")).to_string();
+            assert_eq!(told, format!("a.txt{after_path}: {expected}"));
+        }
+    }
 }

@@ -5,10 +5,9 @@ mod atomic;
 mod digest;
 mod error;
 
-pub use atomic::{AtomicFile, write_atomic};
+pub(crate) use atomic::{AtomicFile, write_atomic};
 pub use digest::{FileDigest, hex, sha256};
-pub use error::FileError;
-pub(crate) use error::bytes_of;
+pub use error::{Fault, FileError, Place};
 
 use std::fs::{self, File};
 use std::io;
@@ -18,7 +17,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// What the system says; [`io::ErrorKind::InvalidInput`] for a folder, a device or a pipe.
-pub fn open(path: &Path) -> io::Result<File> {
+pub(crate) fn open(path: &Path) -> io::Result<File> {
     let kind = fs::metadata(path)?.file_type();
     if kind.is_file() {
         return File::open(path);
@@ -38,17 +37,25 @@ pub fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// As [`open`].
-pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::Read::read_to_end(&mut open(path)?, &mut bytes)?;
     Ok(bytes)
+}
+
+/// The content of a regular file.
+///
+/// # Errors
+/// [`FileError::Read`].
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, FileError> {
+    read(path).map_err(FileError::read(path))
 }
 
 /// The text of a regular file, UTF-8.
 ///
 /// # Errors
 /// As [`open`], and [`io::ErrorKind::InvalidData`] for what is not UTF-8.
-pub fn read_text(path: &Path) -> io::Result<String> {
+pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     io::read_to_string(open(path)?)
 }
 
@@ -56,7 +63,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] for a link.
-pub fn no_link(path: &Path) -> io::Result<()> {
+pub(crate) fn no_link(path: &Path) -> io::Result<()> {
     if path.is_symlink() {
         return Err(io::Error::new(
             io::ErrorKind::InvalidInput,
@@ -70,7 +77,7 @@ pub fn no_link(path: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// What the system says; [`io::ErrorKind::InvalidInput`] if one of them is a symbolic link.
-pub fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
+pub(crate) fn make_below(root: &Path, name: &Path) -> io::Result<PathBuf> {
     let mut path = root.to_owned();
     for part in name {
         path.push(part);

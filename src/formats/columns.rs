@@ -4,14 +4,14 @@
 //! Read with `numpy.fromfile(path)`, the last three with `.reshape(-1, balls)`.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::files::{hex, no_link, sha256};
+use crate::files::{FileError, hex, no_link, sha256};
 use crate::system::{Column, RunRecord};
 
 /// Bytes a number.
@@ -36,15 +36,8 @@ pub struct ColumnFiles {
 #[derive(Debug, Error)]
 pub enum ColumnError {
     /// The file system refused.
-    #[error("cannot {what} {}: {source}", path.display())]
-    Io {
-        /// What was tried.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A file that lacks rows which a checkpoint counts on.
     #[error("{} has {found} bytes: expected at least {expected} of the rows that the checkpoint counts", path.display())]
     Cut {
@@ -57,9 +50,9 @@ pub enum ColumnError {
     },
 }
 
-/// Name of a column's file.
-fn file_name(column: Column) -> String {
-    match column {
+/// A column's file.
+fn path_of(folder: &Path, column: Column) -> PathBuf {
+    let name = match column {
         Column::Sensor(sensor) => format!("sensor-{sensor}.f64"),
         Column::Time => "time_s.f64".to_owned(),
         Column::ShaftX => "shaft_x.f64".to_owned(),
@@ -67,23 +60,28 @@ fn file_name(column: Column) -> String {
         Column::BallRadius => "ball_radius.f64".to_owned(),
         Column::OuterForce => "outer_force.f64".to_owned(),
         Column::InnerForce => "inner_force.f64".to_owned(),
-    }
+    };
+    folder.join(name)
 }
 
 impl ColumnFiles {
     /// Begins empty columns in a folder, in the place of earlier ones.
     ///
     /// # Errors
-    /// [`ColumnError::Io`].
-    pub fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, ColumnError> {
+    /// [`ColumnError::File`].
+    pub(crate) fn create(
+        folder: &Path,
+        sensors: Vec<String>,
+        balls: usize,
+    ) -> Result<Self, ColumnError> {
         Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
     }
 
     /// Goes on with columns after so many rows; what is beyond them is cut off.
     ///
     /// # Errors
-    /// [`ColumnError::Io`], [`ColumnError::Cut`] if a column has fewer.
-    pub fn resume(
+    /// [`ColumnError::File`], [`ColumnError::Cut`] if a column has fewer.
+    pub(crate) fn resume(
         folder: &Path,
         sensors: Vec<String>,
         balls: usize,
@@ -101,9 +99,8 @@ impl ColumnFiles {
     ) -> Result<Self, ColumnError> {
         let (mut files, mut hashers) = (Vec::new(), Vec::new());
         for column in Column::all(sensors.len()) {
-            let path = folder.join(file_name(column));
-            let failed = |source| ColumnError::Io {
-                what: "open",
+            let path = path_of(folder, column);
+            let failed = |source| FileError::Open {
                 path: path.clone(),
                 source,
             };
@@ -151,7 +148,7 @@ impl ColumnFiles {
     }
 
     /// SHA-256 of the rows of all columns, 64 hexadecimal digits.
-    pub fn digest(&self) -> String {
+    pub(crate) fn digest(&self) -> String {
         let mut all = Sha256::new();
         for hasher in &self.hashers {
             all.update(hasher.clone().finalize());
@@ -162,8 +159,8 @@ impl ColumnFiles {
     /// Appends rows of the same sensors and balls.
     ///
     /// # Errors
-    /// [`ColumnError::Io`].
-    pub fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
+    /// [`ColumnError::File`].
+    pub(crate) fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
         let places = 0..rows.rows();
         let mut bytes = Vec::new();
         for ((column, file), hasher) in self.files.iter_mut().zip(&mut self.hashers) {
@@ -172,7 +169,7 @@ impl ColumnFiles {
             bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
             hasher.update(&bytes);
             let written = file.write_all(&bytes);
-            written.map_err(failure("write", &self.folder, *column))?;
+            written.map_err(FileError::write(&path_of(&self.folder, *column)))?;
         }
         self.rows += places.len();
         Ok(())
@@ -181,12 +178,12 @@ impl ColumnFiles {
     /// Brings everything to the disk.
     ///
     /// # Errors
-    /// [`ColumnError::Io`].
-    pub fn sync(&self) -> Result<(), ColumnError> {
+    /// [`ColumnError::File`].
+    pub(crate) fn sync(&self) -> Result<(), ColumnError> {
         for (column, file) in &self.files {
             // with its length
             let synced = file.sync_data();
-            synced.map_err(failure("write", &self.folder, *column))?;
+            synced.map_err(FileError::write(&path_of(&self.folder, *column)))?;
         }
         Ok(())
     }
@@ -194,46 +191,33 @@ impl ColumnFiles {
     /// Hands the numbers of some rows of a column to `take`, piece by piece. Rows that are not there are left out.
     ///
     /// # Errors
-    /// [`ColumnError::Io`] and what `take` returns.
+    /// [`ColumnError::File`] and what `take` returns.
     pub fn read<E: From<ColumnError>>(
         &self,
         column: Column,
         rows: Range<usize>,
         mut take: impl FnMut(&[f64]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let failed = failure("read", &self.folder, column);
+        let path = path_of(&self.folder, column);
+        let failed = |source| ColumnError::from(FileError::read(&path)(source));
         let rows = rows.start.min(self.rows)..rows.end.min(self.rows);
         let places = column.places(&rows, self.balls);
-        let mut file = File::open(self.folder.join(file_name(column))).map_err(&failed)?;
+        let mut file = File::open(&path).map_err(failed)?;
         let first = (places.start * BYTES) as u64;
-        file.seek(SeekFrom::Start(first)).map_err(&failed)?;
+        file.seek(SeekFrom::Start(first)).map_err(failed)?;
         let mut file = BufReader::with_capacity(1 << 16, file);
         let (mut left, mut bytes) = (places.len(), [0; BYTES]);
         let mut values = Vec::with_capacity(PIECE.min(left));
         while left > 0 {
             values.clear();
             for _ in 0..PIECE.min(left) {
-                file.read_exact(&mut bytes).map_err(&failed)?;
+                file.read_exact(&mut bytes).map_err(failed)?;
                 values.push(f64::from_le_bytes(bytes));
             }
             left -= values.len();
             take(&values)?;
         }
         Ok(())
-    }
-}
-
-/// What to say when the file system refuses.
-fn failure(
-    what: &'static str,
-    folder: &Path,
-    column: Column,
-) -> impl Fn(io::Error) -> ColumnError + use<> {
-    let path = folder.join(file_name(column));
-    move |source| ColumnError::Io {
-        what,
-        path: path.clone(),
-        source,
     }
 }
 
@@ -341,6 +325,9 @@ mod tests {
         );
         std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
         let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
-        assert!(matches!(error, ColumnError::Io { .. }), "{error}");
+        assert!(
+            matches!(error, ColumnError::File(FileError::Open { .. })),
+            "{error}"
+        );
     }
 }

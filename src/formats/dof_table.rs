@@ -11,13 +11,12 @@
 //! | `x_m`, `y_m`, `z_m` | the node's position in the mesh's axes; empty where it has none |
 //! | `axis_x`, `axis_y`, `axis_z` | unit vector along or about which it moves, in the mesh's axes; empty where it has none |
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::{NpzError, NpzWriter};
-use crate::files::{AtomicFile, write_atomic};
+use super::npz::npz_label;
+use super::{FormatError, NpzWriter};
+use crate::files::{AtomicFile, Fault, FileError, write_atomic};
 
 const COLUMNS: [&str; 12] = [
     "row",
@@ -76,16 +75,6 @@ pub struct DofLabel {
     pub axis: [f64; 3],
 }
 
-/// A table that cannot be written.
-#[derive(Debug, Error)]
-#[error("cannot write {}: {source}", path.display())]
-pub struct DofTableError {
-    /// The file.
-    pub path: PathBuf,
-    /// What the system said.
-    pub source: io::Error,
-}
-
 impl DofBody {
     /// Its name in the files.
     pub fn name(self) -> &'static str {
@@ -98,7 +87,7 @@ impl DofBody {
     }
 
     /// The body of this name, if there is one.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub(crate) fn of_name(name: &str) -> Option<Self> {
         let all = [Self::Housing, Self::Ring, Self::Interface, Self::Modal];
         all.into_iter().find(|body| body.name() == name)
     }
@@ -138,7 +127,7 @@ impl DofDirection {
     }
 
     /// The direction of this number, if there is one.
-    pub fn of_component(component: i64) -> Option<Self> {
+    pub(crate) fn of_component(component: i64) -> Option<Self> {
         let component = usize::try_from(component).ok()?;
         Some(match component {
             0 => Self::Generalised,
@@ -174,8 +163,8 @@ impl DofLabel {
 /// Writes the rows as CSV (RFC 4180), whole or not at all. Numbers have as many digits as give back every bit.
 ///
 /// # Errors
-/// [`DofTableError`] when the file cannot be written.
-pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), DofTableError> {
+/// [`FileError::Write`].
+pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), FileError> {
     let write = |to: &mut AtomicFile| {
         write!(to, "{}\r\n", COLUMNS.join(","))?;
         for (row, label) in rows.iter().enumerate() {
@@ -193,22 +182,17 @@ pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), DofTableErro
         }
         Ok(())
     };
-    write_atomic(path, write).map_err(|source| DofTableError {
-        path: path.to_owned(),
-        source,
-    })
+    write_atomic(path, write)
 }
 
 /// Writes the rows as a NumPy archive, whole or not at all: `body`, `node`, `direction` \[rows\], `position_m` and `axis`
 /// \[rows x 3\], NaN where a row has none.
 ///
 /// # Errors
-/// [`NpzError`] when the file cannot be written; labels of more than i64 holds.
-pub fn write_dofs_npz(path: &Path, rows: &[DofLabel]) -> Result<(), NpzError> {
-    let mut nodes = Vec::with_capacity(rows.len());
-    for &DofLabel { node: label, .. } in rows {
-        nodes.push(i64::try_from(label).map_err(|_| NpzError::Label { label })?);
-    }
+/// [`FormatError::File`] when the file cannot be written, [`FormatError::Data`] for labels beyond i64.
+pub fn write_dofs_npz(path: &Path, rows: &[DofLabel]) -> Result<(), FormatError> {
+    let nodes: Result<Vec<i64>, Fault> = rows.iter().map(|row| npz_label(row.node)).collect();
+    let nodes = nodes?;
     let texts = |text: fn(&DofLabel) -> &'static str| rows.iter().map(text).collect::<Vec<_>>();
     let vectors = |vector: fn(&DofLabel) -> [f64; 3]| rows.iter().map(vector).collect::<Vec<_>>();
     let mut npz = NpzWriter::create(path)?;
@@ -266,7 +250,7 @@ mod tests {
             2,3,ring,0,about_x,rad,0.1,-2e-7,0.3333333333333333,0.0,1.0,0.0\r\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), expected);
         let error = write_dofs_csv(&folder.path().join("no/dofs.csv"), &rows()).unwrap_err();
-        assert!(error.path.ends_with("no/dofs.csv"));
+        assert!(matches!(error, FileError::Write { path, .. } if path.ends_with("no/dofs.csv")));
     }
 
     #[test]
@@ -317,6 +301,6 @@ mod tests {
             ..rows()[0]
         };
         let error = write_dofs_npz(&path, &[beyond]).unwrap_err();
-        assert!(matches!(error, NpzError::Label { label: u64::MAX }));
+        assert!(error.to_string().ends_with("found 18446744073709551615"));
     }
 }

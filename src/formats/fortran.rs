@@ -45,6 +45,16 @@ pub(super) fn columns(line: &str, width: usize) -> Vec<&str> {
         .collect()
 }
 
+/// The first 60 characters of a line in quotation marks, for messages.
+pub(super) fn quoted(line: &str) -> String {
+    let text = line.trim();
+    let mut found: String = text.chars().take(60).collect();
+    if found.len() < text.len() {
+        found.push_str("...");
+    }
+    format!("\"{found}\"")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,60 +6,24 @@
 //! formats: initial design", NISTIR 5935, 1996.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use crate::files::{AtomicFile, write_atomic};
+use super::FormatError;
+use crate::files::{AtomicFile, Fault, write_atomic};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
-
-/// Why a matrix cannot be written.
-#[derive(Debug, Error)]
-pub enum MatrixMarketError {
-    /// The file system refused.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// A matrix that cannot be symmetric.
-    #[error("expected a square matrix for {}, found {rows} x {columns}", path.display())]
-    Shape {
-        /// The file.
-        path: PathBuf,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Columns of the matrix.
-        columns: usize,
-    },
-}
 
 /// Writes the lower triangle of a symmetric matrix, whole or not at all. `comment` goes below the banner, line by line
 /// (what the matrix is, its units). That the upper triangle is the lower one transposed is not checked.
 ///
 /// # Errors
-/// [`MatrixMarketError::Shape`] unless the matrix is square, [`MatrixMarketError::Write`].
+/// [`FormatError::Data`] unless the matrix is square, [`FormatError::File`].
 pub fn write_matrix_market(
     path: &Path,
     matrix: &SparseMatrix,
     comment: &str,
-) -> Result<(), MatrixMarketError> {
-    let (rows, columns) = matrix.shape();
-    if rows != columns {
-        return Err(MatrixMarketError::Shape {
-            path: path.to_owned(),
-            rows,
-            columns,
-        });
-    }
-    write_atomic(path, |to| write_lower(to, matrix, comment)).map_err(|source| {
-        MatrixMarketError::Write {
-            path: path.to_owned(),
-            source,
-        }
-    })
+) -> Result<(), FormatError> {
+    check_square(path, matrix.shape())?;
+    Ok(write_atomic(path, |to| write_lower(to, matrix, comment))?)
 }
 
 /// As [`write_matrix_market`], of a dense matrix.
@@ -70,15 +34,9 @@ pub fn write_dense_matrix_market(
     path: &Path,
     matrix: &DenseMatrix,
     comment: &str,
-) -> Result<(), MatrixMarketError> {
+) -> Result<(), FormatError> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
-    if rows != columns {
-        return Err(MatrixMarketError::Shape {
-            path: path.to_owned(),
-            rows,
-            columns,
-        });
-    }
+    check_square(path, (rows, columns))?;
     let write = |to: &mut AtomicFile| {
         write_head(to, "array", comment)?;
         writeln!(to, "{rows} {columns}")?;
@@ -89,10 +47,15 @@ pub fn write_dense_matrix_market(
         }
         Ok(())
     };
-    write_atomic(path, write).map_err(|source| MatrixMarketError::Write {
-        path: path.to_owned(),
-        source,
-    })
+    Ok(write_atomic(path, write)?)
+}
+
+fn check_square(path: &Path, (rows, columns): (usize, usize)) -> Result<(), Fault> {
+    if rows == columns {
+        return Ok(());
+    }
+    let expected = format!("a square matrix for {}", path.display());
+    Err(Fault::new(expected, format!("{rows} x {columns}")))
 }
 
 fn write_head(to: &mut impl Write, format: &str, comment: &str) -> io::Result<()> {
@@ -133,6 +96,7 @@ mod tests {
     use nalgebra_sparse::io::load_coo_from_matrix_market_file;
 
     use super::*;
+    use crate::files::FileError;
 
     fn sample() -> SparseMatrix {
         // symmetric, with a stored zero, an empty column and values of every size
@@ -183,14 +147,7 @@ mod tests {
                         3.6666666666666665e0\n7.0000000000000000e0\n7.3333333333333330e0\n";
         assert_eq!(fs::read_to_string(&path).unwrap(), expected);
         let error = write_dense_matrix_market(&path, &DenseMatrix::zeros(2, 3), "").unwrap_err();
-        assert!(matches!(
-            error,
-            MatrixMarketError::Shape {
-                rows: 2,
-                columns: 3,
-                ..
-            }
-        ));
+        assert!(error.to_string().ends_with("k.mtx, found 2 x 3"));
     }
 
     #[test]
@@ -208,6 +165,8 @@ mod tests {
         assert_eq!(error, expected);
         let nowhere = folder.path().join("no/k.mtx");
         let error = write_matrix_market(&nowhere, &sample(), "").unwrap_err();
-        assert!(matches!(error, MatrixMarketError::Write { path, .. } if path == nowhere));
+        assert!(
+            matches!(error, FormatError::File(FileError::Write { path, .. }) if path == nowhere)
+        );
     }
 }

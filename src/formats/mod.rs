@@ -13,12 +13,13 @@
 //! | measured signals ([`measured`]) | `.npz`, `.mat`, `.csv`, `.wav`, `.uff` | | signals over time |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
 //!
-//! Every file is written under a temporary name and renamed ([`AtomicFile`](crate::files::AtomicFile)): a half-written file never carries its name.
+//! Every file is written under a temporary name and renamed: a half-written file never carries its name.
 //! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
 
 mod columns;
 pub mod csv;
 pub mod dof_table;
+mod error;
 mod fortran;
 pub mod matrix_market;
 pub mod measured;
@@ -31,26 +32,25 @@ pub mod uff;
 pub mod vtu;
 
 pub use columns::{ColumnError, ColumnFiles};
-pub use csv::{CsvError, read_modes_csv, write_modes_csv};
-pub use dof_table::{
-    DofBody, DofDirection, DofLabel, DofTableError, write_dofs_csv, write_dofs_npz,
-};
-pub use matrix_market::{MatrixMarketError, write_dense_matrix_market, write_matrix_market};
+pub use csv::{read_modes_csv, write_modes_csv};
+pub use dof_table::{DofBody, DofDirection, DofLabel, write_dofs_csv, write_dofs_npz};
+pub use error::FormatError;
+pub use matrix_market::{write_dense_matrix_market, write_matrix_market};
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
-pub use mode_shapes::{ModeShapes, ModeShapesError};
+pub use mode_shapes::ModeShapes;
 pub use npz::{
-    NpzArray, NpzError, NpzReadError, NpzReader, NpzWriter, is_array_name, read_modes_npz,
-    write_modes_npz, write_sparse_npz,
+    NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, write_modes_npz,
+    write_sparse_npz,
 };
-pub use op4::{Op4Error, Op4Format, Op4Matrix, Op4Place, op4_from_bytes, read_op4, write_op4};
-pub use read_modes::{ReadModesError, read_mode_shapes};
+pub use op4::{Op4Format, Op4Matrix, op4_from_bytes, read_op4, write_op4};
+pub use read_modes::read_mode_shapes;
 pub use superelement::{
     FieldRecovery, InterfaceRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow,
-    SuperelementError, SuperelementRecord, read_superelement_npz, read_superelement_op4,
-    write_mbdyn_fem, write_superelement_npz, write_superelement_op4,
+    SuperelementRecord, read_superelement_npz, read_superelement_op4, write_mbdyn_fem,
+    write_superelement_npz, write_superelement_op4,
 };
 pub use uff::{
-    FrequencyResponse, ResponseFault, ResponseKind, ResponsePoint, UffError, read_modes_uff,
-    read_responses_uff, write_modes_uff, write_responses_uff, write_uff,
+    FrequencyResponse, ResponseKind, ResponsePoint, read_modes_uff, read_responses_uff,
+    write_modes_uff, write_responses_uff, write_uff,
 };
-pub use vtu::{Field, FieldValues, VtuError, write_vtu};
+pub use vtu::{Field, FieldValues, write_vtu};

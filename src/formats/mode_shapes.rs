@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use thiserror::Error;
+use crate::files::Fault;
 
 /// Frequencies and shapes of some modes at some points, from a calculation or a measurement.
 ///
@@ -18,77 +18,6 @@ pub struct ModeShapes {
     pub points: Option<Vec<[f64; 3]>>,
     /// Displacements of each mode: (u_x, u_y, u_z) of the first point, of the second, ...
     pub shapes: Vec<Vec<f64>>,
-}
-
-/// Mode shapes that contradict themselves.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ModeShapesError {
-    /// Nothing to show.
-    #[error("expected at least one mode at one point, found {modes} modes at {points} points")]
-    Empty {
-        /// Number of frequencies.
-        modes: usize,
-        /// Number of points.
-        points: usize,
-    },
-    /// Another number of frequencies than of shapes.
-    #[error("expected a shape for each of {frequencies} frequencies, found {shapes} shapes")]
-    Shapes {
-        /// Number of frequencies.
-        frequencies: usize,
-        /// Number of shapes.
-        shapes: usize,
-    },
-    /// A shape that does not fit the points.
-    #[error("expected {expected} values in mode {mode} (three a point), found {found}")]
-    Length {
-        /// Mode, counted from 1.
-        mode: usize,
-        /// Three times the number of points.
-        expected: usize,
-        /// Values of the mode.
-        found: usize,
-    },
-    /// Labels and coordinates of different numbers of points.
-    #[error("expected as many points as labels, found {points} points and {tags} labels")]
-    Points {
-        /// Number of coordinates.
-        points: usize,
-        /// Number of labels.
-        tags: usize,
-    },
-    /// A label of two points.
-    #[error("expected each node once, found node {tag} twice")]
-    DuplicateTag {
-        /// The label.
-        tag: u64,
-    },
-    /// A frequency that is none.
-    #[error("expected a frequency >= 0 Hz for mode {mode}, found {found}")]
-    Frequency {
-        /// Mode, counted from 1.
-        mode: usize,
-        /// The value.
-        found: f64,
-    },
-    /// A displacement that is infinite or no number.
-    #[error("expected finite displacements in mode {mode}, found {found} at point {point}")]
-    Displacement {
-        /// Mode, counted from 1.
-        mode: usize,
-        /// Point, counted from 1.
-        point: usize,
-        /// The value.
-        found: f64,
-    },
-    /// A coordinate that is infinite or no number.
-    #[error("expected finite coordinates, found {found} at point {point}")]
-    Coordinate {
-        /// Point, counted from 1.
-        point: usize,
-        /// The value.
-        found: f64,
-    },
 }
 
 impl ModeShapes {
@@ -110,64 +39,57 @@ impl ModeShapes {
     /// what it returns, every writer checks what it is given.
     ///
     /// # Errors
-    /// [`ModeShapesError`], the first fault found.
-    pub fn check(&self) -> Result<(), ModeShapesError> {
+    /// [`Fault`], the first that is found.
+    pub fn check(&self) -> Result<(), Fault> {
         let (modes, points) = (self.count_modes(), self.count_points());
         if modes == 0 || points == 0 {
-            return Err(ModeShapesError::Empty { modes, points });
+            let found = format!("{modes} modes at {points} points");
+            return Err(Fault::new("at least one mode at one point", found));
         }
         if self.shapes.len() != modes {
-            return Err(ModeShapesError::Shapes {
-                frequencies: modes,
-                shapes: self.shapes.len(),
-            });
+            let expected = format!("a shape for each of {modes} frequencies");
+            let found = format!("{} shapes", self.shapes.len());
+            return Err(Fault::new(expected, found));
         }
         self.check_points(points)?;
         for (index, &found) in self.frequencies_hz.iter().enumerate() {
             if !(found.is_finite() && found >= 0.0) {
-                let mode = index + 1;
-                return Err(ModeShapesError::Frequency { mode, found });
+                let expected = format!("a frequency >= 0 Hz for mode {}", index + 1);
+                return Err(Fault::new(expected, found));
             }
         }
         for (index, shape) in self.shapes.iter().enumerate() {
             let mode = index + 1;
             if shape.len() != 3 * points {
-                return Err(ModeShapesError::Length {
-                    mode,
-                    expected: 3 * points,
-                    found: shape.len(),
-                });
+                let expected = format!("{} values in mode {mode} (three a point)", 3 * points);
+                return Err(Fault::new(expected, shape.len()));
             }
             if let Some(place) = shape.iter().position(|value| !value.is_finite()) {
-                return Err(ModeShapesError::Displacement {
-                    mode,
-                    point: place / 3 + 1,
-                    found: shape[place],
-                });
+                let found = format!("{} at point {}", shape[place], place / 3 + 1);
+                let expected = format!("finite displacements in mode {mode}");
+                return Err(Fault::new(expected, found));
             }
         }
         Ok(())
     }
 
-    fn check_points(&self, count: usize) -> Result<(), ModeShapesError> {
+    fn check_points(&self, count: usize) -> Result<(), Fault> {
         if let Some(points) = &self.points {
             if points.len() != count {
-                return Err(ModeShapesError::Points {
-                    points: points.len(),
-                    tags: count,
-                });
+                let found = format!("{} points and {count} labels", points.len());
+                return Err(Fault::new("as many points as labels", found));
             }
             for (index, point) in points.iter().enumerate() {
-                if let Some(&found) = point.iter().find(|value| !value.is_finite()) {
-                    let point = index + 1;
-                    return Err(ModeShapesError::Coordinate { point, found });
+                if let Some(found) = point.iter().find(|value| !value.is_finite()) {
+                    let found = format!("{found} at point {}", index + 1);
+                    return Err(Fault::new("finite coordinates", found));
                 }
             }
         }
         let mut seen = HashSet::new();
         let mut tags = self.node_tags.iter().flatten();
         match tags.find(|&&tag| !seen.insert(tag)) {
-            Some(&tag) => Err(ModeShapesError::DuplicateTag { tag }),
+            Some(tag) => Err(Fault::new("each node once", format!("node {tag} twice"))),
             None => Ok(()),
         }
     }

@@ -1,45 +1,25 @@
 //! Mode shapes from a file of any format that the program reads.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::{CsvError, ModeShapes, NpzReadError, UffError};
+use super::{FormatError, ModeShapes};
 use super::{read_modes_csv, read_modes_npz, read_modes_uff};
-
-/// Why a file gives no mode shapes.
-#[derive(Debug, Error)]
-pub enum ReadModesError {
-    /// An ending that is none of a format.
-    #[error("expected a file of mode shapes (.npz, .csv, .uff or .unv), found {}", path.display())]
-    Ending {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A NumPy archive.
-    #[error(transparent)]
-    Npz(#[from] NpzReadError),
-    /// A table.
-    #[error(transparent)]
-    Csv(#[from] CsvError),
-    /// A universal file.
-    #[error(transparent)]
-    Uff(#[from] UffError),
-}
+use crate::files::Fault;
 
 /// Reads mode shapes; the ending of the file's name tells its format: `.npz`, `.csv`, `.uff` or `.unv`.
 ///
 /// # Errors
-/// [`ReadModesError`] for another ending, and what the reader of the format says.
-pub fn read_mode_shapes(path: &Path) -> Result<ModeShapes, ReadModesError> {
+/// [`FormatError::Data`] for another ending, and what the reader of the format says.
+pub fn read_mode_shapes(path: &Path) -> Result<ModeShapes, FormatError> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     match ending.unwrap_or_default().to_lowercase().as_str() {
-        "npz" => Ok(read_modes_npz(path)?),
-        "csv" => Ok(read_modes_csv(path)?),
-        "uff" | "unv" => Ok(read_modes_uff(path)?),
-        _ => Err(ReadModesError::Ending {
-            path: path.to_owned(),
-        }),
+        "npz" => read_modes_npz(path),
+        "csv" => read_modes_csv(path),
+        "uff" | "unv" => read_modes_uff(path),
+        _ => {
+            let expected = "a file of mode shapes (.npz, .csv, .uff or .unv)";
+            Err(Fault::new(expected, path.display()).into())
+        }
     }
 }
 

@@ -6,8 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::{CliError, ResultsError};
 use crate::app::case::Case;
-use crate::files;
-use crate::files::FileDigest;
+use crate::files::{self, FileDigest, FileError};
 
 /// Where a result has the digests of the files beside it.
 pub(super) const ARRAYS: &str = "arrays";
@@ -28,14 +27,11 @@ pub(super) struct Wanted {
 /// SHA-256 of files by their names, for the result that speaks of them.
 ///
 /// # Errors
-/// [`CliError::Write`] for a file that is gone.
+/// [`CliError::File`] for a file that is gone.
 pub(super) fn digests(files: &[PathBuf]) -> Result<Value, CliError> {
     let mut map = Map::new();
     for path in files {
-        let digest = FileDigest::of_file(path).map_err(|source| CliError::Write {
-            path: path.clone(),
-            source,
-        })?;
+        let digest = FileDigest::of_file(path).map_err(FileError::write(path))?;
         let name = path.file_name().unwrap_or_default();
         map.insert(name.to_string_lossy().into_owned(), json!(digest.sha256));
     }

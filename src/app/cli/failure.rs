@@ -12,6 +12,7 @@ use crate::app::shell_word::printable;
 use crate::app::studies::chart::ChartError;
 use crate::app::studies::sweep::SweepError;
 use crate::app::verification::VerificationError;
+use crate::files::FileError;
 
 /// Why a command did not end well.
 #[derive(Debug, Error)]
@@ -89,13 +90,8 @@ pub enum CliError {
         source: io::Error,
     },
     /// A result cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// Standard output cannot be written, for another reason than a closed pipe.
     #[error("cannot write to standard output: {0}")]
     StandardOutput(#[source] io::Error),
@@ -195,7 +191,7 @@ impl CliError {
             Self::Export(error) if error.is_input() => 2,
             Self::Chart(error) if error.is_input() => 2,
             Self::Sweep(error) if error.is_input() => 2,
-            Self::Write { .. }
+            Self::File(_)
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
             | Self::Interrupted { .. }
@@ -241,7 +237,7 @@ impl CliError {
                 "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"
                     .to_owned(),
             ),
-            Self::Write { .. }
+            Self::File(_)
             | Self::StandardOutput(_)
             | Self::ResumeAnew
             | Self::Signals(_)
@@ -270,9 +266,8 @@ mod tests {
         VerificationError,
     };
     use crate::app::case::Case;
-    use crate::app::error::ComputeError;
-    use crate::app::error::UnfinishedError;
-    use crate::formats::DofTableError;
+    use crate::app::error::{ComputeError, UnfinishedError};
+    use crate::files::FileError;
 
     fn every() -> Vec<(CliError, u8, &'static str)> {
         let path = || PathBuf::from("out/a");
@@ -298,10 +293,10 @@ mod tests {
                 "error: cannot make the folder out/a: full\nhelp: choose another folder with --out\n",
             ),
             (
-                CliError::Write {
+                CliError::from(FileError::Write {
                     path: path(),
                     source: source(),
-                },
+                }),
                 1,
                 "error: cannot write out/a: full\n",
             ),
@@ -502,7 +497,7 @@ mod tests {
                 "error: the built-in case has no bearing\n",
             ),
             (
-                CliError::from(ExportError::Dofs(DofTableError {
+                CliError::from(ExportError::from(FileError::Write {
                     path: path(),
                     source: source(),
                 })),

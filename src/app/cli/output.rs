@@ -25,13 +25,10 @@ pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// Writes a file under a temporary name beside it and renames it: a half-written file never carries its name.
 ///
 /// # Errors
-/// [`CliError::Write`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
+/// [`CliError::File`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
 /// name is as it was.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    files::write_atomic(path, |file| file.write_all(bytes)).map_err(|source| CliError::Write {
-        path: path.to_owned(),
-        source,
-    })
+    Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
 }
 
 /// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
@@ -124,7 +121,7 @@ impl OutputFolder {
     /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
     ///
     /// # Errors
-    /// [`CliError::Folder`] or [`CliError::Write`].
+    /// [`CliError::Folder`] or [`CliError::File`].
     pub fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
         self.write(name, bytes)
@@ -144,7 +141,7 @@ impl OutputFolder {
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.
     ///
     /// # Errors
-    /// [`CliError::Write`].
+    /// [`CliError::File`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         let path = self.path.join(name);
         write_atomic(&path, bytes)?;
@@ -160,6 +157,7 @@ mod tests {
 
     use super::{CliError, Options, OutputFolder, emit, write_atomic};
     use crate::app::case::{Case, Source};
+    use crate::files::FileError;
 
     struct Broken(io::ErrorKind);
 
@@ -224,7 +222,9 @@ mod tests {
         let path = folder.join("run.json");
         fs::create_dir_all(path.join("inside")).unwrap();
         let error = write_atomic(&path, b"text").unwrap_err();
-        assert!(matches!(error, CliError::Write { path: named, .. } if named == path));
+        assert!(
+            matches!(error, CliError::File(FileError::Write { path: named, .. }) if named == path)
+        );
         assert_eq!(names(&folder), ["run.json"]);
         assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
         assert!(write_atomic(Path::new("/"), b"text").is_err());

@@ -8,6 +8,7 @@ use serde_json::json;
 use super::report_files::{ReportFiles, page_of};
 use super::results_error::{ResultsError, WITH_REPORT};
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use crate::files::FileError;
 use crate::report::Report;
 
 /// Draws every report in a folder again, page, tables and figures, there or in `--out`. Nothing is computed; the results stay.
@@ -59,10 +60,7 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
 
 /// The contents of reports in a folder, in order of their names, each with the name of its page.
 fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
-    let failed = |source| ResultsError::Unreadable {
-        path: folder.to_owned(),
-        source,
-    };
+    let failed = |source| FileError::read(folder)(source);
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let entry = entry.map_err(failed)?;
@@ -81,10 +79,7 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
 
 /// The report that a file holds, and the command that it is of.
 fn read(path: &Path) -> Result<(String, Report), ResultsError> {
-    let bytes = fs::read(path).map_err(|source| ResultsError::Unreadable {
-        path: path.to_owned(),
-        source,
-    })?;
+    let bytes = fs::read(path).map_err(FileError::read(path))?;
     let report = Report::from_record(&bytes).map_err(|source| ResultsError::BrokenReport {
         path: path.to_owned(),
         source,

@@ -1,11 +1,11 @@
 //! Why the results of an earlier command cannot be used.
 
-use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
 use crate::app::shell_word::shell_word;
+use crate::files::FileError;
 use crate::report::ReportError;
 
 /// The commands that write reports, by the names of their results.
@@ -81,13 +81,8 @@ pub enum ResultsError {
         found: String,
     },
     /// A folder with reports, or a file in it, cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Unreadable {
-        /// Folder or file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Unreadable(#[from] FileError),
     /// The folder has no content of a report.
     #[error("{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page", folder.display())]
     NoReport {
@@ -142,7 +137,7 @@ impl ResultsError {
             Self::BrokenReport { .. } | Self::OtherReport { .. } => {
                 "run the command again with --force".to_owned()
             }
-            Self::Unreadable { .. } => return None,
+            Self::Unreadable(_) => return None,
         };
         Some(text)
     }

@@ -21,7 +21,7 @@ pub(super) fn completions(shell: Shell, to: &mut impl Write) -> Result<(), CliEr
 /// Writes the manual page, or with `--out` that of every command as `plummer-COMMAND.1` into the folder.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`]; [`CliError::Folder`] and [`CliError::Write`] for the folder's files.
+/// [`CliError::StandardOutput`]; [`CliError::Folder`] and [`CliError::File`] for the folder's files.
 pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError> {
     let command = Arguments::command();
     let Some(folder) = &options.out else {

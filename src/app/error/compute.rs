@@ -14,8 +14,8 @@ use crate::fe::modal::ModalError;
 use crate::fe::model::{HousingModel, ModelError, NodeInterface, RingError};
 use crate::fe::reduction::ReductionError;
 use crate::fe::reduction::frf::FrfError;
-use crate::files::FileError;
-use crate::formats::{ColumnError, CsvError, MeasuredError, NpzError, ReadModesError, UffError};
+use crate::files::{Fault, FileError, Place};
+use crate::formats::{ColumnError, FormatError, MeasuredError};
 use crate::numerics::linalg::HarmonicError;
 use crate::numerics::linalg::LinalgError;
 use crate::numerics::ode::TransientError;
@@ -70,7 +70,7 @@ pub enum ComputeError {
     Modal(ModalError),
     /// A file of mode shapes that cannot be read.
     #[error(transparent)]
-    ModeShapes(#[from] ReadModesError),
+    ModeShapes(FormatError),
     /// Mode shapes at points that are nowhere.
     #[error("{}: expected mode shapes at points, found {found}", file.display())]
     PointsUnknown {
@@ -384,12 +384,9 @@ pub enum ComputeError {
     /// Signal analysis.
     #[error("analysis: {0}")]
     Signal(#[from] SignalError),
-    /// Responses on disk.
+    /// Results that cannot be written.
     #[error(transparent)]
-    Uff(#[from] UffError),
-    /// Signals on disk.
-    #[error(transparent)]
-    Npz(#[from] NpzError),
+    Format(#[from] FormatError),
     /// The report.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -439,7 +436,10 @@ impl ComputeError {
                  stiffer springs or a link, or leave it out of housing.parts"
                     .to_owned(),
             ),
-            Self::ModeShapes(ReadModesError::Csv(CsvError::File(FileError::Content { .. }))) => Some(
+            Self::ModeShapes(FormatError::File(FileError::Content {
+                path,
+                fault: Fault { place: Place::Line(_), .. },
+            })) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) => Some(
                 "frequencies without shapes are checked by `modes.expected` in the case file".to_owned(),
             ),
             Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(
@@ -473,12 +473,8 @@ impl ComputeError {
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
             Self::Unfinished(error) => error.is_input(),
-            Self::Interrupted { .. } | Self::Columns(ColumnError::Io { .. }) => false,
-            Self::MeshChanged { .. }
-            | Self::Series(_)
-            | Self::Npz(_)
-            | Self::Uff(_)
-            | Self::Report(_) => false,
+            Self::Interrupted { .. } | Self::Columns(ColumnError::File(_)) => false,
+            Self::MeshChanged { .. } | Self::Series(_) | Self::Format(_) | Self::Report(_) => false,
             _ => true,
         }
     }

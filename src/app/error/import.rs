@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::fe::reduction::Bound;
-use crate::formats::{NpzReadError, Op4Error};
+use crate::formats::FormatError;
 
 /// Why a superelement from a file cannot take the housing's place.
 #[derive(Debug, Error)]
@@ -11,12 +11,9 @@ pub enum ImportError {
     /// A file of another kind.
     #[error("expected a file that ends in .npz or .op4")]
     Format,
-    /// A NumPy archive that is none of a superelement.
+    /// A file that cannot be read, or is none of a superelement.
     #[error("{0}")]
-    Npz(#[from] NpzReadError),
-    /// An OUTPUT4 file that is none of a superelement.
-    #[error("{0}")]
-    Op4(#[from] Op4Error),
+    File(#[from] FormatError),
     /// Modes of an interface in its place.
     #[error(
         "expected the ring's own coordinates, found {modes} modes of an interface of {coordinates} coordinates (array \

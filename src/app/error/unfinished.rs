@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::files::FileError;
+
 /// An unfinished run that is in the way or cannot go on.
 #[derive(Debug, Error)]
 pub enum UnfinishedError {
@@ -42,15 +44,8 @@ pub enum UnfinishedError {
         what: String,
     },
     /// The checkpoint cannot be read or written.
-    #[error("cannot {what} {}: {source}", path.display())]
-    File {
-        /// What was tried.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The folder cannot be made or removed.
     #[error("cannot make or remove the folder {}: {source}", path.display())]
     Folder {
@@ -77,12 +72,12 @@ impl UnfinishedError {
                 Self::ANEW
             )),
             Self::Model | Self::Damaged { .. } => Some(Self::ANEW.to_owned()),
-            Self::File { .. } | Self::Folder { .. } => None,
+            Self::File(_) | Self::Folder { .. } => None,
         }
     }
 
     /// Whether the input is to blame, rather than the file system.
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::File { .. } | Self::Folder { .. })
+        !matches!(self, Self::File(_) | Self::Folder { .. })
     }
 }

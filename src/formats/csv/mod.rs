@@ -14,64 +14,11 @@
 //! 2,880.1,17,0.4,-0.1,0.2
 //! ```
 
-mod error;
 mod read;
 #[cfg(test)]
 mod tests;
+mod write;
 
-use std::io::Write;
-use std::path::Path;
-
-pub use error::CsvError;
 pub(super) use read::line_of;
-pub use read::{modes_from_bytes, read_modes_csv};
-
-use super::ModeShapes;
-use crate::files::write_atomic;
-
-const BY_POINT: [&str; 8] = ["mode", "frequency_hz", "x", "y", "z", "ux", "uy", "uz"];
-const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy", "uz"];
-
-/// Writes mode shapes, whole or not at all: by node labels if there are any, else by points. Numbers have as many digits
-/// as give back every bit.
-///
-/// # Errors
-/// [`CsvError::Modes`] for mode shapes that contradict themselves, [`CsvError::NoPlaces`] without labels and points,
-/// [`CsvError::Write`].
-pub fn write_modes_csv(path: &Path, modes: &ModeShapes) -> Result<(), CsvError> {
-    modes.check().map_err(|fault| CsvError::Modes {
-        path: path.to_owned(),
-        fault,
-    })?;
-    let (header, places): (&[&str], Vec<Vec<String>>) = match (&modes.node_tags, &modes.points) {
-        (Some(tags), _) => (
-            &BY_NODE,
-            tags.iter().map(|tag| vec![tag.to_string()]).collect(),
-        ),
-        (None, Some(points)) => {
-            let place = |point: &[f64; 3]| point.iter().map(f64::to_string).collect();
-            (&BY_POINT, points.iter().map(place).collect())
-        }
-        (None, None) => return Err(CsvError::NoPlaces),
-    };
-    let written = write_atomic(path, |to| {
-        let mut table = ::csv::Writer::from_writer(&mut *to);
-        table.write_record(header)?;
-        for (index, (frequency, shape)) in
-            modes.frequencies_hz.iter().zip(&modes.shapes).enumerate()
-        {
-            let mode = [(index + 1).to_string(), frequency.to_string()];
-            for (place, displacement) in places.iter().zip(shape.chunks_exact(3)) {
-                let displacement: Vec<String> = displacement.iter().map(f64::to_string).collect();
-                table.write_record(mode.iter().chain(place).chain(&displacement))?;
-            }
-        }
-        table.flush()?;
-        drop(table);
-        to.flush()
-    });
-    written.map_err(|source| CsvError::Write {
-        path: path.to_owned(),
-        source,
-    })
-}
+pub use read::read_modes_csv;
+pub use write::write_modes_csv;

@@ -1,23 +1,21 @@
 //! Reads a table of mode shapes.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 
 use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
 
-use super::super::ModeShapes;
-use super::{BY_NODE, BY_POINT, CsvError};
-use crate::files::{FileError, bytes_of};
+use super::super::{FormatError, ModeShapes};
+use crate::files::{Fault, bytes_of};
 
-/// What is wrong in which line.
-struct Fault {
-    line: u64,
-    expected: String,
-    found: String,
-}
+/// The header of a table by points.
+pub(super) const BY_POINT: [&str; 8] = ["mode", "frequency_hz", "x", "y", "z", "ux", "uy", "uz"];
+/// The header of a table by labels.
+pub(super) const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy", "uz"];
 
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
-pub(in super::super) fn line_of(text: &str, place: &Position) -> u64 {
+pub(in crate::formats) fn line_of(text: &str, place: &Position) -> u64 {
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
     let passed = rest
         .lines()
@@ -44,30 +42,21 @@ struct Mode {
 /// Reads the mode shapes of a table; the format is that of [the module](super).
 ///
 /// # Errors
-/// [`CsvError`] with file and line, what was found and what was expected.
-pub fn read_modes_csv(path: &Path) -> Result<ModeShapes, CsvError> {
+/// [`FormatError::File`] with file and line, what was found and what was expected.
+pub fn read_modes_csv(path: &Path) -> Result<ModeShapes, FormatError> {
     modes_from_bytes(&bytes_of(path)?, path)
 }
 
 /// As [`read_modes_csv`], of a file that is in memory; `path` is for messages.
-///
-/// # Errors
-/// As [`read_modes_csv`].
-pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, CsvError> {
+pub(super) fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, FormatError> {
     // Comments may be in any encoding; numbers and header are ASCII.
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    let modes = read(text).map_err(|fault| FileError::Content {
-        path: path.to_owned(),
-        line: fault.line,
-        expected: fault.expected,
-        found: fault.found,
-    })?;
-    modes.check().map_err(|fault| CsvError::Modes {
-        path: path.to_owned(),
-        fault,
-    })?;
-    Ok(modes)
+    let read = read(text).and_then(|modes| {
+        modes.check()?;
+        Ok(modes)
+    });
+    Ok(read.map_err(|fault| fault.of(path))?)
 }
 
 /// A line of the table with the text of its numbers.
@@ -78,12 +67,12 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    fn fault(&self, expected: impl Into<String>, found: impl std::fmt::Display) -> Fault {
-        Fault {
-            line: self.line,
-            expected: expected.into(),
-            found: format!("\"{found}\""),
-        }
+    fn fault(
+        &self,
+        expected: impl Into<Cow<'static, str>>,
+        found: impl std::fmt::Display,
+    ) -> Fault {
+        Fault::new(expected, format!("\"{found}\"")).line(self.line)
     }
 
     fn text(&self, column: usize) -> &str {
@@ -128,10 +117,9 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
     let (mut modes, mut places) = (Vec::<Mode>::new(), Vec::new());
     let mut index_of = HashMap::new();
     for record in table.records() {
-        let record = record.map_err(|error| Fault {
-            line: error.position().map_or(0, Position::line),
-            expected: "a line of the table".to_owned(),
-            found: error.to_string(),
+        let record = record.map_err(|error| {
+            let line = error.position().map_or(0, Position::line);
+            Fault::new("a line of the table", error).line(line)
         })?;
         // programs that keep the separators of empty cells
         if record.iter().all(str::is_empty) {
@@ -148,11 +136,7 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
         };
         if record.len() != columns.len() {
             let expected = format!("{} columns", columns.len());
-            return Err(Fault {
-                line: row.line,
-                expected,
-                found: record.len().to_string(),
-            });
+            return Err(Fault::new(expected, record.len()).line(row.line));
         }
         let (mode, place, displacement) = values(&row, columns)?;
         let frequency_hz = mode.frequency_hz;
@@ -170,14 +154,11 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
         if index == 0 {
             places.push(place);
         } else if places.get(row_of_mode) != Some(&place) {
-            return Err(Fault {
-                line: row.line,
-                expected: match places.get(row_of_mode) {
-                    Some(first) => format!("{} as in the first mode", place_text(*first)),
-                    None => format!("{} points as in the first mode", places.len()),
-                },
-                found: place_text(place),
-            });
+            let expected = match places.get(row_of_mode) {
+                Some(first) => format!("{} as in the first mode", place_text(*first)),
+                None => format!("{} points as in the first mode", places.len()),
+            };
+            return Err(Fault::new(expected, place_text(place)).line(row.line));
         }
     }
     complete(modes, places)
@@ -226,11 +207,9 @@ fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
         .iter()
         .find(|mode| mode.shape.len() != 3 * places.len());
     if let Some(mode) = short {
-        return Err(Fault {
-            line: mode.line,
-            expected: format!("{} points in every mode", places.len()),
-            found: format!("{} in mode {}", mode.shape.len() / 3, mode.number),
-        });
+        let expected = format!("{} points in every mode", places.len());
+        let found = format!("{} in mode {}", mode.shape.len() / 3, mode.number);
+        return Err(Fault::new(expected, found).line(mode.line));
     }
     let tag = |place: &Place| match *place {
         Place::Node(tag) => Some(tag),

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
+use super::super::ModeShapes;
 use super::super::mode_shapes::samples::two_modes;
+use super::read::modes_from_bytes;
 use super::*;
 
 fn read(text: &str) -> Result<ModeShapes, String> {

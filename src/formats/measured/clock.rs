@@ -2,10 +2,8 @@
 
 use std::path::Path;
 
-use super::MeasuredError;
+use super::error::{MeasuredError, STEP_TOLERANCE};
 
-/// How far one step may be from the median step, relative: what six digits leave of 48 kHz, and far from a lost sample.
-pub(super) const STEP_TOLERANCE: f64 = 0.1;
 /// How far an instant may be from that of equal steps, in steps: half a sample.
 const DRIFT_TOLERANCE: f64 = 0.5;
 
@@ -43,9 +41,7 @@ impl Clock {
             }),
         }
     }
-}
 
-impl Clock {
     /// The sampling rate that a file's own words amount to, Hz.
     pub(super) fn rate_hz(&self) -> Option<f64> {
         let step_s = match self {

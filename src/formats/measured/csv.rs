@@ -6,10 +6,11 @@ use std::rc::Rc;
 use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
 
 use super::super::csv::line_of;
+use super::channel::{Channel, choose};
 use super::clock::Clock;
 use super::header::{name_and_unit, time_unit};
-use super::{Channel, MeasuredError, SignalRequest, choose};
-use crate::files::{FileError, bytes_of};
+use super::{MeasuredError, SignalRequest};
+use crate::files::{Fault, bytes_of};
 
 /// What is read of each line.
 struct Columns {
@@ -228,13 +229,8 @@ impl Table<'_> {
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
         let short: String = found.chars().take(40).collect();
-        let content = FileError::Content {
-            path: self.path.to_owned(),
-            line,
-            expected: expected.to_owned(),
-            found: format!("\"{short}\""),
-        };
-        content.into()
+        let fault = Fault::new(expected.to_owned(), format!("\"{short}\""));
+        fault.line(line).of(self.path).into()
     }
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {

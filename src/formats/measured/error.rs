@@ -4,15 +4,14 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::super::{NpzReadError, UffError};
-use super::clock::STEP_TOLERANCE;
+use super::super::FormatError;
 use crate::files::FileError;
 use crate::numerics::series::SeriesError;
 
 /// Why a signal cannot be read.
 #[derive(Debug, Error)]
 pub enum MeasuredError {
-    /// The file cannot be read, or a line of a table is not what should stand there.
+    /// The file cannot be read, or something in it is not what should stand there.
     #[error(transparent)]
     File(#[from] FileError),
     /// An ending that says of no format.
@@ -21,30 +20,15 @@ pub enum MeasuredError {
         /// The file.
         path: PathBuf,
     },
-    /// An archive that is none, or an array that is not what it should be.
+    /// An archive or a universal file that cannot be read, or has no signals.
     #[error(transparent)]
-    Npz(#[from] NpzReadError),
-    /// A universal file that is damaged, or without signals.
-    #[error(transparent)]
-    Uff(#[from] UffError),
+    Format(#[from] FormatError),
     /// A sound file that is damaged.
     #[error("{}: expected a sound file (RIFF WAVE, PCM of 8 to 32 bits, float of 32 or 64), found: {found}", path.display())]
     Wav {
         /// The file.
         path: PathBuf,
         /// What the library found.
-        found: String,
-    },
-    /// A MATLAB file that is damaged or none.
-    #[error("{}: {place}: expected {expected}, found {found}", path.display())]
-    Mat {
-        /// The file.
-        path: PathBuf,
-        /// Array and byte, counted from 0.
-        place: String,
-        /// What the format has there.
-        expected: String,
-        /// What stands there.
         found: String,
     },
     /// A MATLAB file of a version that is not read.
@@ -137,16 +121,6 @@ pub enum MeasuredError {
         /// Channels of the file.
         known: Vec<String>,
     },
-    /// Samples whose squares are no numbers any more.
-    #[error("{}: channel \"{channel}\": expected a largest magnitude from {:e} to {:e}, found {peak:e}", path.display(), MAGNITUDES[0], MAGNITUDES[1])]
-    Magnitude {
-        /// The file.
-        path: PathBuf,
-        /// The channel.
-        channel: String,
-        /// The largest magnitude.
-        peak: f64,
-    },
     /// Samples that are none, or no samples.
     #[error("{}: channel \"{channel}\": {source}", path.display())]
     Series {
@@ -159,8 +133,8 @@ pub enum MeasuredError {
     },
 }
 
-/// Magnitudes whose fourth powers, which kurtosis takes, a number can hold.
-pub(super) const MAGNITUDES: [f64; 2] = [1e-60, 1e60];
+/// How far one step may be from the median step, relative: what six digits leave of 48 kHz, and far from a lost sample.
+pub(super) const STEP_TOLERANCE: f64 = 0.1;
 
 /// Most names that are listed.
 const LISTED: usize = 20;

@@ -4,10 +4,11 @@ use std::path::Path;
 use std::rc::Rc;
 
 use super::super::NpzReader;
+use super::channel::{Channel, choose};
 use super::clock::Clock;
 use super::header::time_unit;
 use super::stated::{one_speed, speed_unit};
-use super::{Channel, MeasuredError, SignalRequest, choose};
+use super::{MeasuredError, SignalRequest};
 
 /// Names of arrays of one value that are a rate in Hz.
 const RATES: [&str; 4] = ["rate_hz", "fs", "sampling_rate", "sample_rate"];

@@ -3,16 +3,18 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::super::ModeShapes;
-use super::{NpzError, NpzReadError, NpzReader, NpzWriter};
+use super::super::{FormatError, ModeShapes};
+use super::writer::npz_label;
+use super::{NpzReader, NpzWriter};
+use crate::files::Fault;
 
 /// Writes mode shapes, whole or not at all: `frequencies_hz` \[count\], `eigenvalues` \[count\] (`(2 pi f)^2`, 1/s^2),
 /// `shapes` \[count x nodes x 3\] and, if they are known, `nodes` \[nodes x 3\], m, and `node_tags` \[nodes\].
 ///
 /// # Errors
-/// [`NpzError::Modes`] for mode shapes that contradict themselves or labels beyond i64, else as [`NpzWriter`].
-pub fn write_modes_npz(path: &Path, modes: &ModeShapes) -> Result<(), NpzError> {
-    modes.check().map_err(|fault| NpzError::Modes { fault })?;
+/// [`FormatError::Data`] for mode shapes that contradict themselves or labels beyond i64, else as [`NpzWriter`].
+pub fn write_modes_npz(path: &Path, modes: &ModeShapes) -> Result<(), FormatError> {
+    modes.check()?;
     let mut npz = NpzWriter::create(path)?;
     npz.array("frequencies_hz", &modes.frequencies_hz)?;
     let eigenvalue = |frequency: &f64| (TAU * frequency).powi(2);
@@ -27,11 +29,8 @@ pub fn write_modes_npz(path: &Path, modes: &ModeShapes) -> Result<(), NpzError> 
         npz.matrix("nodes", points.len(), 3, points.as_flattened())?;
     }
     if let Some(tags) = &modes.node_tags {
-        let mut numbers = Vec::with_capacity(tags.len());
-        for &tag in tags {
-            numbers.push(i64::try_from(tag).map_err(|_| NpzError::Label { label: tag })?);
-        }
-        npz.array("node_tags", &numbers)?;
+        let numbers: Result<Vec<i64>, Fault> = tags.iter().copied().map(npz_label).collect();
+        npz.array("node_tags", &numbers?)?;
     }
     npz.finish()
 }
@@ -40,30 +39,24 @@ pub fn write_modes_npz(path: &Path, modes: &ModeShapes) -> Result<(), NpzError> 
 /// out.
 ///
 /// # Errors
-/// [`NpzReadError`] for archives that cannot be read, and for arrays that are missing or do not fit each other.
-pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, NpzReadError> {
+/// [`FormatError`] for archives that cannot be read, and for arrays that are missing or do not fit each other.
+pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, FormatError> {
     let mut npz = NpzReader::open(path)?;
     let frequencies = npz.f64("frequencies_hz")?;
     let shapes = npz.f64("shapes")?;
-    let wrong = |name: &str, expected, shape: &[usize]| NpzReadError::Array {
-        path: path.to_owned(),
-        name: name.to_owned(),
-        expected,
-        found: format!("shape {shape:?}"),
-    };
     let &[count] = frequencies.shape.as_slice() else {
-        return Err(wrong("frequencies_hz", "one dimension", &frequencies.shape));
+        return Err(npz.wrong_shape("frequencies_hz", "one dimension", &frequencies.shape));
     };
     let count_points = match shapes.shape.as_slice() {
         &[modes, points, 3] if modes == count => points,
-        found => return Err(wrong("shapes", "a shape [modes, nodes, 3]", found)),
+        found => return Err(npz.wrong_shape("shapes", "a shape [modes, nodes, 3]", found)),
     };
     let points = match npz.has("nodes") {
         false => None,
         true => {
             let nodes = npz.f64("nodes")?;
             if nodes.shape != [count_points, 3] {
-                return Err(wrong("nodes", "a shape [nodes, 3]", &nodes.shape));
+                return Err(npz.wrong_shape("nodes", "a shape [nodes, 3]", &nodes.shape));
             }
             let (points, _) = nodes.values.as_chunks::<3>();
             Some(points.to_vec())
@@ -74,15 +67,10 @@ pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, NpzReadError> {
         true => {
             let tags = npz.i64("node_tags")?;
             if tags.shape != [count_points] {
-                return Err(wrong("node_tags", "a shape [nodes]", &tags.shape));
+                return Err(npz.wrong_shape("node_tags", "a shape [nodes]", &tags.shape));
             }
             let label = |&tag: &i64| {
-                u64::try_from(tag).map_err(|_| NpzReadError::Array {
-                    path: path.to_owned(),
-                    name: "node_tags".to_owned(),
-                    expected: "labels >= 0",
-                    found: tag.to_string(),
-                })
+                u64::try_from(tag).map_err(|_| npz.wrong("node_tags", "labels >= 0", tag))
             };
             Some(tags.values.iter().map(label).collect::<Result<_, _>>()?)
         }
@@ -97,9 +85,6 @@ pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, NpzReadError> {
         points,
         shapes: shapes.map(<[f64]>::to_vec).collect(),
     };
-    modes.check().map_err(|fault| NpzReadError::Modes {
-        path: path.to_owned(),
-        fault,
-    })?;
+    modes.check().map_err(|fault| fault.of(path))?;
     Ok(modes)
 }

@@ -1,15 +1,16 @@
 //! Reads arrays out of an archive.
 
+use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use zip::ZipArchive;
 
-use super::NpzReadError;
+use super::super::FormatError;
 use super::decoder::{Decoder, real, text, whole};
 use super::header::{Header, parse};
-use crate::files;
+use crate::files::{self, Fault, FileError};
 
 /// An array that was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,17 +42,11 @@ impl NpzReader {
     /// Opens an archive.
     ///
     /// # Errors
-    /// [`NpzReadError::Io`], [`NpzReadError::Archive`].
-    pub fn open(path: &Path) -> Result<Self, NpzReadError> {
-        let file = files::open(path).map_err(|source| NpzReadError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
-        let archive =
-            ZipArchive::new(BufReader::new(file)).map_err(|source| NpzReadError::Archive {
-                path: path.to_owned(),
-                source,
-            })?;
+    /// [`FormatError::File`].
+    pub fn open(path: &Path) -> Result<Self, FormatError> {
+        let file = files::open(path).map_err(FileError::read(path))?;
+        let archive = ZipArchive::new(BufReader::new(file))
+            .map_err(|error| Fault::new("a NumPy archive (.npz)", error).of(path))?;
         Ok(Self {
             path: path.to_owned(),
             archive,
@@ -75,8 +70,8 @@ impl NpzReader {
     /// Reads an array of f64 (`<f8`).
     ///
     /// # Errors
-    /// [`NpzReadError`] if there is none of this name, it is damaged, of another type, or has more than three dimensions.
-    pub fn f64(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
+    /// [`FormatError`] if there is none of this name, it is damaged, of another type, or has more than three dimensions.
+    pub fn f64(&mut self, name: &str) -> Result<NpzValues<f64>, FormatError> {
         let own = |type_name: &str| (type_name == "<f8").then(|| real(type_name)).flatten();
         self.values(name, "numbers of type '<f8'", own)
     }
@@ -85,7 +80,7 @@ impl NpzReader {
     ///
     /// # Errors
     /// As [`f64`](Self::f64).
-    pub fn i64(&mut self, name: &str) -> Result<NpzValues<i64>, NpzReadError> {
+    pub fn i64(&mut self, name: &str) -> Result<NpzValues<i64>, FormatError> {
         let own = |type_name: &str| (type_name == "<i8").then(|| whole(type_name)).flatten();
         self.values(name, "numbers of type '<i8'", own)
     }
@@ -94,7 +89,7 @@ impl NpzReader {
     ///
     /// # Errors
     /// As [`f64`](Self::f64).
-    pub fn real(&mut self, name: &str) -> Result<NpzValues<f64>, NpzReadError> {
+    pub fn real(&mut self, name: &str) -> Result<NpzValues<f64>, FormatError> {
         self.values(name, "real numbers (f8, f4, i1 to i8, u1 to u4)", real)
     }
 
@@ -102,7 +97,7 @@ impl NpzReader {
     ///
     /// # Errors
     /// As [`f64`](Self::f64).
-    pub fn whole(&mut self, name: &str) -> Result<NpzValues<i64>, NpzReadError> {
+    pub fn whole(&mut self, name: &str) -> Result<NpzValues<i64>, FormatError> {
         self.values(name, "whole numbers (i8, i4 or u4)", whole)
     }
 
@@ -111,8 +106,44 @@ impl NpzReader {
     ///
     /// # Errors
     /// As [`f64`](Self::f64).
-    pub fn texts(&mut self, name: &str) -> Result<NpzValues<String>, NpzReadError> {
+    pub fn texts(&mut self, name: &str) -> Result<NpzValues<String>, FormatError> {
         self.values(name, "text (U or S) of 1 to 16384 characters", text)
+    }
+
+    /// An array that is not what it should be.
+    pub(in crate::formats) fn wrong(
+        &self,
+        name: &str,
+        expected: &'static str,
+        found: impl fmt::Display,
+    ) -> FormatError {
+        array_fault(&self.path, name, expected, found)
+    }
+
+    /// An array whose shape is not what it should be.
+    pub(in crate::formats) fn wrong_shape(
+        &self,
+        name: &str,
+        expected: &'static str,
+        shape: &[usize],
+    ) -> FormatError {
+        self.wrong(name, expected, format!("shape {shape:?}"))
+    }
+
+    /// An array that is not there.
+    pub(in crate::formats) fn missing(&self, name: &str) -> FormatError {
+        let names = self.names();
+        let known: Vec<String> = names
+            .iter()
+            .take(20)
+            .map(|name| format!("\"{name}\""))
+            .collect();
+        let known = match known.is_empty() {
+            true => "no arrays".to_owned(),
+            false => known.join(", "),
+        };
+        let fault = Fault::new(format!("an array \"{name}\""), known);
+        fault.of(&self.path).into()
     }
 
     fn values<T: Clone>(
@@ -120,22 +151,15 @@ impl NpzReader {
         name: &str,
         expected_type: &'static str,
         decoder: impl Fn(&str) -> Option<Decoder<T>>,
-    ) -> Result<NpzValues<T>, NpzReadError> {
+    ) -> Result<NpzValues<T>, FormatError> {
         if !self.has(name) {
-            return Err(NpzReadError::Missing {
-                path: self.path.clone(),
-                name: name.to_owned(),
-                known: self.names(),
-            });
+            return Err(self.missing(name));
         }
-        let wrong = |expected, found| NpzReadError::Array {
-            path: self.path.clone(),
-            name: name.to_owned(),
-            expected,
-            found,
-        };
-        let damaged = |source| NpzReadError::Damaged {
-            path: self.path.clone(),
+        let path = &self.path;
+        let wrong =
+            |expected: &'static str, found: String| array_fault(path, name, expected, found);
+        let damaged = |source| FormatError::Damaged {
+            path: path.clone(),
             name: name.to_owned(),
             source,
         };
@@ -164,6 +188,16 @@ impl NpzReader {
         }
         Ok(header.in_c_order(values))
     }
+}
+
+fn array_fault(
+    path: &Path,
+    name: &str,
+    expected: &'static str,
+    found: impl fmt::Display,
+) -> FormatError {
+    let fault = Fault::new(expected, found).within(format!("array \"{name}\""));
+    fault.of(path).into()
 }
 
 /// Text of the header; none if it does not begin as one or is too long.

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use super::{NpzElement, NpzError, NpzWriter};
+use super::super::FormatError;
+use super::{NpzElement, NpzWriter};
 use crate::numerics::linalg::SparseMatrix;
 
 /// Writes a sparse matrix that `scipy.sparse.load_npz` reads: `indices`, `indptr`, `format`, `shape`, `data`. Indices have
 /// 32 bits where that is enough, as SciPy's own.
 ///
 /// # Errors
-/// [`NpzError`] when the file cannot be written.
-pub fn write_sparse_npz(path: &Path, matrix: &SparseMatrix) -> Result<(), NpzError> {
+/// [`FormatError`] when the file cannot be written.
+pub fn write_sparse_npz(path: &Path, matrix: &SparseMatrix) -> Result<(), FormatError> {
     let mut npz = NpzWriter::create(path)?;
     let (rows, columns) = matrix.shape();
     let offsets = matrix.indptr();
@@ -32,7 +33,7 @@ fn indices<T: NpzElement>(
     indices: &[usize],
     offsets: &[usize],
     narrow: impl Fn(usize) -> T,
-) -> Result<(), NpzError> {
+) -> Result<(), FormatError> {
     for (name, values) in [("indices", indices), ("indptr", offsets)] {
         let mut array = npz.begin::<T>(name, &[values.len()])?;
         for piece in values.chunks(4096) {

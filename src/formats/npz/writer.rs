@@ -1,14 +1,15 @@
 //! Writes arrays into an archive.
 
 use std::io::{self, Write};
+use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use super::super::FormatError;
 use super::header::header;
-use super::{NpzArray, NpzElement, NpzError};
-use crate::files::AtomicFile;
+use crate::files::{AtomicFile, Fault, FileError};
 
 /// Whether an array may be called this: letters, digits, `_`, `-`, `.` and spaces, at least one of them.
 ///
@@ -34,7 +35,7 @@ pub fn is_array_name(name: &str) -> bool {
 /// npz.matrix("ball_radius", 2, 3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
 /// npz.finish()?;
 /// # std::fs::remove_file(&path).ok();
-/// # Ok::<(), plummer::formats::NpzError>(())
+/// # Ok::<(), plummer::formats::FormatError>(())
 /// ```
 #[derive(Debug)]
 pub struct NpzWriter {
@@ -43,21 +44,18 @@ pub struct NpzWriter {
     archive: Option<ZipWriter<AtomicFile>>,
     names: Vec<String>,
     /// Array begun and not ended.
-    pub(super) incomplete: Option<String>,
+    incomplete: Option<String>,
 }
 
 impl NpzWriter {
     /// Begins an archive that will be called `path` once finished.
     ///
     /// # Errors
-    /// [`NpzError::Io`] if the temporary file cannot be made.
-    pub fn create(path: impl AsRef<Path>) -> Result<Self, NpzError> {
+    /// [`FormatError::File`] if the temporary file cannot be made.
+    pub fn create(path: impl AsRef<Path>) -> Result<Self, FormatError> {
         let path = path.as_ref();
         let partial = AtomicFile::partial_of(path);
-        let file = AtomicFile::create(path).map_err(|source| NpzError::Io {
-            path: partial.clone(),
-            source,
-        })?;
+        let file = AtomicFile::create(path).map_err(FileError::write(&partial))?;
         Ok(Self {
             partial,
             archive: Some(ZipWriter::new(file)),
@@ -70,7 +68,7 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn array<T: NpzElement>(&mut self, name: &str, values: &[T]) -> Result<(), NpzError> {
+    pub fn array<T: NpzElement>(&mut self, name: &str, values: &[T]) -> Result<(), FormatError> {
         let mut array = self.begin(name, &[values.len()])?;
         array.extend(values)?;
         array.end()
@@ -79,14 +77,14 @@ impl NpzWriter {
     /// Writes a matrix of `rows` x `columns`, `values` row by row (C order).
     ///
     /// # Errors
-    /// As [`begin`](Self::begin), and [`NpzError::Shape`] unless there are rows x columns values.
+    /// As [`begin`](Self::begin), and [`FormatError::Count`] unless there are rows x columns values.
     pub fn matrix<T: NpzElement>(
         &mut self,
         name: &str,
         rows: usize,
         columns: usize,
         values: &[T],
-    ) -> Result<(), NpzError> {
+    ) -> Result<(), FormatError> {
         let mut array = self.begin(name, &[rows, columns])?;
         array.extend(values)?;
         array.end()
@@ -95,23 +93,30 @@ impl NpzWriter {
     /// Begins an array of a known shape whose values come in pieces, last index fastest (C order).
     ///
     /// # Errors
-    /// [`NpzError::Name`], [`NpzError::Duplicate`], [`NpzError::Incomplete`] if an earlier array is, [`NpzError::Io`],
-    /// [`NpzError::Archive`].
+    /// [`FormatError::ArrayName`], [`FormatError::DuplicateArray`], [`FormatError::Incomplete`] if an earlier array is,
+    /// [`FormatError::File`].
     pub fn begin<T: NpzElement>(
         &mut self,
         name: &str,
         shape: &[usize],
-    ) -> Result<NpzArray<'_, T>, NpzError> {
+    ) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
         self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
-        Ok(NpzArray::new(self, name, shape, expected))
+        Ok(NpzArray {
+            writer: self,
+            element: PhantomData,
+            name: name.to_owned(),
+            shape: shape.to_vec(),
+            expected,
+            written: 0,
+        })
     }
 
     /// Writes a one-dimensional array of text (NumPy `<U`), each as long as the longest.
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn texts(&mut self, name: &str, values: &[&str]) -> Result<(), NpzError> {
+    pub fn texts(&mut self, name: &str, values: &[&str]) -> Result<(), FormatError> {
         let lengths = values.iter().map(|text| text.chars().count());
         // NumPy has no text of length 0
         let length = lengths.max().unwrap_or(0).max(1);
@@ -130,7 +135,7 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn bytes(&mut self, name: &str, value: &[u8]) -> Result<(), NpzError> {
+    pub fn bytes(&mut self, name: &str, value: &[u8]) -> Result<(), FormatError> {
         // NumPy has no string of length 0
         let length = value.len().max(1);
         self.start(name, &header(&format!("|S{length}"), &[]), length)?;
@@ -142,12 +147,12 @@ impl NpzWriter {
     }
 
     /// Begins an entry whose values, `length` bytes, will follow its header.
-    fn start(&mut self, name: &str, header: &[u8], length: usize) -> Result<(), NpzError> {
+    fn start(&mut self, name: &str, header: &[u8], length: usize) -> Result<(), FormatError> {
         if !is_array_name(name) {
-            return Err(NpzError::Name { name: name.into() });
+            return Err(FormatError::ArrayName { name: name.into() });
         }
         if self.names.iter().any(|n| n == name) {
-            return Err(NpzError::Duplicate { name: name.into() });
+            return Err(FormatError::DuplicateArray { name: name.into() });
         }
         self.check_complete()?;
         self.names.push(name.to_owned());
@@ -157,52 +162,138 @@ impl NpzWriter {
         let options = SimpleFileOptions::DEFAULT
             .compression_method(CompressionMethod::Stored)
             .large_file(bytes > u64::from(u32::MAX) - (1 << 16));
-        let path = self.partial.clone();
-        self.archive()?
-            .start_file(format!("{name}.npy"), options)
-            .map_err(|source| NpzError::Archive { path, source })?;
+        let begun = self.archive()?.start_file(format!("{name}.npy"), options);
+        begun.map_err(|error| FileError::write(&self.partial)(error.into()))?;
         self.write(header)
     }
 
     /// Completes the archive and gives it its name, in place of an earlier one.
     ///
     /// # Errors
-    /// [`NpzError::Incomplete`], [`NpzError::Io`], [`NpzError::Archive`]; the temporary file is then removed.
-    pub fn finish(mut self) -> Result<(), NpzError> {
+    /// [`FormatError::Incomplete`], [`FormatError::File`]; the temporary file is then removed.
+    pub fn finish(mut self) -> Result<(), FormatError> {
         self.check_complete()?;
-        let partial = self.partial.clone();
         let Some(archive) = self.archive.take() else {
             return Ok(());
         };
-        let file = archive.finish().map_err(|source| NpzError::Archive {
-            path: partial.clone(),
-            source,
-        })?;
-        file.commit().map_err(|source| NpzError::Io {
-            path: partial,
-            source,
-        })
+        let finished = archive.finish().map_err(io::Error::from);
+        let committed = finished.and_then(AtomicFile::commit);
+        Ok(committed.map_err(FileError::write(&self.partial))?)
     }
 
-    fn check_complete(&self) -> Result<(), NpzError> {
+    fn check_complete(&self) -> Result<(), FormatError> {
         match &self.incomplete {
-            Some(name) => Err(NpzError::Incomplete { name: name.clone() }),
+            Some(name) => Err(FormatError::Incomplete { name: name.clone() }),
             None => Ok(()),
         }
     }
 
-    fn archive(&mut self) -> Result<&mut ZipWriter<AtomicFile>, NpzError> {
-        let path = &self.partial;
-        self.archive.as_mut().ok_or_else(|| NpzError::Io {
-            path: path.clone(),
-            source: io::ErrorKind::NotConnected.into(),
-        })
+    fn archive(&mut self) -> Result<&mut ZipWriter<AtomicFile>, FileError> {
+        let missing = || FileError::write(&self.partial)(io::ErrorKind::NotConnected.into());
+        self.archive.as_mut().ok_or_else(missing)
     }
 
-    pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), NpzError> {
-        let path = self.partial.clone();
-        self.archive()?
-            .write_all(bytes)
-            .map_err(|source| NpzError::Io { path, source })
+    fn write(&mut self, bytes: &[u8]) -> Result<(), FormatError> {
+        let written = self.archive()?.write_all(bytes);
+        Ok(written.map_err(FileError::write(&self.partial))?)
     }
+}
+
+/// An array that is being written piece by piece; made by [`NpzWriter::begin`].
+#[derive(Debug)]
+#[must_use = "an array is complete only after `end`"]
+pub struct NpzArray<'a, T> {
+    writer: &'a mut NpzWriter,
+    element: PhantomData<T>,
+    name: String,
+    shape: Vec<usize>,
+    expected: usize,
+    written: usize,
+}
+
+impl<T: NpzElement> NpzArray<'_, T> {
+    /// Writes the next values.
+    ///
+    /// # Errors
+    /// [`FormatError::Count`] if there are more than the shape holds, [`FormatError::File`].
+    pub fn extend(&mut self, values: &[T]) -> Result<(), FormatError> {
+        self.written += values.len();
+        if self.written > self.expected {
+            return Err(self.shape_error());
+        }
+        let mut bytes = Vec::with_capacity(512 * T::BYTES);
+        for piece in values.chunks(512) {
+            bytes.clear();
+            for &value in piece {
+                value.extend_bytes(&mut bytes);
+            }
+            self.writer.write(&bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Ends the array.
+    ///
+    /// # Errors
+    /// [`FormatError::Count`] if values are missing.
+    pub fn end(self) -> Result<(), FormatError> {
+        if self.written == self.expected {
+            self.writer.incomplete = None;
+            Ok(())
+        } else {
+            Err(self.shape_error())
+        }
+    }
+
+    fn shape_error(&self) -> FormatError {
+        FormatError::Count {
+            what: format!("array \"{}\" of shape {:?}", self.name, self.shape),
+            expected: format!("{} values", self.expected),
+            found: self.written,
+        }
+    }
+}
+
+/// A number that an array may hold.
+pub trait NpzElement: Copy + sealed::Sealed {
+    /// NumPy's name of the type.
+    const TYPE: &'static str;
+    /// Bytes a number.
+    const BYTES: usize;
+
+    /// Appends the number, little-endian.
+    fn extend_bytes(self, bytes: &mut Vec<u8>);
+}
+
+mod sealed {
+    /// No other types: their names and bytes belong together.
+    pub trait Sealed {}
+    impl Sealed for f64 {}
+    impl Sealed for i32 {}
+    impl Sealed for i64 {}
+}
+
+macro_rules! element {
+    ($number:ty, $name:literal) => {
+        impl NpzElement for $number {
+            const TYPE: &'static str = $name;
+            const BYTES: usize = size_of::<$number>();
+
+            fn extend_bytes(self, bytes: &mut Vec<u8>) {
+                bytes.extend(self.to_le_bytes());
+            }
+        }
+    };
+}
+
+element!(f64, "<f8");
+element!(i32, "<i4");
+element!(i64, "<i8");
+
+/// A label as an archive's whole numbers have it.
+///
+/// # Errors
+/// [`Fault`] for labels beyond them.
+pub(in crate::formats) fn npz_label(label: u64) -> Result<i64, Fault> {
+    i64::try_from(label).map_err(|_| Fault::new(format!("labels up to {}", i64::MAX), label))
 }

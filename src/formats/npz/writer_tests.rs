@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use zip::CompressionMethod;
 
-use super::{NpzError, NpzWriter};
+use super::super::FormatError;
+use super::NpzWriter;
 
 /// A directory of its own for each test, removed at the end.
 struct Scratch(PathBuf);
@@ -109,7 +110,7 @@ fn errors_fire_with_their_exact_messages() {
     let scratch = Scratch::new("errors");
     let mut npz = NpzWriter::create(scratch.0.join("e.npz")).expect("create");
     let mut other = NpzWriter::create(scratch.0.join("o.npz")).expect("create");
-    let message = |r: Result<(), NpzError>| r.expect_err("must fail").to_string();
+    let message = |r: Result<(), FormatError>| r.expect_err("must fail").to_string();
     assert_eq!(
         message(npz.array("a/b", &[1.0])),
         "array name must be letters, digits, '_', '-', '.' or spaces, found \"a/b\""

@@ -1,9 +1,9 @@
 //! ASCII files: whole numbers in columns of 8, reals as the header says.
 
-use super::super::fortran::{columns, real};
+use super::super::fortran::{columns, quoted, real};
+use super::Op4Matrix;
 use super::builder::{Builder, Column, Header};
-use super::error::Fault;
-use super::{Op4Matrix, Op4Place};
+use crate::files::Fault;
 
 /// Reals a line and their width, where a header does not say.
 const DEFAULT: RealFormat = RealFormat {
@@ -155,11 +155,9 @@ impl Lines<'_> {
     fn next(&mut self, expected: &'static str) -> Result<String, Fault> {
         self.line += 1;
         if self.rest.is_empty() {
-            return Err(Fault {
-                place: Op4Place::Line(self.line),
-                expected,
-                found: "the end of the file".to_owned(),
-            });
+            return Err(
+                Fault::new(expected, "the end of the file").at(format_args!("line {}", self.line))
+            );
         }
         let end = self.rest.iter().position(|&byte| byte == b'\n');
         let (line, rest) = match end {
@@ -173,16 +171,7 @@ impl Lines<'_> {
 
     /// Tells of the line that was read last.
     fn fault(&self, expected: &'static str, line: &str) -> Fault {
-        let text = line.trim();
-        let mut found: String = text.chars().take(60).collect();
-        if found.len() < text.len() {
-            found.push_str("...");
-        }
-        Fault {
-            place: Op4Place::Line(self.line),
-            expected,
-            found: format!("\"{found}\""),
-        }
+        Fault::new(expected, quoted(line)).at(format_args!("line {}", self.line))
     }
 
     /// So many numbers, from a row on.
@@ -209,10 +198,8 @@ impl Lines<'_> {
             missing -= own;
         }
         let taken = builder.run(row, count, values);
-        taken.map_err(|expected| Fault {
-            place: Op4Place::Line(begin),
-            expected,
-            found: format!("{count} from row {row}"),
+        taken.map_err(|expected| {
+            Fault::new(expected, format!("{count} from row {row}")).at(format_args!("line {begin}"))
         })
     }
 }

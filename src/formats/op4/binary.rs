@@ -1,8 +1,8 @@
 //! Binary files: Fortran records in either byte order, words of 32 or 64 bits.
 
+use super::Op4Matrix;
 use super::builder::{Builder, Column, Header};
-use super::error::Fault;
-use super::{Op4Matrix, Op4Place};
+use crate::files::Fault;
 
 /// Byte order and length of words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,10 +106,12 @@ fn matrix(records: &mut Records) -> Result<Op4Matrix, Fault> {
         kind,
     };
     let name = String::from_utf8_lossy(record.content);
-    let mut builder = Builder::new(header, &name).map_err(|expected| Fault {
-        place: Op4Place::Byte(place),
-        expected,
-        found: format!("{columns} columns, {rows} rows, type {kind}"),
+    let mut builder = Builder::new(header, &name).map_err(|expected| {
+        Fault::new(
+            expected,
+            format!("{columns} columns, {rows} rows, type {kind}"),
+        )
+        .at(format_args!("byte {place}"))
     })?;
     const COLUMN: &str = "column, first row and length of a column";
     loop {
@@ -182,11 +184,7 @@ impl<'a> Records<'a> {
     /// The next record, both of whose lengths fit.
     fn next(&mut self, expected: &'static str) -> Result<Record<'a>, Fault> {
         let place = self.place;
-        let fault = |found: String| Fault {
-            place: Op4Place::Byte(place),
-            expected,
-            found,
-        };
+        let fault = |found: String| Fault::new(expected, found).at(format_args!("byte {place}"));
         let rest = self.bytes.get(place..).unwrap_or_default();
         let length = |bytes: &[u8]| self.words.chunk(bytes).map(u32::from_le_bytes);
         let Some(first) = length(rest) else {
@@ -231,10 +229,6 @@ impl Record<'_> {
     }
 
     fn fault(&self, expected: &'static str, found: String) -> Fault {
-        Fault {
-            place: Op4Place::Byte(self.place),
-            expected,
-            found,
-        }
+        Fault::new(expected, found).at(format_args!("byte {}", self.place))
     }
 }

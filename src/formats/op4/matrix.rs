@@ -1,6 +1,6 @@
 //! A matrix of a file.
 
-use super::Op4Error;
+use crate::files::Fault;
 use crate::numerics::linalg::DenseMatrix;
 
 /// Dense matrices of up to so many numbers (8 MiB) are made whatever the file has of them.
@@ -63,25 +63,23 @@ impl Op4Matrix {
     /// The whole matrix. A number that the file has twice counts once, the last.
     ///
     /// # Errors
-    /// [`Op4Error::Complex`]; [`Op4Error::Sparse`] for more than 2^20 entries of which the file has less than one in a
+    /// [`Fault`] for a complex matrix, and for one of more than 2^20 entries of which the file has less than one in a
     /// thousand, which a few damaged bytes can ask for.
-    pub fn dense(&self) -> Result<DenseMatrix, Op4Error> {
+    pub fn dense(&self) -> Result<DenseMatrix, Fault> {
+        let fault = |expected: &'static str, found: String| {
+            Err(Fault::new(expected, found).within(format!("matrix \"{}\"", self.name)))
+        };
         if self.is_complex() {
-            return Err(Op4Error::Complex {
-                name: self.name.clone(),
-                kind: self.kind,
-            });
+            let found = format!("complex ones (type {})", self.kind);
+            return fault("real numbers", found);
         }
         // a column takes the memory of eight numbers at least
         let size = self.rows.max(8).checked_mul(self.columns);
         let most = SMALL.max(self.values.len().saturating_mul(MOST_ZEROS));
         if size.is_none_or(|size| size > most) {
-            return Err(Op4Error::Sparse {
-                name: self.name.clone(),
-                rows: self.rows,
-                columns: self.columns,
-                values: self.values.len(),
-            });
+            let (rows, columns, values) = (self.rows, self.columns, self.values.len());
+            let found = format!("{rows} x {columns} with {values} numbers");
+            return fault("a matrix that is worth its memory when dense", found);
         }
         let mut matrix = DenseMatrix::zeros(self.rows, self.columns);
         for (row, column, value) in self.entries() {

@@ -20,7 +20,6 @@
 mod ascii;
 mod binary;
 mod builder;
-mod error;
 mod matrix;
 mod read;
 #[cfg(test)]
@@ -29,7 +28,6 @@ mod write;
 #[cfg(test)]
 mod write_tests;
 
-pub use error::{Op4Error, Op4Place};
 pub use matrix::Op4Matrix;
 pub use read::{op4_from_bytes, read_op4};
 pub use write::{Op4Format, write_op4};

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::super::FormatError;
 use super::super::fortran::exponential;
-use super::Op4Error;
-use crate::files::{AtomicFile, write_atomic};
+use crate::files::{AtomicFile, Fault, write_atomic};
 use crate::numerics::linalg::DenseMatrix;
 
 /// How numbers stand in a file.
@@ -28,13 +28,13 @@ const REAL_DOUBLE: i32 = 2;
 /// form 6 (symmetric).
 ///
 /// # Errors
-/// [`Op4Error::Name`] unless a name has 1 to 8 letters and digits, a letter first; [`Op4Error::Size`] for matrices without
-/// entries or beyond the format; [`Op4Error::NotFinite`]; [`Op4Error::Write`].
+/// [`FormatError::Data`] unless each name has 1 to 8 letters and digits, a letter first, and each matrix has finite entries,
+/// at least one and not more than the format holds; [`FormatError::File`].
 pub fn write_op4(
     path: &Path,
     matrices: &[(&str, &DenseMatrix)],
     format: Op4Format,
-) -> Result<(), Op4Error> {
+) -> Result<(), FormatError> {
     for &(name, matrix) in matrices {
         check(name, matrix, format)?;
     }
@@ -47,21 +47,18 @@ pub fn write_op4(
         }
         Ok(())
     };
-    write_atomic(path, write).map_err(|source| Op4Error::Write {
-        path: path.to_owned(),
-        source,
-    })
+    Ok(write_atomic(path, write)?)
 }
 
-fn check(name: &str, matrix: &DenseMatrix, format: Op4Format) -> Result<(), Op4Error> {
+fn check(name: &str, matrix: &DenseMatrix, format: Op4Format) -> Result<(), Fault> {
     let fits = (1..=8).contains(&name.len())
         && name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric());
     if !fits {
-        return Err(Op4Error::Name {
-            name: name.to_owned(),
-        });
+        let expected = "a matrix name of 1 to 8 letters and digits, a letter first";
+        return Err(Fault::new(expected, format!("\"{name}\"")));
     }
+    let of_matrix = |fault: Fault| Err(fault.within(format!("matrix \"{name}\"")));
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     let most = match format {
         // the length of a record, 12 bytes and 8 a row, has 31 bits
@@ -69,21 +66,13 @@ fn check(name: &str, matrix: &DenseMatrix, format: Op4Format) -> Result<(), Op4E
         Op4Format::Ascii => 9_999_999,
     };
     if rows.min(columns) == 0 || rows.max(columns) > most {
-        return Err(Op4Error::Size {
-            name: name.to_owned(),
-            most,
-            rows,
-            columns,
-        });
+        let expected = format!("up to {most} rows and columns");
+        return of_matrix(Fault::new(expected, format!("{rows} x {columns}")));
     }
     for (column, values) in matrix.col_iter().enumerate() {
-        if let Some((row, &found)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(Op4Error::NotFinite {
-                name: name.to_owned(),
-                row,
-                column,
-                found,
-            });
+        if let Some((row, found)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            let found = format!("{found} at [{row}, {column}]");
+            return of_matrix(Fault::new("finite numbers", found));
         }
     }
     Ok(())

@@ -3,8 +3,9 @@
 use std::fs;
 
 use super::super::superelement::samples::{dense, record};
-use super::super::{read_superelement_op4, write_superelement_op4};
+use super::super::{FormatError, read_superelement_op4, write_superelement_op4};
 use super::*;
+use crate::files::FileError;
 use crate::numerics::linalg::DenseMatrix;
 
 #[test]
@@ -124,5 +125,5 @@ fn errors_fire_with_their_exact_messages() {
     );
     let nowhere = folder.path().join("no/a.op4");
     let error = write_op4(&nowhere, &[("K", &one)], Op4Format::Binary).unwrap_err();
-    assert!(matches!(error, Op4Error::Write { path, .. } if path == nowhere));
+    assert!(matches!(error, FormatError::File(FileError::Write { path, .. }) if path == nowhere));
 }

@@ -1,9 +1,11 @@
 //! What a superelement has to keep.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
+use std::fmt;
 
-use super::labels::{INTERFACE, LabelArrays, RECOVERED};
-use super::{SuperelementError, SuperelementRecord};
+use super::SuperelementRecord;
+use crate::files::Fault;
 use crate::formats::{DofDirection, DofLabel};
 use crate::numerics::linalg::DenseMatrix;
 
@@ -14,13 +16,50 @@ pub const SYMMETRY_LIMIT: f64 = 1e-6;
 /// A frequency may differ from that of the matrices by this part of the largest frequency, for the same reason.
 const FREQUENCY_LIMIT: f64 = 1e-6;
 
+/// Arrays of one list of labels.
+#[derive(Debug)]
+pub(super) struct LabelArrays {
+    /// Node and component.
+    pub(super) dofs: &'static str,
+    /// Bodies of the nodes.
+    pub(super) bodies: &'static str,
+    /// Positions of the nodes.
+    pub(super) positions: &'static str,
+    /// Unit vectors.
+    pub(super) axes: &'static str,
+    /// The matrix whose rows they name.
+    pub(super) matrix: &'static str,
+    /// What their number should be.
+    pub(super) expected: &'static str,
+}
+
+/// Of the first coordinates.
+pub(super) const INTERFACE: LabelArrays = LabelArrays {
+    dofs: "interface_dofs",
+    bodies: "interface_bodies",
+    positions: "interface_positions",
+    axes: "interface_axes",
+    matrix: "k",
+    expected: "at most as many rows as \"k\"",
+};
+
+/// Of the interface that modes stand for.
+pub(super) const RECOVERED: LabelArrays = LabelArrays {
+    dofs: "recovered_dofs",
+    bodies: "recovered_bodies",
+    positions: "recovered_positions",
+    axes: "recovered_axes",
+    matrix: "interface_modes",
+    expected: "as many rows as \"interface_modes\"",
+};
+
 impl SuperelementRecord {
     /// Whether everything fits: shapes, finite numbers, symmetry to [`SYMMETRY_LIMIT`] of each matrix's largest entry,
     /// modal frequencies that are those of the diagonals, labels, names and nodes that differ.
     ///
     /// # Errors
-    /// [`SuperelementError`]: the first thing that does not.
-    pub fn check(&self) -> Result<(), SuperelementError> {
+    /// [`Fault`]: the first thing that does not.
+    pub fn check(&self) -> Result<(), Fault> {
         self.check_matrices()?;
         let order = self.order();
         count(
@@ -40,16 +79,14 @@ impl SuperelementRecord {
     }
 
     /// Matrices and labels, without which nothing else can be told.
-    pub(super) fn check_matrices(&self) -> Result<(), SuperelementError> {
+    pub(super) fn check_matrices(&self) -> Result<(), Fault> {
         let (rows, columns) = (self.stiffness.nrows(), self.stiffness.ncols());
         if rows != columns || rows == 0 {
-            return Err(SuperelementError::Square { rows, columns });
+            return Err(not_square(rows, columns));
         }
         if self.interface.len() > rows {
-            return Err(SuperelementError::Interface {
-                order: rows,
-                interface: self.interface.len(),
-            });
+            let expected = format!("at most {rows} interface coordinates (rows of \"k\")");
+            return Err(Fault::new(expected, self.interface.len()));
         }
         let matrices = [
             ("k", Some(&self.stiffness)),
@@ -67,7 +104,7 @@ impl SuperelementRecord {
         check_labels(&self.interface, &INTERFACE)
     }
 
-    fn check_interface_recovery(&self) -> Result<(), SuperelementError> {
+    fn check_interface_recovery(&self) -> Result<(), Fault> {
         let Some(recovery) = &self.interface_recovery else {
             return Ok(());
         };
@@ -77,49 +114,39 @@ impl SuperelementRecord {
         check_labels(&recovery.labels, &RECOVERED)
     }
 
-    fn check_frequencies(&self) -> Result<(), SuperelementError> {
+    fn check_frequencies(&self) -> Result<(), Fault> {
         let expected = self.diagonal_hz()?;
         let largest = expected.iter().fold(0.0_f64, |a, &b| a.max(b));
         for (mode, (&expected, &found)) in expected.iter().zip(&self.modal_hz).enumerate() {
             if (expected - found).abs() > FREQUENCY_LIMIT * largest {
-                return Err(SuperelementError::ModalFrequency {
-                    mode,
-                    expected,
-                    found,
-                });
+                let expected = format!("sqrt(k/m)/2pi = {expected} Hz at [{mode}]");
+                let found = format!("{found} (interface coordinates come first, modes after them)");
+                return Err(of_array("modal_hz", expected, found));
             }
         }
         Ok(())
     }
 
-    fn check_sensors(&self) -> Result<(), SuperelementError> {
+    fn check_sensors(&self) -> Result<(), Fault> {
         let mut names = HashSet::new();
         for (number, sensor) in self.sensors.iter().enumerate() {
             if sensor.row.len() != self.order() {
-                return Err(SuperelementError::Shape {
-                    array: "sensors",
-                    expected: [self.sensors.len(), self.order()],
-                    found: [self.sensors.len(), sensor.row.len()],
-                });
+                let rows = self.sensors.len();
+                let expected = [rows, self.order()];
+                return Err(other_shape("sensors", expected, [rows, sensor.row.len()]));
             }
             if let Some(place) = sensor.row.iter().position(|value| !value.is_finite()) {
-                return Err(SuperelementError::NotFinite {
-                    array: "sensors",
-                    row: number,
-                    column: place,
-                    found: sensor.row[place],
-                });
+                return Err(not_finite("sensors", [number, place], sensor.row[place]));
             }
             if !names.insert(sensor.name.as_str()) {
-                return Err(SuperelementError::SensorName {
-                    name: sensor.name.clone(),
-                });
+                let found = format!("\"{}\" twice", sensor.name);
+                return Err(of_array("sensor_names", "each name once", found));
             }
         }
         Ok(())
     }
 
-    fn check_field(&self) -> Result<(), SuperelementError> {
+    fn check_field(&self) -> Result<(), Fault> {
         let Some(field) = &self.field else {
             return Ok(());
         };
@@ -130,23 +157,25 @@ impl SuperelementRecord {
         finite("field_recovery", &field.recovery)?;
         for (row, position) in field.positions.iter().enumerate() {
             if let Some(column) = position.iter().position(|value| !value.is_finite()) {
-                return Err(SuperelementError::NotFinite {
-                    array: "field_positions",
-                    row,
-                    column,
-                    found: position[column],
-                });
+                return Err(not_finite(
+                    "field_positions",
+                    [row, column],
+                    position[column],
+                ));
             }
         }
         let mut seen = HashSet::new();
         match field.node_tags.iter().find(|&&tag| !seen.insert(tag)) {
-            Some(&tag) => Err(SuperelementError::Node { tag }),
+            Some(tag) => {
+                let found = format!("{tag} twice");
+                Err(of_array("field_node_tags", "each node once", found))
+            }
             None => Ok(()),
         }
     }
 }
 
-fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), SuperelementError> {
+fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), Fault> {
     let mut seen = HashMap::new();
     for (row, label) in labels.iter().enumerate() {
         let (DofDirection::Along(axis) | DofDirection::Polar(axis) | DofDirection::About(axis)) =
@@ -155,22 +184,20 @@ fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), Superele
             continue;
         };
         if axis > 2 {
-            let array = names.dofs;
-            return Err(SuperelementError::Axis { array, row, axis });
+            let expected = format!("an axis 0, 1 or 2 in row {row}");
+            return Err(of_array(names.dofs, expected, axis));
         }
         if let Some(first) = seen.insert((label.body, label.node, label.direction), row) {
-            return Err(SuperelementError::Repeated {
-                array: names.dofs,
-                first,
-                second: row,
-            });
+            let found = format!("rows {first} and {row} alike");
+            return Err(of_array(names.dofs, "each once", found));
         }
     }
     for (row, label) in labels.iter().enumerate() {
         for (array, found) in [(names.positions, label.position), (names.axes, label.axis)] {
             let known = found.iter().all(|value| value.is_finite());
             if !known && !found.iter().all(|value| value.is_nan()) {
-                return Err(SuperelementError::Place { array, row, found });
+                let expected = format!("three finite numbers or NaN for all in row {row}");
+                return Err(of_array(array, expected, format!("{found:?}")));
             }
         }
     }
@@ -181,50 +208,58 @@ fn column(values: &[f64]) -> DenseMatrix {
     DenseMatrix::from_fn(values.len(), 1, |row, _| values[row])
 }
 
-fn count(array: &'static str, expected: usize, found: usize) -> Result<(), SuperelementError> {
+fn count(array: &'static str, expected: usize, found: usize) -> Result<(), Fault> {
     if expected == found {
         return Ok(());
     }
-    Err(SuperelementError::Count {
-        array,
-        expected,
-        found,
-    })
+    Err(of_array(array, format!("{expected} entries"), found))
 }
 
-fn shape(
-    array: &'static str,
-    expected: [usize; 2],
-    matrix: &DenseMatrix,
-) -> Result<(), SuperelementError> {
+fn of_array(
+    array: &str,
+    expected: impl Into<Cow<'static, str>>,
+    found: impl fmt::Display,
+) -> Fault {
+    Fault::new(expected, found).within(format!("array \"{array}\""))
+}
+
+/// The fault of a stiffness that is not square.
+pub(super) fn not_square(rows: usize, columns: usize) -> Fault {
+    let found = format!("{rows} x {columns}");
+    of_array("k", "a square matrix of at least one row", found)
+}
+
+/// The fault of an array of another shape.
+pub(super) fn other_shape(array: &str, expected: [usize; 2], found: [usize; 2]) -> Fault {
+    let [expected, found] = [expected, found].map(|[rows, columns]| format!("{rows} x {columns}"));
+    of_array(array, expected, found)
+}
+
+fn not_finite(array: &str, [row, column]: [usize; 2], found: f64) -> Fault {
+    let found = format!("{found} at [{row}, {column}]");
+    of_array(array, "finite numbers", found)
+}
+
+fn shape(array: &'static str, expected: [usize; 2], matrix: &DenseMatrix) -> Result<(), Fault> {
     let found = [matrix.nrows(), matrix.ncols()];
     if expected == found {
         return Ok(());
     }
-    Err(SuperelementError::Shape {
-        array,
-        expected,
-        found,
-    })
+    Err(other_shape(array, expected, found))
 }
 
-fn finite(array: &'static str, matrix: &DenseMatrix) -> Result<(), SuperelementError> {
+fn finite(array: &'static str, matrix: &DenseMatrix) -> Result<(), Fault> {
     for (column, values) in matrix.col_iter().enumerate() {
         for (row, &found) in values.iter().enumerate() {
             if !found.is_finite() {
-                return Err(SuperelementError::NotFinite {
-                    array,
-                    row,
-                    column,
-                    found,
-                });
+                return Err(not_finite(array, [row, column], found));
             }
         }
     }
     Ok(())
 }
 
-fn symmetric(array: &'static str, matrix: &DenseMatrix) -> Result<(), SuperelementError> {
+fn symmetric(array: &'static str, matrix: &DenseMatrix) -> Result<(), Fault> {
     let mut largest = 0.0_f64;
     for values in matrix.col_iter() {
         largest = values.iter().fold(largest, |a, b| a.max(b.abs()));
@@ -235,14 +270,10 @@ fn symmetric(array: &'static str, matrix: &DenseMatrix) -> Result<(), Supereleme
             let (found, transposed) = (matrix[(row, column)], matrix[(column, row)]);
             // halves, as the difference of two large numbers may be infinite
             if (0.5 * found - 0.5 * transposed).abs() > 0.5 * limit {
-                return Err(SuperelementError::Asymmetric {
-                    array,
-                    row,
-                    column,
-                    found,
-                    transposed,
-                    limit,
-                });
+                let found = format!(
+                    "{found} at [{row}, {column}] and {transposed} at [{column}, {row}], which differ by more than {limit}"
+                );
+                return Err(of_array(array, "a symmetric matrix", found));
             }
         }
     }

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::labels::{INTERFACE, LabelArrays, RECOVERED};
-use super::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementError, SuperelementRecord};
-use crate::formats::{DofBody, DofDirection, DofLabel, NpzReadError, NpzReader};
+use super::check::{INTERFACE, LabelArrays, RECOVERED, not_square, other_shape};
+use super::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
+use crate::files::Fault;
+use crate::formats::{DofBody, DofDirection, DofLabel, FormatError, NpzReader};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Reads a superelement as [`write_superelement_npz`](super::write_superelement_npz) describes it.
@@ -21,17 +22,11 @@ use crate::numerics::linalg::DenseMatrix;
 /// the mean of both triangles. Other arrays are left out.
 ///
 /// # Errors
-/// [`NpzReadError`] naming file and array, for what cannot be read, is missing, or does not fit.
-pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadError> {
-    let mut npz = NpzReader::open(path)?;
-    let mut file = Source {
-        path,
-        npz: &mut npz,
-    };
-    let fault = |fault| NpzReadError::Superelement {
-        path: path.to_owned(),
-        fault: Box::new(fault),
-    };
+/// [`FormatError`] naming file and array, for what cannot be read, is missing, or does not fit.
+pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, FormatError> {
+    let npz = NpzReader::open(path)?;
+    let mut file = Source { path, npz };
+    let fault = |fault: Fault| fault.of(path);
     let stiffness = file.matrix("k", None)?;
     let order = stiffness.nrows();
     let mass = file.matrix("m", Some(order))?;
@@ -57,47 +52,31 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, NpzReadE
 /// An archive and its name.
 struct Source<'a> {
     path: &'a Path,
-    npz: &'a mut NpzReader,
+    npz: NpzReader,
 }
 
 impl Source<'_> {
-    fn wrong(&self, name: &str, expected: &'static str, found: String) -> NpzReadError {
-        NpzReadError::Array {
-            path: self.path.to_owned(),
-            name: name.to_owned(),
-            expected,
-            found,
-        }
-    }
-
     /// A matrix of so many columns, or a square one. This is checked before it is made, as a matrix of few rows takes more
     /// memory than its numbers.
     fn matrix(
         &mut self,
         name: &'static str,
         columns: Option<usize>,
-    ) -> Result<DenseMatrix, NpzReadError> {
+    ) -> Result<DenseMatrix, FormatError> {
         let read = self.npz.real(name)?;
-        let fault = |fault| NpzReadError::Superelement {
-            path: self.path.to_owned(),
-            fault: Box::new(fault),
-        };
+        let fault = |fault: Fault| Err(fault.of(self.path).into());
         match (read.shape.as_slice(), columns) {
             (&[rows, columns], None) if rows != columns || rows == 0 => {
-                Err(fault(SuperelementError::Square { rows, columns }))
+                fault(not_square(rows, columns))
             }
             (&[rows, found], Some(columns)) if found != columns => {
-                Err(fault(SuperelementError::Shape {
-                    array: name,
-                    expected: [rows, columns],
-                    found: [rows, found],
-                }))
+                fault(other_shape(name, [rows, columns], [rows, found]))
             }
             (&[rows, columns], _) => {
                 let value = |row: usize, column: usize| read.values[row * columns + column];
                 Ok(DenseMatrix::from_fn(rows, columns, value))
             }
-            (shape, _) => Err(self.wrong(name, "two dimensions", format!("shape {shape:?}"))),
+            (shape, _) => Err(self.npz.wrong_shape(name, "two dimensions", shape)),
         }
     }
 
@@ -105,23 +84,23 @@ impl Source<'_> {
         &mut self,
         name: &'static str,
         columns: usize,
-    ) -> Result<Option<DenseMatrix>, NpzReadError> {
+    ) -> Result<Option<DenseMatrix>, FormatError> {
         match self.npz.has(name) {
             true => Ok(Some(self.matrix(name, Some(columns))?)),
             false => Ok(None),
         }
     }
 
-    fn list(&mut self, name: &str) -> Result<Vec<f64>, NpzReadError> {
+    fn list(&mut self, name: &str) -> Result<Vec<f64>, FormatError> {
         let read = self.npz.real(name)?;
         if read.shape.len() != 1 {
-            return Err(self.wrong(name, "one dimension", format!("shape {:?}", read.shape)));
+            return Err(self.npz.wrong_shape(name, "one dimension", &read.shape));
         }
         Ok(read.values)
     }
 
     /// The one number of an array, above zero; `None` for an array that is not there or empty.
-    fn positive(&mut self, name: &str) -> Result<Option<f64>, NpzReadError> {
+    fn positive(&mut self, name: &str) -> Result<Option<f64>, FormatError> {
         let values = match self.npz.has(name) {
             true => self.list(name)?,
             false => Vec::new(),
@@ -129,30 +108,32 @@ impl Source<'_> {
         match values[..] {
             [] => Ok(None),
             [value] if value > 0.0 && value.is_finite() => Ok(Some(value)),
-            _ => Err(self.wrong(name, "one number above zero", format!("{values:?}"))),
+            _ => Err(self
+                .npz
+                .wrong(name, "one number above zero", format!("{values:?}"))),
         }
     }
 
-    fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, NpzReadError> {
+    fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, FormatError> {
         let read = self.npz.texts(name)?;
         if read.shape != [count] {
-            let found = format!("shape {:?}", read.shape);
-            return Err(self.wrong(name, "as many entries as its array has rows", found));
+            let expected = "as many entries as its array has rows";
+            return Err(self.npz.wrong_shape(name, expected, &read.shape));
         }
         Ok(read.values)
     }
 
     /// Vectors \[count x 3\].
-    fn vectors(&mut self, name: &str, count: usize) -> Result<Vec<[f64; 3]>, NpzReadError> {
+    fn vectors(&mut self, name: &str, count: usize) -> Result<Vec<[f64; 3]>, FormatError> {
         let read = self.npz.real(name)?;
         if read.shape != [count, 3] {
-            let found = format!("shape {:?}", read.shape);
-            return Err(self.wrong(name, "three numbers for each of its nodes", found));
+            let expected = "three numbers for each of its nodes";
+            return Err(self.npz.wrong_shape(name, expected, &read.shape));
         }
         Ok(read.values.as_chunks::<3>().0.to_vec())
     }
 
-    fn interface(&mut self, order: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+    fn interface(&mut self, order: usize) -> Result<Vec<DofLabel>, FormatError> {
         if !self.npz.has("interface_dofs") {
             return self.numbered(order);
         }
@@ -160,29 +141,28 @@ impl Source<'_> {
     }
 
     /// What the rows of `names` are, at most so many.
-    fn labels(&mut self, names: &LabelArrays, most: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+    fn labels(&mut self, names: &LabelArrays, most: usize) -> Result<Vec<DofLabel>, FormatError> {
         let dofs = self.npz.whole(names.dofs)?;
         let count = match dofs.shape.as_slice() {
             &[count, 2] => count,
             // NumPy's empty list
             &[0] => 0,
             found => {
-                let found = format!("shape {found:?}");
-                return Err(self.wrong(names.dofs, "a shape [interface, 2]", found));
+                let expected = "a shape [interface, 2]";
+                return Err(self.npz.wrong_shape(names.dofs, expected, found));
             }
         };
         // labels take more memory than the numbers that they come from
         if count > most {
             let found = format!("{count} rows, where \"{}\" has {most}", names.matrix);
-            return Err(self.wrong(names.dofs, names.expected, found));
+            return Err(self.npz.wrong(names.dofs, names.expected, found));
         }
         let mut labels = Vec::with_capacity(count);
         for &[node, component] in dofs.values.as_chunks::<2>().0 {
-            let node = u64::try_from(node)
-                .map_err(|_| self.wrong(names.dofs, "nodes >= 0", node.to_string()))?;
-            let direction = DofDirection::of_component(component).ok_or_else(|| {
-                self.wrong(names.dofs, "components 0 to 9", component.to_string())
-            })?;
+            let node =
+                u64::try_from(node).map_err(|_| self.npz.wrong(names.dofs, "nodes >= 0", node))?;
+            let direction = DofDirection::of_component(component)
+                .ok_or_else(|| self.npz.wrong(names.dofs, "components 0 to 9", component))?;
             labels.push(DofLabel {
                 body: DofBody::Housing,
                 node,
@@ -195,7 +175,8 @@ impl Source<'_> {
             for (label, name) in labels.iter_mut().zip(self.texts(names.bodies, count)?) {
                 label.body = DofBody::of_name(&name).ok_or_else(|| {
                     let expected = "\"housing\", \"ring\", \"interface\" or \"modal\"";
-                    self.wrong(names.bodies, expected, format!("\"{name}\""))
+                    self.npz
+                        .wrong(names.bodies, expected, format!("\"{name}\""))
                 })?;
             }
         }
@@ -218,7 +199,7 @@ impl Source<'_> {
     fn interface_recovery(
         &mut self,
         interface: usize,
-    ) -> Result<Option<InterfaceRecovery>, NpzReadError> {
+    ) -> Result<Option<InterfaceRecovery>, FormatError> {
         let Some(modes) = self.optional("interface_modes", interface)? else {
             return Ok(None);
         };
@@ -227,29 +208,24 @@ impl Source<'_> {
     }
 
     /// Labels of an interface of which the number is all that is known.
-    fn numbered(&mut self, order: usize) -> Result<Vec<DofLabel>, NpzReadError> {
+    fn numbered(&mut self, order: usize) -> Result<Vec<DofLabel>, FormatError> {
         const NAME: &str = "n_interface";
         if !self.npz.has(NAME) {
-            return Err(NpzReadError::Missing {
-                path: self.path.to_owned(),
-                name: "interface_dofs\" or \"n_interface".to_owned(),
-                known: self.npz.names(),
-            });
+            return Err(self.npz.missing("interface_dofs\" or \"n_interface"));
         }
         let read = self.npz.whole(NAME)?;
         let &[number] = read.values.as_slice() else {
-            let found = format!("shape {:?}", read.shape);
-            return Err(self.wrong(NAME, "one number", found));
+            return Err(self.npz.wrong_shape(NAME, "one number", &read.shape));
         };
         let count = usize::try_from(number).ok().filter(|&count| count <= order);
         let Some(count) = count else {
             let expected = "a number from 0 to that of the rows of \"k\"";
-            return Err(self.wrong(NAME, expected, number.to_string()));
+            return Err(self.npz.wrong(NAME, expected, number));
         };
         Ok((0..count as u64).map(DofLabel::interface).collect())
     }
 
-    fn sensors(&mut self, order: usize) -> Result<Vec<SensorRow>, NpzReadError> {
+    fn sensors(&mut self, order: usize) -> Result<Vec<SensorRow>, FormatError> {
         let Some(rows) = self.optional("sensors", order)? else {
             return Ok(Vec::new());
         };
@@ -264,7 +240,7 @@ impl Source<'_> {
         Ok(names.into_iter().zip(0..).map(row).collect())
     }
 
-    fn field(&mut self, order: usize) -> Result<Option<FieldRecovery>, NpzReadError> {
+    fn field(&mut self, order: usize) -> Result<Option<FieldRecovery>, FormatError> {
         let Some(recovery) = self.optional("field_recovery", order)? else {
             return Ok(None);
         };
@@ -273,12 +249,11 @@ impl Source<'_> {
         const TAGS: &str = "field_node_tags";
         let tags = self.npz.whole(TAGS)?;
         if tags.shape != [nodes] {
-            let found = format!("shape {:?}", tags.shape);
-            return Err(self.wrong(TAGS, "a tag for three rows of \"field_recovery\"", found));
+            let expected = "a tag for three rows of \"field_recovery\"";
+            return Err(self.npz.wrong_shape(TAGS, expected, &tags.shape));
         }
-        let tag = |&tag: &i64| {
-            u64::try_from(tag).map_err(|_| self.wrong(TAGS, "tags >= 0", tag.to_string()))
-        };
+        let wrong = |tag: i64| self.npz.wrong(TAGS, "tags >= 0", tag);
+        let tag = |&tag: &i64| u64::try_from(tag).map_err(|_| wrong(tag));
         let node_tags = tags.values.iter().map(tag).collect::<Result<_, _>>()?;
         Ok(Some(FieldRecovery {
             node_tags,

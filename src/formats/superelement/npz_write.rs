@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use super::SuperelementRecord;
-use super::labels::{INTERFACE, LabelArrays, RECOVERED};
-use crate::formats::{DofLabel, NpzError, NpzWriter};
+use super::check::{INTERFACE, LabelArrays, RECOVERED};
+use crate::files::Fault;
+use crate::formats::npz::npz_label;
+use crate::formats::{DofLabel, FormatError, NpzWriter};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Writes everything of a superelement, whole or not at all. n coordinates, b of them of the interface; arrays of what
@@ -27,12 +29,9 @@ use crate::numerics::linalg::DenseMatrix;
 /// | `field_node_tags`, `field_positions`, `field_recovery` | \[N\], \[N x 3\], \[3 N x n\] | nodes, m, displacements x, y, z of node after node |
 ///
 /// # Errors
-/// [`NpzError::Superelement`] for one that contradicts itself, [`NpzError::Label`] for tags beyond i64, else as
-/// [`NpzWriter`].
-pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Result<(), NpzError> {
-    record
-        .check()
-        .map_err(|fault| NpzError::Superelement { fault })?;
+/// [`FormatError::Data`] for one that contradicts itself and for tags beyond i64, else as [`NpzWriter`].
+pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Result<(), FormatError> {
+    record.check()?;
     let mut npz = NpzWriter::create(path)?;
     matrix(&mut npz, "k", &record.stiffness)?;
     matrix(&mut npz, "m", &record.mass)?;
@@ -70,8 +69,11 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         npz.texts("sensor_names", &names.collect::<Vec<_>>())?;
     }
     if let Some(field) = &record.field {
-        let tags: Result<Vec<i64>, NpzError> = field.node_tags.iter().copied().map(tag).collect();
-        npz.array("field_node_tags", &tags?)?;
+        let tags = field.node_tags.iter().copied().map(npz_label);
+        npz.array(
+            "field_node_tags",
+            &tags.collect::<Result<Vec<i64>, Fault>>()?,
+        )?;
         let positions = &field.positions;
         npz.matrix(
             "field_positions",
@@ -84,15 +86,15 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
     npz.finish()
 }
 
-fn tag(label: u64) -> Result<i64, NpzError> {
-    i64::try_from(label).map_err(|_| NpzError::Label { label })
-}
-
 /// What coordinates are.
-fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Result<(), NpzError> {
+fn labels(
+    npz: &mut NpzWriter,
+    labels: &[DofLabel],
+    names: &LabelArrays,
+) -> Result<(), FormatError> {
     let mut dofs = Vec::with_capacity(labels.len());
     for dof in labels {
-        dofs.push([tag(dof.node)?, dof.direction.component()]);
+        dofs.push([npz_label(dof.node)?, dof.direction.component()]);
     }
     npz.matrix(names.dofs, dofs.len(), 2, dofs.as_flattened())?;
     let bodies: Vec<&str> = labels.iter().map(|dof| dof.body.name()).collect();
@@ -106,7 +108,7 @@ fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Resu
 }
 
 /// Row by row, as NumPy has it.
-fn matrix(npz: &mut NpzWriter, name: &str, matrix: &DenseMatrix) -> Result<(), NpzError> {
+fn matrix(npz: &mut NpzWriter, name: &str, matrix: &DenseMatrix) -> Result<(), FormatError> {
     let mut array = npz.begin::<f64>(name, &[matrix.nrows(), matrix.ncols()])?;
     let mut line = Vec::with_capacity(matrix.ncols());
     for row in matrix.row_iter() {

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::{SuperelementError, SuperelementRecord};
-use crate::formats::DofLabel;
-use crate::formats::op4::{Op4Error, Op4Format, Op4Matrix, read_op4, write_op4};
+use super::SuperelementRecord;
+use crate::files::Fault;
+use crate::formats::op4::{Op4Format, Op4Matrix, read_op4, write_op4};
+use crate::formats::{DofLabel, FormatError};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Names of 1 x 1 matrices: top of the band that it was condensed for, and the first vector that was left out, Hz.
@@ -22,14 +23,12 @@ const BLOCK: f64 = 1e-8;
 /// matrices have rows for; all rows if they are too few for any. Labels are numbers alone ([`DofLabel::interface`]).
 ///
 /// # Errors
-/// [`Op4Error`] of the file; [`Op4Error::Missing`], [`Op4Error::Superelement`].
+/// [`FormatError::File`] for files that cannot be read and for matrices that are missing, [`FormatError::Data`] for matrices
+/// that contradict each other.
 pub fn read_superelement_op4(
     path: &Path,
     interface: &[usize],
-) -> Result<SuperelementRecord, Op4Error> {
-    let fault = |fault: SuperelementError| Op4Error::Superelement {
-        fault: Box::new(fault),
-    };
+) -> Result<SuperelementRecord, FormatError> {
     let matrices = read_op4(path)?;
     let dense = |name: &str| {
         let mut matrices = matrices.iter();
@@ -41,24 +40,23 @@ pub fn read_superelement_op4(
             names if names.is_empty() => "none".to_owned(),
             names => names.join(", "),
         };
-        dense(name)?.ok_or_else(|| Op4Error::Missing {
-            path: path.to_owned(),
-            name,
-            known: known(),
+        dense(name)?.ok_or_else(|| -> FormatError {
+            let fault = Fault::new(format!("a matrix \"{name}\""), known());
+            fault.of(path).into()
         })
     };
     let (stiffness, mass) = (required("KAA")?, required("MAA")?);
     let count = interface_of(&stiffness, interface);
     let labels = (0..count as u64).map(DofLabel::interface).collect();
-    let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels).map_err(fault)?;
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels)?;
     (record.damping, record.structural) = (dense("BAA")?, dense("K4AA")?);
-    let frequency = |name: &str| -> Result<Option<f64>, Op4Error> {
+    let frequency = |name: &str| -> Result<Option<f64>, Fault> {
         let matrix = dense(name)?.filter(|matrix| matrix.nrows() == 1 && matrix.ncols() == 1);
         let value = matrix.map(|matrix| matrix[(0, 0)]);
         Ok(value.filter(|hz| *hz > 0.0 && hz.is_finite()))
     };
     (record.band_hz, record.complete_hz) = (frequency(BAND)?, frequency(COMPLETE)?);
-    record.check().map_err(fault)?;
+    record.check()?;
     record.symmetrise();
     Ok(record)
 }
@@ -87,16 +85,13 @@ fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
 /// [`SuperelementRecord::labels`]: the boundary set first, then the modes, as Nastran's external superelements have them.
 ///
 /// # Errors
-/// [`Op4Error::Superelement`] for one that contradicts itself, else as [`write_op4`].
+/// [`FormatError::Data`] for one that contradicts itself, else as [`write_op4`].
 pub fn write_superelement_op4(
     path: &Path,
     record: &SuperelementRecord,
     format: Op4Format,
-) -> Result<(), Op4Error> {
-    let fault = |fault: SuperelementError| Op4Error::Superelement {
-        fault: Box::new(fault),
-    };
-    record.check().map_err(fault)?;
+) -> Result<(), FormatError> {
+    record.check()?;
     let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
     matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
     matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));

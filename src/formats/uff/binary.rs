@@ -1,8 +1,8 @@
 //! Binary functions, dataset 58b.
 
-use super::cursor::{Cursor, Fault, Line};
-use super::read::skip;
-use super::read_response::Form;
+use super::cursor::{Cursor, Line};
+use super::function::Form;
+use crate::files::Fault;
 
 /// What a dataset 58b has.
 pub(super) struct Binary<'a> {
@@ -36,7 +36,7 @@ pub(super) fn read_binary<'a>(cursor: &mut Cursor<'a>, head: &Line) -> Result<Bi
     sizes.extend(form.iter().flat_map(sizes_of));
     let ends = sizes.iter().find(|&&bytes| cursor.delimiter_after(bytes));
     let bytes = cursor.take(ends.copied().unwrap_or(bytes));
-    skip(cursor)?;
+    cursor.skip()?;
     Ok(Binary {
         lines,
         bytes,

@@ -1,19 +1,12 @@
 //! Lines of a universal file, with their numbers.
 
-use super::super::fortran::{columns, real};
-
-/// What is wrong in which line.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Fault {
-    pub(super) line: usize,
-    pub(super) expected: &'static str,
-    pub(super) found: String,
-}
+use super::super::fortran::{columns, quoted, real};
+use crate::files::Fault;
 
 /// A line and its number, counted from 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
-    pub(super) number: usize,
+    pub(super) number: u64,
     pub(super) text: String,
 }
 
@@ -24,16 +17,7 @@ impl Line {
     }
 
     pub(super) fn fault(&self, expected: &'static str) -> Fault {
-        let text = self.text.trim();
-        let mut found: String = text.chars().take(60).collect();
-        if found.len() < text.len() {
-            found.push_str("...");
-        }
-        Fault {
-            line: self.number,
-            expected,
-            found: format!("\"{found}\""),
-        }
+        Fault::new(expected, quoted(&self.text)).line(self.number)
     }
 
     /// Whole numbers, in columns of 10 where they run together.
@@ -61,7 +45,7 @@ impl Line {
 #[derive(Debug)]
 pub(super) struct Cursor<'a> {
     rest: &'a [u8],
-    line: usize,
+    line: u64,
 }
 
 impl<'a> Cursor<'a> {
@@ -93,11 +77,8 @@ impl<'a> Cursor<'a> {
     /// The next line, or what was expected there.
     pub(super) fn expect(&mut self, expected: &'static str) -> Result<Line, Fault> {
         let line = self.line + 1;
-        self.next().ok_or_else(|| Fault {
-            line,
-            expected,
-            found: "the end of the file".to_owned(),
-        })
+        self.next()
+            .ok_or_else(|| Fault::new(expected, "the end of the file").line(line))
     }
 
     /// The next line that is not blank, or what was expected there.
@@ -127,6 +108,23 @@ impl<'a> Cursor<'a> {
         }
         numbers.truncate(count);
         Ok(numbers)
+    }
+
+    /// Goes past the line that ends a dataset.
+    pub(super) fn skip(&mut self) -> Result<(), Fault> {
+        while !self.expect("-1 at the end of a dataset")?.is_delimiter() {}
+        Ok(())
+    }
+
+    /// The line with the next dataset's number, if there is one; text between datasets means nothing.
+    pub(super) fn next_dataset(&mut self) -> Option<Line> {
+        while !self.next()?.is_delimiter() {}
+        loop {
+            let line = self.next()?;
+            if !line.text.trim().is_empty() {
+                return Some(line);
+            }
+        }
     }
 
     /// Whether a line that begins or ends a dataset follows so many bytes.

@@ -10,7 +10,7 @@
 mod binary;
 mod cursor;
 mod element;
-mod error;
+mod function;
 mod mode;
 mod read;
 mod read_response;
@@ -23,10 +23,9 @@ mod tests;
 mod write;
 mod write_response;
 
-pub use error::UffError;
 pub use read::{modes_from_bytes, read_modes_uff};
 pub use read_response::{read_responses_uff, responses_from_bytes};
 pub use read_time::{TimeAxis, TimeResponse, read_times_uff, times_from_bytes};
-pub use response::{FrequencyResponse, ResponseFault, ResponseKind, ResponsePoint};
+pub use response::{FrequencyResponse, ResponseKind, ResponsePoint};
 pub use write::{write_modes_uff, write_uff};
 pub use write_response::write_responses_uff;

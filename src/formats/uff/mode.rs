@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-use super::cursor::{Cursor, Fault};
-use super::read::skip;
+use super::cursor::Cursor;
+use crate::files::Fault;
 
 /// A mode as it stands in the file, complex shapes already made real.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
     };
     let moves = matches!(characteristic, 2 | 3) || (characteristic == 0 && matches!(values, 3 | 6));
     if !matches!(analysis, 2 | 3 | 7) || !moves {
-        skip(cursor)?;
+        cursor.skip()?;
         return Ok(None);
     }
     if !(3..=MOST_VALUES).contains(&values) {

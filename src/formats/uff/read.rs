@@ -3,19 +3,18 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use super::super::ModeShapes;
-use super::UffError;
+use super::super::{FormatError, ModeShapes};
 use super::binary::read_binary;
-use super::cursor::{Cursor, Fault, Line};
+use super::cursor::{Cursor, Line};
 use super::mode::{Mode, read_mode};
-use crate::files;
+use crate::files::{Fault, bytes_of};
 
 /// What a file has gathered so far.
 #[derive(Default)]
 struct Content {
     points: HashMap<u64, [f64; 3]>,
     /// Nodes whose displacements are along axes of their own system, with the line that says so.
-    own_axes: Vec<(u64, i64, usize)>,
+    own_axes: Vec<(u64, i64, u64)>,
     /// Coordinate systems that turn the axes.
     turned: HashSet<i64>,
     /// File's units of length in a metre.
@@ -33,37 +32,25 @@ struct Content {
 /// - Points are there if the file has a node for each label, in metres if the file has units (dataset 164).
 ///
 /// # Errors
-/// [`UffError`] with file and line, what was found and what was expected; without modes; and for displacements along axes
+/// [`FormatError`] with file and line, what was found and what was expected; without modes; and for displacements along axes
 /// that datasets 18, 2420 turn against the global ones.
-pub fn read_modes_uff(path: &Path) -> Result<ModeShapes, UffError> {
-    let bytes = files::read(path).map_err(|source| UffError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    modes_from_bytes(&bytes, path)
+pub fn read_modes_uff(path: &Path) -> Result<ModeShapes, FormatError> {
+    modes_from_bytes(&bytes_of(path)?, path)
 }
 
 /// As [`read_modes_uff`], of a file that is in memory; `path` is for messages.
 ///
 /// # Errors
 /// As [`read_modes_uff`].
-pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, UffError> {
-    let content = read(bytes).map_err(|fault| UffError::Content {
-        path: path.to_owned(),
-        line: fault.line,
-        expected: fault.expected,
-        found: fault.found,
-    })?;
+pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, FormatError> {
+    let content = read(bytes).map_err(|fault| fault.of(path))?;
     if content.modes.is_empty() {
-        return Err(UffError::NoModes {
-            path: path.to_owned(),
-        });
+        let expected =
+            "mode shapes (dataset 55 of analysis type 2, 3 or 7 with displacements in space)";
+        return Err(Fault::new(expected, "none").of(path).into());
     }
     let modes = content.mode_shapes();
-    modes.check().map_err(|fault| UffError::Modes {
-        path: path.to_owned(),
-        fault,
-    })?;
+    modes.check().map_err(|fault| fault.of(path))?;
     Ok(modes)
 }
 
@@ -85,11 +72,10 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let own = own_axes
         .find(|(tag, system, _)| content.turned.contains(system) && mentioned.contains(tag));
     match own {
-        Some(&(tag, system, line)) => Err(Fault {
-            line,
-            expected: "displacements along the global axes",
-            found: format!("node {tag} in the turned coordinate system {system}"),
-        }),
+        Some(&(tag, system, line)) => {
+            let found = format!("node {tag} in the turned coordinate system {system}");
+            Err(Fault::new("displacements along the global axes", found).line(line))
+        }
         None => Ok(content),
     }
 }
@@ -143,7 +129,7 @@ impl Content {
                 Ok(())
             }
             ["58b", ..] => read_binary(cursor, &head).map(|_| ()),
-            [number, ..] if number.parse::<u32>().is_ok() => skip(cursor),
+            [number, ..] if number.parse::<u32>().is_ok() => cursor.skip(),
             _ => Err(head.fault(NUMBER)),
         }
     }
@@ -210,7 +196,7 @@ impl Content {
             Some(&factor) if factor > 0.0 => self.per_metre = Some(factor),
             _ => return Err(line.fault(LENGTH)),
         }
-        skip(cursor)
+        cursor.skip()
     }
 
     /// Dataset 2420: part, name, then for each system its label, its name and four lines of a matrix, of which the first
@@ -285,10 +271,4 @@ impl Content {
             node_tags: Some(tags),
         }
     }
-}
-
-/// Goes past the line that ends a dataset.
-pub(super) fn skip(cursor: &mut Cursor) -> Result<(), Fault> {
-    while !cursor.expect("-1 at the end of a dataset")?.is_delimiter() {}
-    Ok(())
 }

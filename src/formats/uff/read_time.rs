@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use super::UffError;
+use super::super::FormatError;
 use super::binary::read_binary;
-use super::cursor::{Cursor, Fault, Line};
-use super::read::skip;
-use super::read_response::{FunctionHead, Units, axis_unit, named, next_dataset, other_dataset};
-use crate::files;
+use super::cursor::{Cursor, Line};
+use super::function::{FunctionHead, Units, axis_unit, named, other_dataset};
+use crate::files::{Fault, bytes_of};
 
 /// Instants of a signal.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,32 +41,21 @@ pub struct TimeResponse {
 /// Values are in SI: lengths and forces are divided by the factors of dataset 164 where the file has it; accelerations in g stay.
 ///
 /// # Errors
-/// [`UffError`] with file and line, what was found and what was expected; without signals; for complex values; for binary
+/// [`FormatError`] with file and line, what was found and what was expected; without signals; for complex values; for binary
 /// numbers that are not of IEEE 754.
-pub fn read_times_uff(path: &Path) -> Result<Vec<TimeResponse>, UffError> {
-    let bytes = files::read(path).map_err(|source| UffError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    times_from_bytes(&bytes, path)
+pub fn read_times_uff(path: &Path) -> Result<Vec<TimeResponse>, FormatError> {
+    times_from_bytes(&bytes_of(path)?, path)
 }
 
 /// As [`read_times_uff`], of a file that is in memory; `path` is for messages.
 ///
 /// # Errors
 /// As [`read_times_uff`].
-pub fn times_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<TimeResponse>, UffError> {
-    let content = |fault: Fault| UffError::Content {
-        path: path.to_owned(),
-        line: fault.line,
-        expected: fault.expected,
-        found: fault.found,
-    };
-    let (found, units) = read(bytes).map_err(content)?;
+pub fn times_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<TimeResponse>, FormatError> {
+    let (found, units) = read(bytes).map_err(|fault| fault.of(path))?;
     if found.is_empty() {
-        return Err(UffError::NoTimes {
-            path: path.to_owned(),
-        });
+        let expected = "signals over time (dataset 58 or 58b, function type 1, abscissa 17)";
+        return Err(Fault::new(expected, "none").of(path).into());
     }
     let mut list: Vec<TimeResponse> = Vec::with_capacity(found.len());
     for (quantity, mut response) in found {
@@ -100,7 +88,7 @@ enum Quantity {
 fn read(bytes: &[u8]) -> Result<(Vec<(Quantity, TimeResponse)>, Units), Fault> {
     let mut cursor = Cursor::new(bytes);
     let (mut list, mut units) = (Vec::new(), Units::SI);
-    while let Some(head) = next_dataset(&mut cursor) {
+    while let Some(head) = cursor.next_dataset() {
         match head.text.split_ascii_whitespace().next() {
             Some("58") => list.extend(text(&mut cursor)?),
             Some("58b") => list.extend(binary(&mut cursor, &head)?),
@@ -113,13 +101,13 @@ fn read(bytes: &[u8]) -> Result<(Vec<(Quantity, TimeResponse)>, Units), Fault> {
 /// Whether a function is a signal over time.
 fn is_time(head: &FunctionHead) -> bool {
     const TIME: i64 = 17;
-    matches!(head.function(), 0 | 1) && head.axes.first().is_some_and(|axis| axis.0 == TIME)
+    matches!(head.own.function, 0 | 1) && head.axes.first().is_some_and(|axis| axis.0 == TIME)
 }
 
 fn text(cursor: &mut Cursor) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
     let head = FunctionHead::read(|expected| cursor.expect(expected))?;
     if !is_time(&head) {
-        skip(cursor)?;
+        cursor.skip()?;
         return Ok(None);
     }
     let mut numbers = Vec::new();
@@ -168,11 +156,8 @@ fn signal(
     }
     let size = if head.form.even.is_some() { 1 } else { 2 };
     if head.form.count.checked_mul(size) != Some(numbers.len()) {
-        return Err(Fault {
-            line: end.number,
-            expected: "as many values as the data has",
-            found: format!("{} of {}", numbers.len() / size, head.form.count),
-        });
+        let found = format!("{} of {}", numbers.len() / size, head.form.count);
+        return Err(Fault::new("as many values as the data has", found).line(end.number));
     }
     let (axis, values) = match head.form.even {
         Some((start_s, step_s)) => (TimeAxis::Even { start_s, step_s }, numbers),
@@ -208,7 +193,7 @@ fn signal(
 }
 
 fn name(head: &FunctionHead) -> String {
-    let point = head.measured_at();
+    let point = &head.own.to;
     let own = head
         .names
         .first()

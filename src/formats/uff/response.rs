@@ -1,6 +1,6 @@
 //! Frequency response functions.
 
-use thiserror::Error;
+use crate::files::Fault;
 
 /// What responds to a force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,44 +41,9 @@ pub struct FrequencyResponse {
     pub to: ResponsePoint,
 }
 
-/// How a frequency response contradicts itself.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ResponseFault {
-    /// Not a value for each frequency.
-    #[error(
-        "expected at least one frequency and a value for each, found {frequencies} frequencies and {values} values"
-    )]
-    Count {
-        /// Frequencies found.
-        frequencies: usize,
-        /// Values found.
-        values: usize,
-    },
-    /// A frequency that is none, or not in order.
-    #[error("expected ascending frequencies >= 0 Hz, found {found} at [{place}]")]
-    Frequency {
-        /// Place, counted from 0.
-        place: usize,
-        /// What stands there, Hz.
-        found: f64,
-    },
-    /// A value that is none.
-    #[error("expected finite values, found {found:?} at [{place}]")]
-    Value {
-        /// Place, counted from 0.
-        place: usize,
-        /// What stands there.
-        found: [f64; 2],
-    },
-    /// A direction that is no unit vector.
-    #[error("expected a unit vector as direction of \"{point}\", found {found:?}")]
-    Direction {
-        /// Name of the point.
-        point: String,
-        /// The direction.
-        found: [f64; 3],
-    },
-}
+/// What the identification lines of the points begin with.
+pub(super) const REFERENCE: &str = "Force at ";
+pub(super) const RESPONSE: &str = "Response at ";
 
 /// A direction's length may differ from 1 by this much: what six digits in each component leave.
 const UNIT_LIMIT: f64 = 1e-5;
@@ -138,40 +103,44 @@ impl FrequencyResponse {
     /// Whether frequencies ascend, values are numbers, directions are unit vectors.
     ///
     /// # Errors
-    /// [`ResponseFault`]: the first thing that does not fit.
-    pub fn check(&self) -> Result<(), ResponseFault> {
+    /// [`Fault`]: the first thing that does not fit.
+    pub fn check(&self) -> Result<(), Fault> {
         let (frequencies, values) = (self.frequency_hz.len(), self.value.len());
         if frequencies != values || frequencies == 0 {
-            return Err(ResponseFault::Count {
-                frequencies,
-                values,
-            });
+            let expected = "at least one frequency and a value for each";
+            let found = format!("{frequencies} frequencies and {values} values");
+            return Err(Fault::new(expected, found));
         }
         let mut last = None;
         for (place, &found) in self.frequency_hz.iter().enumerate() {
             let ascends = last.is_none_or(|last| found > last);
             if !ascends || found < 0.0 || !found.is_finite() {
-                return Err(ResponseFault::Frequency { place, found });
+                let found = format!("{found} at [{place}]");
+                return Err(Fault::new("ascending frequencies >= 0 Hz", found));
             }
             last = Some(found);
         }
         let wrong = |value: &[f64; 2]| !value.iter().all(|part| part.is_finite());
         if let Some(place) = self.value.iter().position(wrong) {
-            let found = self.value[place];
-            return Err(ResponseFault::Value { place, found });
+            let found = format!("{:?} at [{place}]", self.value[place]);
+            return Err(Fault::new("finite values", found));
         }
         for point in [&self.from, &self.to] {
             if let Some(found) = point.direction {
                 let length = found.iter().map(|part| part * part).sum::<f64>().sqrt();
                 // NaN is no length either
                 if !length.is_finite() || (length - 1.0).abs() > UNIT_LIMIT {
-                    return Err(ResponseFault::Direction {
-                        point: point.name.clone(),
-                        found,
-                    });
+                    let expected = format!("a unit vector as direction of \"{}\"", point.name);
+                    return Err(Fault::new(expected, format!("{found:?}")));
                 }
             }
         }
         Ok(())
+    }
+
+    /// As [`check`](Self::check), of the response with this place in a file, counted from 0.
+    pub(super) fn check_as(&self, index: usize) -> Result<(), Fault> {
+        let of = |fault: Fault| fault.within(format!("frequency response {index}"));
+        self.check().map_err(of)
     }
 }

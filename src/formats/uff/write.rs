@@ -4,15 +4,14 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::super::ModeShapes;
 use super::super::fortran::exponential;
-use super::UffError;
+use super::super::{FormatError, ModeShapes};
 use super::element::{Descriptor, descriptor};
 use crate::fe::mesh::{ElementId, Mesh};
-use crate::files::{AtomicFile, write_atomic};
+use crate::files::{AtomicFile, Fault, write_atomic};
 
 /// Largest label of ten digits.
-pub(super) const LAST_LABEL: u64 = 9_999_999_999;
+const LAST_LABEL: u64 = 9_999_999_999;
 
 /// A node with its label.
 type Node = (u64, [f64; 3]);
@@ -29,7 +28,7 @@ struct Element<'a> {
 /// the model's name; only its first line is used.
 ///
 /// # Errors
-/// [`UffError`] for elements that the mesh does not have or that are points or lines, mode shapes that contradict
+/// [`FormatError`] for elements that the mesh does not have or that are points or lines, mode shapes that contradict
 /// themselves or lie at other nodes, labels of more than ten digits, and when the file cannot be written.
 pub fn write_uff(
     path: &Path,
@@ -37,7 +36,7 @@ pub fn write_uff(
     mesh: &Mesh,
     elements: impl IntoIterator<Item = ElementId>,
     modes: &ModeShapes,
-) -> Result<(), UffError> {
+) -> Result<(), FormatError> {
     let mut used = vec![false; mesh.nodes.len()];
     let mut own = Vec::new();
     for id in elements {
@@ -47,10 +46,11 @@ pub fn write_uff(
             Some((block.kind, *block.tags.get(id.index)?, nodes))
         });
         let Some((kind, label, nodes)) = found else {
-            return Err(UffError::Element { id });
+            return Err(FormatError::Element { id });
         };
         let Some(descriptor) = descriptor(kind) else {
-            return Err(UffError::Kind { kind });
+            let expected = "surface and solid elements";
+            return Err(Fault::new(expected, format!("a {}", kind.name())).into());
         };
         for &node in nodes {
             used[node] = true;
@@ -67,17 +67,20 @@ pub fn write_uff(
         .collect();
     let known: HashSet<u64> = nodes.iter().map(|&(tag, _)| tag).collect();
     let tags = tags_of(modes);
-    if let Some(&tag) = tags.iter().find(|tag| !known.contains(tag)) {
-        return Err(UffError::UnknownNode { tag });
+    if let Some(tag) = tags.iter().find(|tag| !known.contains(tag)) {
+        let expected = "mode shapes at nodes of the elements";
+        return Err(Fault::new(expected, format!("node {tag}")).into());
     }
     let labels = known.iter().copied().chain(own.iter().map(|e| e.label));
-    check(path, labels, modes)?;
-    write_file(path, |to| {
+    modes.check().map_err(|fault| fault.of(path))?;
+    check_label(labels)?;
+    let write = |to: &mut AtomicFile| {
         write_head(to, description)?;
         write_nodes(to, &nodes)?;
         write_elements(to, mesh, &own)?;
         write_modes(to, description, &tags, modes)
-    })
+    };
+    Ok(write_atomic(path, write)?)
 }
 
 /// Writes mode shapes without elements, and their points if they are known, whole or not at all. Points without labels are
@@ -85,18 +88,24 @@ pub fn write_uff(
 ///
 /// # Errors
 /// As [`write_uff`].
-pub fn write_modes_uff(path: &Path, description: &str, modes: &ModeShapes) -> Result<(), UffError> {
+pub fn write_modes_uff(
+    path: &Path,
+    description: &str,
+    modes: &ModeShapes,
+) -> Result<(), FormatError> {
     let tags = tags_of(modes);
-    check(path, tags.iter().copied(), modes)?;
+    modes.check().map_err(|fault| fault.of(path))?;
+    check_label(tags.iter().copied())?;
     let points = modes.points.iter().flatten().copied();
     let nodes: Vec<Node> = tags.iter().copied().zip(points).collect();
-    write_file(path, |to| {
+    let write = |to: &mut AtomicFile| {
         write_head(to, description)?;
         if !nodes.is_empty() {
             write_nodes(to, &nodes)?;
         }
         write_modes(to, description, &tags, modes)
-    })
+    };
+    Ok(write_atomic(path, write)?)
 }
 
 fn tags_of(modes: &ModeShapes) -> Vec<u64> {
@@ -106,29 +115,12 @@ fn tags_of(modes: &ModeShapes) -> Vec<u64> {
     }
 }
 
-fn check(
-    path: &Path,
-    mut labels: impl Iterator<Item = u64>,
-    modes: &ModeShapes,
-) -> Result<(), UffError> {
-    modes.check().map_err(|fault| UffError::Modes {
-        path: path.to_owned(),
-        fault,
-    })?;
+/// Whether labels fit their column.
+pub(super) fn check_label(mut labels: impl Iterator<Item = u64>) -> Result<(), Fault> {
     match labels.find(|&label| label > LAST_LABEL) {
-        Some(label) => Err(UffError::Label { label }),
+        Some(label) => Err(Fault::new("labels of at most 10 digits", label)),
         None => Ok(()),
     }
-}
-
-pub(super) fn write_file(
-    path: &Path,
-    write: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
-) -> Result<(), UffError> {
-    write_atomic(path, write).map_err(|source| UffError::Write {
-        path: path.to_owned(),
-        source,
-    })
 }
 
 pub(super) fn begin(to: &mut impl Write, dataset: u32) -> io::Result<()> {

@@ -3,10 +3,11 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::super::FormatError;
 use super::super::fortran::exponential;
-use super::UffError;
-use super::response::{FrequencyResponse, ResponsePoint};
-use super::write::{LAST_LABEL, begin, end, identification, write_file, write_head};
+use super::response::{FrequencyResponse, REFERENCE, RESPONSE, ResponsePoint};
+use super::write::{begin, check_label, end, identification, write_head};
+use crate::files::{AtomicFile, Fault, write_atomic};
 
 /// Digits after the point of frequencies, which the format has in single precision.
 const DIGITS: usize = 5;
@@ -22,23 +23,18 @@ const ROUNDING: f64 = 5e-6;
 /// of both points.
 ///
 /// # Errors
-/// [`UffError::Response`] for one that contradicts itself or whose frequencies are the same in six digits,
-/// [`UffError::Label`] for nodes of more than ten digits, [`UffError::Write`].
+/// [`FormatError::Data`] for one that contradicts itself, for uneven frequencies that are the same in six digits and for
+/// nodes of more than ten digits; [`FormatError::File`].
 pub fn write_responses_uff(
     path: &Path,
     description: &str,
     responses: &[FrequencyResponse],
-) -> Result<(), UffError> {
+) -> Result<(), FormatError> {
     let mut spacings = Vec::with_capacity(responses.len());
     for (index, response) in responses.iter().enumerate() {
-        response
-            .check()
-            .map_err(|fault| UffError::Response { index, fault })?;
-        for point in [&response.from, &response.to] {
-            if let Some(label) = point.node.filter(|&label| label > LAST_LABEL) {
-                return Err(UffError::Label { label });
-            }
-        }
+        response.check_as(index)?;
+        let points = [&response.from, &response.to];
+        check_label(points.into_iter().filter_map(|point| point.node))?;
         let frequencies = &response.frequency_hz;
         let spacing = match spacing(frequencies) {
             Some(even) => Some(even),
@@ -46,30 +42,30 @@ pub fn write_responses_uff(
                 let mut pairs = frequencies.windows(2);
                 let same = pairs.position(|pair| rounded(pair[0]) >= rounded(pair[1]));
                 if let Some(place) = same {
-                    return Err(UffError::CloseFrequencies {
-                        index,
-                        found: frequencies[place],
-                    });
+                    let expected = "uneven frequencies that differ in six digits";
+                    let fault = Fault::new(expected, format!("two like {} Hz", frequencies[place]));
+                    return Err(fault.within(format!("frequency response {index}")).into());
                 }
                 None
             }
         };
         spacings.push(spacing);
     }
-    write_file(path, |to| {
+    let write = |to: &mut AtomicFile| {
         write_head(to, description)?;
         for (number, (response, spacing)) in responses.iter().zip(spacings).enumerate() {
             write_response(to, number + 1, response, spacing)?;
         }
         Ok(())
-    })
+    };
+    Ok(write_atomic(path, write)?)
 }
 
 impl FrequencyResponse {
     /// Without the frequencies that the six digits of the format do not tell from the one before, as those of two resonances
     /// close together; evenly spaced ones stay as they are.
     #[must_use]
-    pub fn told_apart(mut self) -> Self {
+    pub(crate) fn told_apart(mut self) -> Self {
         if spacing(&self.frequency_hz).is_some() {
             return self;
         }
@@ -160,10 +156,6 @@ fn write_response(
     }
     end(to)
 }
-
-/// What the identification lines of the points begin with.
-pub(super) const REFERENCE: &str = "Force at ";
-pub(super) const RESPONSE: &str = "Response at ";
 
 /// Name in ten characters, node, direction.
 fn write_point(to: &mut impl Write, point: &ResponsePoint) -> io::Result<()> {

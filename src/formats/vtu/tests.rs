@@ -6,7 +6,11 @@ use std::path::Path;
 use vtkio::IOBuffer;
 use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk};
 
+use super::super::FormatError;
+use super::cell::{cell_type, node_order};
 use super::*;
+use crate::fe::mesh::{ElementId, Mesh};
+use crate::files::FileError;
 use crate::numerics::units::LengthUnit;
 
 fn mesh(name: &str) -> Mesh {
@@ -179,5 +183,5 @@ fn errors_fire_with_their_exact_messages() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let nowhere = folder.path().join("no/grid.vtu");
     let error = write_vtu(&nowhere, &mesh, elements, &[], &[]).unwrap_err();
-    assert!(matches!(error, VtuError::Write { path, .. } if path == nowhere));
+    assert!(matches!(error, FormatError::File(FileError::Write { path, .. }) if path == nowhere));
 }

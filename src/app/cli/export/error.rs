@@ -4,10 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::formats::{
-    DofTableError, MatrixMarketError, MbdynError, ModeShapesError, NpzError, NpzReadError,
-    Op4Error, UffError, VtuError,
-};
+use crate::files::{Fault, FileError};
+use crate::formats::{FormatError, MbdynError};
 
 /// Why something was not exported.
 #[derive(Debug, Error)]
@@ -51,28 +49,16 @@ pub enum ExportError {
     },
     /// No modes, or some that contradict themselves.
     #[error("mode shapes: {0}")]
-    Shapes(#[from] ModeShapesError),
+    Shapes(#[from] Fault),
     /// Mode shapes that cannot be read.
     #[error(transparent)]
-    Read(#[from] NpzReadError),
-    /// A NumPy archive.
+    Read(FormatError),
+    /// A file that cannot be written.
     #[error(transparent)]
-    Npz(#[from] NpzError),
-    /// A Matrix Market file.
+    File(#[from] FileError),
+    /// Data that a format does not hold, or a file of it that cannot be written.
     #[error(transparent)]
-    MatrixMarket(#[from] MatrixMarketError),
-    /// A table of degrees of freedom.
-    #[error(transparent)]
-    Dofs(#[from] DofTableError),
-    /// A grid.
-    #[error(transparent)]
-    Vtu(#[from] VtuError),
-    /// A universal file.
-    #[error(transparent)]
-    Uff(#[from] UffError),
-    /// An OUTPUT4 file.
-    #[error(transparent)]
-    Op4(#[from] Op4Error),
+    Format(#[from] FormatError),
     /// The data of a modal element.
     #[error("--to mbdyn: {0}")]
     Mbdyn(#[from] MbdynError),
@@ -84,13 +70,9 @@ impl ExportError {
     pub fn is_input(&self) -> bool {
         !matches!(
             self,
-            Self::Npz(_)
-                | Self::MatrixMarket(_)
-                | Self::Dofs(_)
-                | Self::Vtu(VtuError::Write { .. })
-                | Self::Uff(UffError::Write { .. })
-                | Self::Op4(Op4Error::Write { .. })
-                | Self::Mbdyn(MbdynError::Write { .. } | MbdynError::Eigen { .. })
+            Self::File(_)
+                | Self::Format(FormatError::File(FileError::Write { .. }))
+                | Self::Mbdyn(MbdynError::File(_) | MbdynError::Eigen { .. })
         )
     }
 

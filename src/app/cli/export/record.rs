@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::CliError;
 use crate::app::cli::OutputFolder;
+use crate::files::FileError;
 
 /// A file of an export.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -24,10 +25,10 @@ impl WrittenFile {
     /// A file that was written into a folder.
     ///
     /// # Errors
-    /// [`CliError::Write`] if it is not there.
+    /// [`CliError::File`] if it is not there.
     pub(super) fn new(folder: &Path, name: &str, what: &str) -> Result<Self, CliError> {
         let path = folder.join(name);
-        let found = fs::metadata(&path).map_err(|source| CliError::Write { path, source })?;
+        let found = fs::metadata(&path).map_err(FileError::write(&path))?;
         Ok(Self {
             file: name.to_owned(),
             bytes: found.len(),

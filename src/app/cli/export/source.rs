@@ -81,7 +81,7 @@ impl Source {
             return Ok((mesh, shapes));
         };
         progress.stage("read");
-        let shapes = read_modes_npz(&path).map_err(ExportError::from)?;
+        let shapes = read_modes_npz(&path).map_err(ExportError::Read)?;
         let housing = self.case.meshed_housing();
         let mesh = housing
             .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))

@@ -149,7 +149,7 @@ impl<'c> ComparedFile<'c> {
     /// [`ComputeError::ModeShapes`] with file and line.
     pub fn read_all(case: &'c Case) -> Result<Vec<Self>, ComputeError> {
         let read = |asked: &'c ComparedModes| {
-            let modes = read_mode_shapes(&asked.file)?;
+            let modes = read_mode_shapes(&asked.file).map_err(ComputeError::ModeShapes)?;
             Ok(Self { asked, modes })
         };
         case.modes.compare.iter().map(read).collect()

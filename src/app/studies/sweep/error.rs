@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::AxisProblem;
 use crate::app::case::CaseError;
 use crate::app::error::ComputeError;
-use crate::formats::NpzError;
+use crate::formats::FormatError;
 
 /// Why a sweep cannot be planned, or not go on.
 #[derive(Debug, Error)]
@@ -100,7 +100,7 @@ pub enum SweepError {
     Stage(Box<ComputeError>),
     /// The archive of the table cannot be written.
     #[error(transparent)]
-    Npz(#[from] NpzError),
+    Npz(#[from] FormatError),
     /// A file or folder of the sweep cannot be read or written.
     #[error("{}: {source}", path.display())]
     Io {

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use super::SweepResult;
 use super::result::Values;
-use crate::formats::{NpzError, NpzWriter};
+use crate::formats::{FormatError, NpzWriter};
 
 /// Writes `sweep.npz`: an array a column of the table, one entry a point, by the column's name (numbers as f64, NaN where there
 /// is none; texts as `<U`), `point` (the numbers, i64), and `shape`, the lengths of the axes: `a[name].reshape(a["shape"])` has
 /// an index an axis.
 ///
 /// # Errors
-/// [`NpzError`] when the file cannot be written; an earlier one is then as it was.
-pub fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), NpzError> {
+/// [`FormatError`] when the file cannot be written; an earlier one is then as it was.
+pub fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), FormatError> {
     let mut archive = NpzWriter::create(path)?;
     let whole = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
     let axes = result.plan.axes.iter();

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::super::MeasuredError;
 use super::element::ByteOrder;
+use crate::files::Fault;
 
 /// Bytes of the head.
 pub(super) const HEAD: usize = 128;
@@ -28,15 +29,13 @@ pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, Measure
         Some(&[low, high, b'I', b'M']) => (ByteOrder::Little, [high, low]),
         Some(&[high, low, b'M', b'I']) => (ByteOrder::Big, [high, low]),
         other => {
-            return Err(MeasuredError::Mat {
-                path: path.to_owned(),
-                place: format!("byte {}", HEAD - 2),
-                expected: "the head of a MATLAB file, which ends in IM or MI".to_owned(),
-                found: match other {
-                    Some(end) => format!("\"{}\"", end[2..].escape_ascii()),
-                    None => format!("a file of {} bytes", bytes.len()),
-                },
-            });
+            let found = match other {
+                Some(end) => format!("\"{}\"", end[2..].escape_ascii()),
+                None => format!("a file of {} bytes", bytes.len()),
+            };
+            let fault = Fault::new("the head of a MATLAB file, which ends in IM or MI", found);
+            let place = format!("byte {}", HEAD - 2);
+            return Err(fault.within(place).of(path).into());
         }
     };
     match number {

@@ -28,27 +28,5 @@ mod signals;
 mod tests;
 mod variable;
 
-use std::path::Path;
-
-use super::{Channel, MeasuredError, MeasuredSignal, SignalRequest};
-use crate::files::bytes_of;
-
-pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-    signals::channels(&bytes_of(path)?, path, request)
-}
-
-/// Reads signals from the content of a MATLAB file; `path` is for messages.
-///
-/// # Errors
-/// [`MeasuredError`], as [`read_signals`](super::read_signals).
-pub fn signals_from_mat(
-    bytes: &[u8],
-    path: &Path,
-    request: &SignalRequest,
-) -> Result<Vec<MeasuredSignal>, MeasuredError> {
-    let channels = signals::channels(bytes, path, request)?;
-    let made = channels
-        .into_iter()
-        .map(|channel| channel.signal(path, request));
-    made.collect()
-}
+pub(super) use signals::read;
+pub use signals::signals_from_mat;

@@ -4,13 +4,15 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::rc::Rc;
 
+use super::super::channel::{Channel, choose};
 use super::super::clock::Clock;
-use super::super::{Channel, MeasuredError, SignalRequest, choose};
+use super::super::{MeasuredError, MeasuredSignal, SignalRequest};
 use super::array::{Array, Search, Shape};
 use super::beside::{Taken, is_time, speed_hz, taken};
 use super::element::{ByteOrder, Fault};
 use super::header::byte_order;
 use super::variable::{Variable, variables};
+use crate::files::{self, bytes_of};
 
 /// A file whose arrays are known and not read.
 struct MatFile<'a> {
@@ -40,8 +42,32 @@ impl Place {
 /// The variable that was unpacked last.
 type Opened<'a> = Option<(usize, Cow<'a, [u8]>)>;
 
-/// Reads the wanted signals.
-pub(super) fn channels(
+/// Reads the wanted channels of a file.
+pub(in super::super) fn read(
+    path: &Path,
+    request: &SignalRequest,
+) -> Result<Vec<Channel>, MeasuredError> {
+    channels(&bytes_of(path)?, path, request)
+}
+
+/// Reads signals from the content of a MATLAB file; `path` is for messages.
+///
+/// # Errors
+/// [`MeasuredError`], as [`read_signals`](super::super::read_signals).
+pub fn signals_from_mat(
+    bytes: &[u8],
+    path: &Path,
+    request: &SignalRequest,
+) -> Result<Vec<MeasuredSignal>, MeasuredError> {
+    let channels = channels(bytes, path, request)?;
+    let made = channels
+        .into_iter()
+        .map(|channel| channel.signal(path, request));
+    made.collect()
+}
+
+/// Reads the wanted channels.
+fn channels(
     bytes: &[u8],
     path: &Path,
     request: &SignalRequest,
@@ -196,10 +222,6 @@ fn wrong(path: &Path, variable: Option<&Variable>, fault: Fault) -> MeasuredErro
     if let Some(array) = fault.array {
         place = format!("array \"{array}\", {place}");
     }
-    MeasuredError::Mat {
-        path: path.to_owned(),
-        place,
-        expected: fault.expected,
-        found: fault.found,
-    }
+    let fault = files::Fault::new(fault.expected, fault.found).within(place);
+    fault.of(path).into()
 }

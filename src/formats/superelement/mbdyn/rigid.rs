@@ -2,6 +2,7 @@
 
 use super::super::SuperelementRecord;
 use super::MbdynError;
+use crate::files::Fault;
 use crate::formats::DofDirection;
 use crate::numerics::linalg::DenseMatrix;
 
@@ -74,7 +75,7 @@ fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, MbdynError>
     Ok(motions)
 }
 
-fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<(), MbdynError> {
+fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<(), Fault> {
     let forces = &record.stiffness * motions;
     for (motion, name) in MOTIONS.into_iter().enumerate() {
         let (mut largest, mut sums) = (0.0_f64, 0.0_f64);
@@ -85,10 +86,14 @@ fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<()
             sums = sums.max(parts.sum());
         }
         if largest > FORCE_LIMIT * sums {
-            return Err(MbdynError::NotRigid {
-                motion: name,
-                found: largest / sums,
-            });
+            let found = format!(
+                "{:e} of the stiffness's magnitude: positions or axes of the interface do not belong to the matrices",
+                largest / sums
+            );
+            return Err(Fault::new(
+                format!("no forces in {name} of a free body"),
+                found,
+            ));
         }
     }
     Ok(())

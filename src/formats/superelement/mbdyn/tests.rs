@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use super::super::SuperelementRecord;
 use super::*;
 use crate::formats::superelement::samples::{dense, record};
 use crate::formats::{DofBody, DofDirection, DofLabel, FieldRecovery};
+use crate::numerics::linalg::DenseMatrix;
 
 /// Words of a record, without comments and without the headings of shapes.
 fn words(text: &str, record: usize) -> Option<Vec<String>> {
@@ -322,7 +324,7 @@ fn what_mbdyn_cannot_have_is_told() {
         MbdynReference::Floating,
     );
     let error = error.unwrap_err();
-    assert!(matches!(error, MbdynError::Write { .. }));
+    assert!(matches!(error, MbdynError::File(_)));
     let negative = SuperelementRecord::of_matrices(
         dense(&[[1.0, 0.0], [0.0, 1.0]]),
         dense(&[[-3.0, 0.0], [0.0, 1.0]]),

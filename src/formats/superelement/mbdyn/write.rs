@@ -3,11 +3,24 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::Body;
-use crate::files::write_atomic;
+use super::nodes::Node;
+use super::rigid::Inertia;
+use crate::files::{FileError, write_atomic};
 use crate::numerics::linalg::DenseMatrix;
 
-pub(super) fn write(path: &Path, body: &Body) -> io::Result<()> {
+/// What goes into a file.
+pub(super) struct Body {
+    pub(super) nodes: Vec<Node>,
+    /// Ascending, 1/s^2.
+    pub(super) eigenvalues: Vec<f64>,
+    /// \[n x modes\], modal mass 1.
+    pub(super) vectors: DenseMatrix,
+    /// \[modes x modes\].
+    pub(super) damping: Option<DenseMatrix>,
+    pub(super) inertia: Option<Inertia>,
+}
+
+pub(super) fn write(path: &Path, body: &Body) -> Result<(), FileError> {
     write_atomic(path, |to| {
         let modes = body.eigenvalues.len();
         writeln!(to, "** MBDyn modal data, SI units, axes of the mesh")?;

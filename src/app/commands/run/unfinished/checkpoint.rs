@@ -9,7 +9,7 @@
 
 use super::identity::RunIdentity;
 use crate::app::error::UnfinishedError;
-use crate::files::write_atomic;
+use crate::files::{FileError, write_atomic};
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -64,17 +64,12 @@ pub(crate) fn write(
     };
     let mut bytes = MAGIC.to_vec();
     let written = serde_json::to_writer(&mut bytes, &head).map_err(std::io::Error::from);
+    written.map_err(FileError::write(path))?;
     bytes.push(b'\n');
     bytes.extend(snapshot.words().iter().flat_map(|word| word.to_le_bytes()));
     let digest = Sha256::digest(&bytes);
     bytes.extend_from_slice(&digest);
-    written
-        .and_then(|()| write_atomic(path, |file| file.write_all(&bytes)))
-        .map_err(|source| UnfinishedError::File {
-            what: "write",
-            path: path.to_owned(),
-            source,
-        })
+    Ok(write_atomic(path, |file| file.write_all(&bytes))?)
 }
 
 impl Checkpoint {
@@ -83,11 +78,7 @@ impl Checkpoint {
     /// # Errors
     /// [`UnfinishedError::File`], [`UnfinishedError::Damaged`].
     pub fn read(path: &Path) -> Result<Self, UnfinishedError> {
-        let bytes = fs::read(path).map_err(|source| UnfinishedError::File {
-            what: "read",
-            path: path.to_owned(),
-            source,
-        })?;
+        let bytes = fs::read(path).map_err(FileError::read(path))?;
         Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged {
             path: path.to_owned(),
             what,
@@ -171,6 +162,6 @@ mod tests {
             assert!(Checkpoint::parse(&whole[..length]).is_err(), "{length}");
         }
         let error = Checkpoint::read(&folder.path().join("nowhere")).unwrap_err();
-        assert!(matches!(error, UnfinishedError::File { .. }));
+        assert!(matches!(error, UnfinishedError::File(_)));
     }
 }

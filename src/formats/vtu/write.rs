@@ -1,0 +1,275 @@
+//! Writes a grid: nodes, elements and fields.
+//!
+//! Numbers go straight from the mesh to the file. The crate `vtkio` 0.7.0-rc2 copies and encodes all of them in memory first:
+//! 400 MiB for a file of 132 MiB.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::Path;
+
+use base64::engine::GeneralPurpose;
+use base64::engine::general_purpose::STANDARD;
+use base64::write::EncoderWriter;
+
+use super::super::FormatError;
+use super::cell::{cell_type, node_order};
+use crate::fe::mesh::{ElementId, ElementKind, Mesh};
+use crate::files::{AtomicFile, Fault, write_atomic};
+
+/// Values of a field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FieldValues<'a> {
+    /// One number each.
+    Scalars(&'a [f64]),
+    /// Three numbers each (x, y, z), such as a mode shape.
+    Vectors(&'a [f64]),
+    /// One whole number each, such as the number of a part.
+    Integers(&'a [i64]),
+}
+
+/// A named field: on all nodes of the mesh, or on the elements that are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field<'a> {
+    /// Name as ParaView shows it, unique among the fields of its place, without control characters.
+    pub name: &'a str,
+    /// Values; a vector has its three components together.
+    pub values: FieldValues<'a>,
+}
+
+/// Nodes and elements that are written.
+struct Grid<'a> {
+    mesh: &'a Mesh,
+    elements: Vec<(ElementKind, &'a [usize])>,
+    /// Indices of the nodes used, sorted.
+    nodes: Vec<usize>,
+    /// For each node of the mesh its place in `nodes`.
+    place: Vec<i64>,
+}
+
+impl<'a> Grid<'a> {
+    fn new(mesh: &'a Mesh, ids: impl IntoIterator<Item = ElementId>) -> Result<Self, FormatError> {
+        let mut elements = Vec::new();
+        let mut place = vec![-1; mesh.nodes.len()];
+        for id in ids {
+            let block = mesh.blocks.get(id.block);
+            let found = block.and_then(|block| Some((block.kind, block.element(id.index)?)));
+            let Some((kind, nodes)) = found else {
+                return Err(FormatError::Element { id });
+            };
+            for &node in nodes {
+                place[node] = 0;
+            }
+            elements.push((kind, nodes));
+        }
+        if elements.is_empty() {
+            return Err(Fault::new("at least one element to write", "none").into());
+        }
+        let used = |&node: &usize| place[node] == 0;
+        let nodes: Vec<usize> = (0..mesh.nodes.len()).filter(used).collect();
+        for (new, &node) in nodes.iter().enumerate() {
+            place[node] = new as i64;
+        }
+        Ok(Self {
+            mesh,
+            elements,
+            nodes,
+            place,
+        })
+    }
+
+    /// Checks a place's fields.
+    fn check(fields: &[Field], count: usize, what: &'static str) -> Result<(), FormatError> {
+        for (index, field) in fields.iter().enumerate() {
+            let name = field.name;
+            if name.is_empty() || name.chars().any(char::is_control) {
+                let expected = "a field's name without control characters";
+                return Err(Fault::new(expected, format!("{name:?}")).into());
+            }
+            if fields[..index].iter().any(|other| other.name == name) {
+                let name = name.to_owned();
+                return Err(FormatError::DuplicateField { name });
+            }
+            let expected = field.values.components() * count;
+            let found = field.values.len();
+            if found != expected {
+                return Err(FormatError::Count {
+                    what: format!("field \"{name}\""),
+                    expected: format!("{expected} values (a fixed number for each {what})"),
+                    found,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl FieldValues<'_> {
+    fn components(&self) -> usize {
+        match self {
+            Self::Vectors(_) => 3,
+            Self::Scalars(_) | Self::Integers(_) => 1,
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Vectors(values) | Self::Scalars(values) => values.len(),
+            Self::Integers(values) => values.len(),
+        }
+    }
+
+    fn type_name(&self) -> &'static str {
+        match self {
+            Self::Vectors(_) | Self::Scalars(_) => "Float64",
+            Self::Integers(_) => "Int64",
+        }
+    }
+
+    /// Writes the values of one node or element.
+    fn write(&self, to: &mut impl Write, index: usize) -> io::Result<()> {
+        match self {
+            Self::Scalars(values) => to.write_all(&values[index].to_le_bytes()),
+            Self::Integers(values) => to.write_all(&values[index].to_le_bytes()),
+            Self::Vectors(values) => values[3 * index..][..3]
+                .iter()
+                .try_for_each(|value| to.write_all(&value.to_le_bytes())),
+        }
+    }
+}
+
+/// The XML text before the numbers, and where each array will begin.
+struct Head {
+    text: String,
+    /// Characters of the arrays so far, with the lengths before them.
+    offset: usize,
+}
+
+impl Head {
+    fn array(&mut self, name: &str, type_name: &str, components: usize, bytes: usize) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            self.text,
+            "<DataArray type=\"{type_name}\" Name=\"{}\" NumberOfComponents=\"{components}\" format=\"appended\" \
+             offset=\"{}\"/>",
+            escaped(name),
+            self.offset
+        );
+        self.offset += (8 + bytes).div_ceil(3) * 4;
+    }
+
+    fn fields(&mut self, tag: &str, fields: &[Field], count: usize) {
+        let _ = writeln!(self.text, "<{tag}>");
+        for field in fields {
+            let components = field.values.components();
+            let bytes = 8 * components * count;
+            self.array(field.name, field.values.type_name(), components, bytes);
+        }
+        let _ = writeln!(self.text, "</{tag}>");
+    }
+}
+
+/// Text as it may stand in an XML attribute.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Writes elements of a mesh with fields, whole or not at all.
+///
+/// `point_fields` have a value for every node of the mesh (in its order); only those of nodes that the elements use are
+/// written. `cell_fields` have a value for every element given, in the order given.
+///
+/// # Errors
+/// [`FormatError`] for an element that the mesh does not have, none at all, fields of the wrong length or without a proper
+/// name of their own, and when the file cannot be written.
+pub fn write_vtu(
+    path: &Path,
+    mesh: &Mesh,
+    elements: impl IntoIterator<Item = ElementId>,
+    point_fields: &[Field],
+    cell_fields: &[Field],
+) -> Result<(), FormatError> {
+    let grid = Grid::new(mesh, elements)?;
+    Grid::check(point_fields, mesh.nodes.len(), "node of the mesh")?;
+    Grid::check(cell_fields, grid.elements.len(), "element written")?;
+    let write = |to: &mut AtomicFile| write_grid(to, &grid, point_fields, cell_fields);
+    Ok(write_atomic(path, write)?)
+}
+
+fn write_grid(
+    to: &mut impl Write,
+    grid: &Grid,
+    point_fields: &[Field],
+    cell_fields: &[Field],
+) -> io::Result<()> {
+    let (points, cells) = (grid.nodes.len(), grid.elements.len());
+    let corners: usize = grid.elements.iter().map(|(_, nodes)| nodes.len()).sum();
+    let mut head = Head {
+        text: format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" \
+             NumberOfCells=\"{cells}\">\n"
+        ),
+        offset: 0,
+    };
+    head.text += "<Points>\n";
+    head.array("Points", "Float64", 3, 24 * points);
+    head.text += "</Points>\n<Cells>\n";
+    head.array("connectivity", "Int64", 1, 8 * corners);
+    head.array("offsets", "Int64", 1, 8 * cells);
+    head.array("types", "UInt8", 1, cells);
+    head.text += "</Cells>\n";
+    head.fields("PointData", point_fields, points);
+    head.fields("CellData", cell_fields, cells);
+    head.text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"base64\">\n_";
+    to.write_all(head.text.as_bytes())?;
+
+    array(to, 24 * points, |to| {
+        let mut values = grid.nodes.iter().flat_map(|&node| grid.mesh.nodes[node]);
+        values.try_for_each(|value| to.write_all(&value.to_le_bytes()))
+    })?;
+    array(to, 8 * corners, |to| {
+        let mut places = grid.elements.iter().flat_map(|&(kind, nodes)| {
+            let own = node_order(kind).iter();
+            own.map(|&own| grid.place[nodes[own]])
+        });
+        places.try_for_each(|place| to.write_all(&place.to_le_bytes()))
+    })?;
+    array(to, 8 * cells, |to| {
+        let mut end = 0;
+        grid.elements.iter().try_for_each(|(_, nodes)| {
+            end += nodes.len() as i64;
+            to.write_all(&end.to_le_bytes())
+        })
+    })?;
+    array(to, cells, |to| {
+        let mut kinds = grid.elements.iter();
+        kinds.try_for_each(|&(kind, _)| to.write_all(&[cell_type(kind)]))
+    })?;
+    for Field { values, .. } in point_fields {
+        array(to, 8 * values.components() * points, |to| {
+            let mut nodes = grid.nodes.iter();
+            nodes.try_for_each(|&node| values.write(to, node))
+        })?;
+    }
+    for Field { values, .. } in cell_fields {
+        array(to, 8 * values.components() * cells, |to| {
+            (0..cells).try_for_each(|index| values.write(to, index))
+        })?;
+    }
+    to.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+}
+
+/// Writes one array: its length in bytes and what `write` gives, encoded as one.
+fn array<W: Write>(
+    to: &mut W,
+    bytes: usize,
+    write: impl FnOnce(&mut EncoderWriter<GeneralPurpose, &mut W>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut encoder = EncoderWriter::new(to, &STANDARD);
+    encoder.write_all(&(bytes as u64).to_le_bytes())?;
+    write(&mut encoder)?;
+    encoder.finish().map(|_| ())
+}
