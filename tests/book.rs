@@ -363,7 +363,11 @@ fn links_anchors_and_complaints() {
         ("theory/structure.md#mesh", false, None),
         ("#a", false, None),
         ("https://gmsh.info", false, None),
-        ("theory/structure.md#no", false, Some("structure.md has no such heading")),
+        (
+            "theory/structure.md#no",
+            false,
+            Some("structure.md has no such heading"),
+        ),
         ("#b", false, Some("limits.md has no such heading")),
         ("none.md", false, Some("no such file")),
         (
