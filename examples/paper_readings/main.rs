@@ -6,7 +6,8 @@
 //!
 //! - where the contact stiffness of Table 1 may come from, a third of what the table's own radii give;
 //! - the modes of `examples/tadina2011/beam.toml` with other equations, contact stiffness and cage angle;
-//! - all 155,520 combinations of what is left open: which fit within 2 %, and what those have in common.
+//! - all 155,520 combinations of what is left open: which fit within 2 %, and what those have in common;
+//! - the built-in reading with closed inner contacts, which fits with springs at the nodes.
 //!
 //! The folder of the results gets `report.html`, `readings.csv` (every reading), `readings-that-fit.csv` and `figures/`. It
 //! takes four minutes on two cores.
@@ -17,6 +18,7 @@
 
 mod charts;
 mod choices;
+mod closed_contacts;
 mod contact_stiffness;
 mod equations;
 mod fits;
@@ -63,6 +65,10 @@ fn main() -> Result<(), Failure> {
     let readings = tables::section(&study, &fits, base, &moved, &charts);
     print(&mut out, &readings)?;
 
+    let closed = closed_contacts::rows(&study.grid)?;
+    let contacts = closed_contacts::section(&study.grid, &closed);
+    print(&mut out, &contacts)?;
+
     let page = Report::new(
         "Readings of Tadina & Boltezar (2011)",
         "cargo run --release --example paper_readings",
@@ -70,7 +76,8 @@ fn main() -> Result<(), Failure> {
     )
     .section(stiffness)
     .section(equations)
-    .section(readings);
+    .section(readings)
+    .section(contacts);
     let html = page.to_html()?;
     let fitting = fits.fits.iter().map(|fit| &fit.reading);
     let mut files = vec![
@@ -103,6 +110,7 @@ fn main() -> Result<(), Failure> {
     );
     check_equations(&rows);
     check_readings(&study, &fits);
+    closed_contacts::check(&closed);
     check_against_modes(&study)
 }
 
