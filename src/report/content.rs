@@ -102,12 +102,12 @@ pub struct Section {
     /// Title of the section.
     pub title: String,
     /// What it holds, in order.
-    pub(crate) blocks: Vec<Block>,
+    pub blocks: Vec<Block>,
 }
 
 /// A piece of a section.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Block {
+pub enum Block {
     /// Free text.
     Paragraph(String),
     /// Properties in two columns.
@@ -183,7 +183,7 @@ impl Section {
 
     /// The section with a list of properties more.
     #[must_use]
-    pub(crate) fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
+    pub fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.block(Block::Facts(facts.into_iter().collect()))
     }
 
@@ -219,7 +219,7 @@ impl Section {
 
     /// The section with a chart of spans more.
     #[must_use]
-    pub(crate) fn spans(self, spans: Spans) -> Self {
+    pub fn spans(self, spans: Spans) -> Self {
         self.block(Block::Spans(spans))
     }
 

@@ -123,7 +123,7 @@ impl Curve {
 
     /// The curve in another style.
     #[must_use]
-    pub(crate) fn style(mut self, style: CurveStyle) -> Self {
+    pub fn style(mut self, style: CurveStyle) -> Self {
         self.style = style;
         self
     }

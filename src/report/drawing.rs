@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A point in the plane of the bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Point {
+pub struct Point {
     /// To the right, m.
     pub x: f64,
     /// Up, m.
@@ -14,7 +14,7 @@ pub(crate) struct Point {
 
 /// A circle: a race, a ball, the shaft.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Circle {
+pub struct Circle {
     /// Its centre.
     pub centre: Point,
     /// Its radius, m.
@@ -23,7 +23,7 @@ pub(crate) struct Circle {
 
 /// The finite-element ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Ring {
+pub struct Ring {
     /// Its centre line.
     pub circle: Circle,
     /// Its nodes.
@@ -32,7 +32,7 @@ pub(crate) struct Ring {
 
 /// A support spring: from its attachment towards the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Spring {
+pub struct Spring {
     /// Where it holds the model.
     pub at: Point,
     /// Direction from there to the ground, rad.
@@ -41,7 +41,7 @@ pub(crate) struct Spring {
 
 /// A dent on a race.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Dent {
+pub struct Dent {
     /// The race it lies on.
     pub race: Circle,
     /// Angle of its middle, rad.
@@ -54,7 +54,7 @@ pub(crate) struct Dent {
 
 /// A sensor: an arrow at its place, a ring and a dot if it measures across the drawing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Sensor {
+pub struct Sensor {
     /// Its name.
     pub name: String,
     /// Its place.
@@ -65,7 +65,7 @@ pub(crate) struct Sensor {
 
 /// A drawing of the model. Whatever is empty is left out, of the key too.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Drawing {
+pub struct Drawing {
     /// What it shows.
     pub title: String,
     /// What to see in it, under the drawing.
@@ -89,7 +89,7 @@ pub(crate) struct Drawing {
 impl Point {
     /// The point at a distance `radius` (m) and angle (rad) from this one.
     #[must_use]
-    pub(crate) fn polar(self, radius: f64, angle_rad: f64) -> Self {
+    pub fn polar(self, radius: f64, angle_rad: f64) -> Self {
         Self {
             x: self.x + radius * angle_rad.cos(),
             y: self.y + radius * angle_rad.sin(),

@@ -37,12 +37,10 @@ mod table;
 mod ticks;
 
 pub use bars::{BarSeries, Bars};
-#[cfg(test)]
-pub(crate) use content::Block;
-pub use content::{Document, Fact, Headline, MeshFile, Report, Section};
+pub use content::{Block, Document, Fact, Headline, MeshFile, Report, Section};
 pub use curve::{Abscissa, Curve, CurveStyle, Symbol};
 pub(crate) use decimate::Thinner;
-pub(crate) use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
+pub use drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub(crate) use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
@@ -53,6 +51,6 @@ pub use plot::{Axis, Family, Level, Marker, Plot, Scale, Sides};
 pub use shapes::{
     ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
 };
-pub(crate) use spans::{SpanPoint, SpanRow, Spans};
+pub use spans::{SpanPoint, SpanRow, Spans};
 pub use step_map::{StepMap, StepPanel, StepState};
 pub use table::{Align, Cell, CellLook, Column, Table, Verdict};

@@ -244,7 +244,7 @@ impl Plot {
 
     /// The plot with a caption.
     #[must_use]
-    pub(crate) fn caption(mut self, text: impl Into<String>) -> Self {
+    pub fn caption(mut self, text: impl Into<String>) -> Self {
         self.caption = Some(text.into());
         self
     }

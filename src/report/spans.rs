@@ -23,7 +23,7 @@ const CHARACTER: f64 = 5.6;
 
 /// One value that a cause can take, and where the quantity then is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SpanPoint {
+pub struct SpanPoint {
     /// The value, in a word or two.
     pub label: String,
     /// Where the quantity is.
@@ -32,7 +32,7 @@ pub(crate) struct SpanPoint {
 
 /// A cause with its values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SpanRow {
+pub struct SpanRow {
     /// The cause.
     pub name: String,
     /// Its values.
@@ -42,7 +42,7 @@ pub(crate) struct SpanRow {
 /// A chart with a row for each cause: a bar from the lowest to the highest place of the quantity, a dot for each value, and a
 /// line through all rows where the quantity is without a change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Spans {
+pub struct Spans {
     /// What it shows.
     pub title: String,
     /// Caption; `None`: the title.

@@ -55,7 +55,7 @@ impl Spans {
     ///
     /// # Errors
     /// [`ReportError`] for values that cannot be shown.
-    pub(crate) fn to_svg(&self) -> Result<String, ReportError> {
+    pub fn to_svg(&self) -> Result<String, ReportError> {
         let inner = spans::draw(self)?;
         Ok(file(&self.title, &[], &inner, self.height()))
     }

@@ -163,7 +163,7 @@ impl Cell {
 
     /// The cell with a reference to footnote `number`, counted from 1.
     #[must_use]
-    pub(crate) fn footnote(mut self, number: usize) -> Self {
+    pub fn footnote(mut self, number: usize) -> Self {
         self.footnote = Some(number);
         self
     }
@@ -197,13 +197,13 @@ impl Table {
 
     /// The table with a footnote more.
     #[must_use]
-    pub(crate) fn footnote(mut self, text: impl Into<String>) -> Self {
+    pub fn footnote(mut self, text: impl Into<String>) -> Self {
         self.footnotes.push(text.into());
         self
     }
 
     /// The table in columns of equal width, two spaces apart; caption first, no line end after the last row.
-    pub(crate) fn plain(&self) -> String {
+    pub fn plain(&self) -> String {
         let heads = self.columns.iter().map(|column| {
             let unit = column.unit.as_deref().unwrap_or_default();
             with_unit(&column.title, unit)

@@ -254,7 +254,7 @@ impl StructureModes {
     ///
     /// # Errors
     /// [`SystemError::NotSupported`] for a structure that is not held; what the eigenvalue computation reports.
-    pub(crate) fn with_static_response(
+    pub fn with_static_response(
         &self,
         structure: &Structure,
         hz: f64,

@@ -1,7 +1,7 @@
 //! Reference: free ring: Hoppe 1871 (thin; Blevins, table 9-1) and, for any thickness, the exact solution
 //!   of the element's own beam theory (waves `u = U sin n phi`, `w = W cos n phi`, `theta = T sin n phi`
 //!   make a 3 x 3 eigenproblem for each n, derived here); pinched ring: Timoshenko, Strength of Materials
-//!   II (thin: pi/4 - 2/pi and 2/pi - 1/2) and `closed_form::ring::pinched` (thick, with shear).
+//!   II (thin: pi/4 - 2/pi and 2/pi - 1/2) and `closed_form::pinched` (thick, with shear).
 //! Goal: the curved beam on a closed ring: frequencies and their order of convergence, statics, rigid
 //!   motions, no locking; beside it what the interpolation of Raveendranath, Singh and Pradhan 1999
 //!   (cubic radial displacement) reaches.
@@ -22,10 +22,10 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, TAU};
 
-use plummer::app::verification::ring::{
+use plummer::fe::element::curved_beam::RingInterpolation::{self, ExactArc, Raveendranath};
+use plummer::fe::element::curved_beam::closed_form::{
     RingSection, THIN_SHORTENING, THIN_WIDENING, pinched, thin_frequency_hz,
 };
-use plummer::fe::element::curved_beam::RingInterpolation::{self, ExactArc, Raveendranath};
 use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::model::Ring;
 use plummer::numerics::linalg::{

@@ -23,9 +23,11 @@
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use nalgebra::Matrix3;
-use plummer::app::verification::ring::{thin_frequency_hz, thin_out_of_plane_frequency_hz};
 use plummer::fe::element::curved_beam::OutOfPlaneArc;
 use plummer::fe::element::curved_beam::RingInterpolation::ExactArc;
+use plummer::fe::element::curved_beam::closed_form::{
+    thin_frequency_hz, thin_out_of_plane_frequency_hz,
+};
 use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::model::Ring;
 use plummer::numerics::linalg::{DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};

@@ -160,14 +160,13 @@ Example: the pages of results that an earlier version computed; the results stay
 Nothing is computed: the content of each page lies beside it as report.cbor.gz (CBOR, packed by gzip).";
 
 const VERIFY_EXAMPLE: &str = "\
-Examples: every built-in check of seconds; those of minutes too: orders of convergence, readings of the paper
+Examples: every built-in check of seconds; those of minutes too: orders of convergence
   plummer verify
-  plummer verify --full --out out/readings
+  plummer verify --full --out out/full
 
 Files:
   verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
-  report.html   the same as tables; with --full the charts of orders and readings
-  readings.csv  with --full: every reading and its frequencies (readings-that-fit.csv: those that give all three)";
+  report.html   the same as tables; with --full the charts of orders";
 
 const SCHEMA_EXAMPLE: &str = "\
 Example: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML
@@ -291,7 +290,7 @@ pub enum Command {
     /// Built-in checks against published numbers and closed forms; needs no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
-        /// Also orders of convergence, and which readings of the paper give its eigenfrequencies (minutes)
+        /// Also orders of convergence (minutes)
         #[arg(long)]
         full: bool,
     },

@@ -11,7 +11,6 @@ use crate::app::error::ComputeError;
 use crate::app::shell_word::printable;
 use crate::app::studies::chart::ChartError;
 use crate::app::studies::sweep::SweepError;
-use crate::app::verification::VerificationError;
 use crate::files::FileError;
 
 /// Why a command did not end well.
@@ -131,13 +130,7 @@ pub enum CliError {
     Sweep(Box<SweepError>),
     /// A built-in check could not be carried out.
     #[error(transparent)]
-    Verification(Box<VerificationError>),
-}
-
-impl From<VerificationError> for CliError {
-    fn from(error: VerificationError) -> Self {
-        Self::Verification(Box::new(error))
-    }
+    Verification(Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl From<SweepError> for CliError {
@@ -263,7 +256,6 @@ mod tests {
     use super::super::analyze::Missing;
     use super::{
         AnalyzeError, ChartError, CliError, ExportError, InitError, ResultsError, SweepError,
-        VerificationError,
     };
     use crate::app::case::Case;
     use crate::app::error::{ComputeError, UnfinishedError};
@@ -492,7 +484,7 @@ mod tests {
                 "error: out/a: full\n",
             ),
             (
-                CliError::from(VerificationError::NoBearing),
+                CliError::Verification("the built-in case has no bearing".into()),
                 1,
                 "error: the built-in case has no bearing\n",
             ),

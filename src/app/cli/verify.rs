@@ -11,8 +11,8 @@ use std::path::Path;
 /// Folder of the results unless another is named.
 const FOLDER: &str = "out/verify";
 
-/// Carries the suite out and writes `report.html`, its tables, the sections' own files and, last, `verify.json`; `full` adds
-/// the study of readings.
+/// Carries the suite out and writes `report.html`, its tables and figures and, last, `verify.json`; `full` adds the orders of
+/// convergence.
 ///
 /// # Errors
 /// [`CliError`] when a check cannot be carried out or a file cannot be written.
@@ -21,7 +21,7 @@ pub fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
     folder.claim("verify", options.force)?;
     let progress = Progress::new(options.visibility());
     let started = std::time::Instant::now();
-    let sections = suite(full, &progress).map_err(CliError::from);
+    let sections = suite(full, &progress).map_err(CliError::Verification);
     let outcome = sections.and_then(|sections| {
         let wall_s = started.elapsed().as_secs_f64();
         conclude(&sections, full, &folder, &progress, wall_s)
@@ -46,10 +46,6 @@ fn conclude(
     };
     let report = report(sections, command);
     let files = ReportFiles::without_case(folder, "verify", report)?;
-    let mut written = Vec::new();
-    for (name, text) in sections.iter().flat_map(|section| &section.files) {
-        written.push(folder.write_below(name, text.as_bytes())?);
-    }
     let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
     let information: Vec<_> = sections.iter().flat_map(|s| &s.information).collect();
     let mut map = Map::new();
@@ -79,7 +75,7 @@ fn conclude(
     Ok(Outcome {
         summary: summary(sections),
         result: json,
-        written: [vec![path], written, files.paths].concat(),
+        written: [vec![path], files.paths].concat(),
         verdict: if failed.is_empty() {
             Verdict::Good
         } else {
@@ -120,7 +116,6 @@ fn summary(sections: &[SectionResult]) -> String {
         if let Some(table) = section.information_table() {
             lines.push(table.plain());
         }
-        lines.extend(section.lines.iter().cloned());
     }
     let checks = || sections.iter().flat_map(|section| &section.checks);
     let good = checks().filter(|check| check.ok()).count();
@@ -152,8 +147,6 @@ mod tests {
             information: Vec::new(),
             report: vec![Section::new("").paragraph("Told beside.")],
             values: vec![("beside".to_owned(), json!(3))],
-            files: vec![("below/a.csv".to_owned(), "a\n".to_owned())],
-            lines: vec!["a line".to_owned()],
         }
     }
 
@@ -190,8 +183,6 @@ mod tests {
         assert_eq!(json["beside"], 3);
         let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
         assert!(page.contains("1 of 2 pass") && page.contains("Told beside."));
-        let beside = std::fs::read_to_string(folder.path().join("below/a.csv")).unwrap();
-        assert_eq!(beside, "a\n");
         std::fs::remove_dir_all(folder.path()).unwrap();
     }
 

@@ -2,13 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::check::Kind;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
-use crate::app::verification::ring::{
+use super::section::{Check, Kind, SectionResult, VerificationError};
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::element::curved_beam::closed_form::{
     RingSection, THIN_SHORTENING, THIN_WIDENING, pinched, thin_frequency_hz,
 };
-use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::fe::model::Ring;
 use crate::numerics::linalg::{DenseCholesky, DenseMatrix, symmetric_generalised_eigen};

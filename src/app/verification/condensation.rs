@@ -3,9 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use super::check::Kind;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
+use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;

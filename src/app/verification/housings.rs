@@ -4,9 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::check::Kind;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
+use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};

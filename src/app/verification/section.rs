@@ -1,26 +1,136 @@
 //! What a section of the suite hands on: checks, what is told beside them, and its part of the report.
 
-use super::{Check, Information};
 use crate::report::{Cell, Column, Section, Table, Verdict, significant};
+use serde::Serialize;
+use serde::ser::{SerializeStruct, Serializer};
 use serde_json::Value;
+
+/// Why a built-in check could not be carried out: an error of what is part of the program, which no user can set right.
+pub(crate) type VerificationError = Box<dyn std::error::Error + Send + Sync>;
+
+/// A number that was computed, what it ought to be, and under which assumptions both are the same thing.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Check {
+    /// What it is.
+    pub(crate) name: String,
+    /// The section that it belongs to.
+    pub(crate) section: String,
+    /// The program's value, in `unit`.
+    pub(crate) computed: f64,
+    /// What it is compared with, in `unit`; not zero.
+    pub(crate) reference: f64,
+    /// Unit of both; empty for none.
+    pub(crate) unit: String,
+    /// Where the reference comes from.
+    pub(crate) source: String,
+    /// What was assumed, in words.
+    pub(crate) assumptions: String,
+    /// Largest magnitude of the relative error that passes.
+    pub(crate) limit: f64,
+    /// Why this limit.
+    pub(crate) reason: String,
+}
+
+/// What all checks of a kind have in common.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kind<'a> {
+    pub(super) unit: &'a str,
+    pub(super) source: &'a str,
+    pub(super) assumptions: &'a str,
+    pub(super) reason: &'a str,
+}
+
+impl Kind<'_> {
+    /// A check of this kind; its section is told by [`SectionResult::of_checks`].
+    pub(super) fn check(&self, name: &str, computed: f64, reference: f64, limit: f64) -> Check {
+        Check {
+            name: name.to_owned(),
+            section: String::new(),
+            computed,
+            reference,
+            unit: self.unit.to_owned(),
+            source: self.source.to_owned(),
+            assumptions: self.assumptions.to_owned(),
+            limit,
+            reason: self.reason.to_owned(),
+        }
+    }
+}
+
+/// A number that is told, and not judged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Information {
+    /// What it is.
+    pub(crate) name: String,
+    /// The section that it belongs to.
+    pub(crate) section: String,
+    /// The program's value, in `unit`.
+    pub(crate) computed: f64,
+    /// The source's value for what this resembles, in `unit`.
+    pub(crate) source_value: Option<f64>,
+    /// Unit of both; empty for none.
+    pub(crate) unit: String,
+    /// What was assumed, in words.
+    pub(crate) assumptions: String,
+}
+
+impl Check {
+    /// (computed - reference) / reference.
+    pub(crate) fn relative_error(&self) -> f64 {
+        (self.computed - self.reference) / self.reference
+    }
+
+    /// Whether it passes; a value that is no number does not.
+    pub(crate) fn ok(&self) -> bool {
+        self.relative_error().abs() <= self.limit
+    }
+
+    /// One line for a reader.
+    pub(crate) fn line(&self) -> String {
+        format!(
+            "{}: {:.6e} {} against {:.6e} ({}), {:+.2e}, limit {:.1e}",
+            self.name,
+            self.computed,
+            self.unit,
+            self.reference,
+            self.source,
+            self.relative_error(),
+            self.limit
+        )
+    }
+}
+
+impl Serialize for Check {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_struct("Check", 11)?;
+        map.serialize_field("name", &self.name)?;
+        map.serialize_field("section", &self.section)?;
+        map.serialize_field("computed", &self.computed)?;
+        map.serialize_field("reference", &self.reference)?;
+        map.serialize_field("unit", &self.unit)?;
+        map.serialize_field("source", &self.source)?;
+        map.serialize_field("assumptions", &self.assumptions)?;
+        map.serialize_field("relative_error", &self.relative_error())?;
+        map.serialize_field("limit", &self.limit)?;
+        map.serialize_field("limit_reason", &self.reason)?;
+        map.serialize_field("ok", &self.ok())?;
+        map.end()
+    }
+}
 
 /// A section of the suite, carried out.
 #[derive(Debug, Clone)]
-pub struct SectionResult {
+pub(crate) struct SectionResult {
     /// Its title.
-    pub title: String,
+    pub(crate) title: String,
     /// Numbers with a verdict.
-    pub checks: Vec<Check>,
+    pub(crate) checks: Vec<Check>,
     /// Numbers without.
-    pub information: Vec<Information>,
+    pub(crate) information: Vec<Information>,
     /// Its part of the report, after the tables of checks.
-    pub report: Vec<Section>,
+    pub(crate) report: Vec<Section>,
     /// What the result file says of it beside the checks: key and value.
-    pub values: Vec<(String, Value)>,
-    /// Files that stand beside the report: path below the results' folder, content.
-    pub files: Vec<(String, String)>,
-    /// Lines for a terminal beside the table of checks.
-    pub lines: Vec<String>,
+    pub(crate) values: Vec<(String, Value)>,
 }
 
 impl SectionResult {
@@ -35,14 +145,11 @@ impl SectionResult {
             information: Vec::new(),
             report: Vec::new(),
             values: Vec::new(),
-            files: Vec::new(),
-            lines: Vec::new(),
         }
     }
 
     /// The checks as a table for the report and the terminal.
-    #[must_use]
-    pub fn check_table(&self) -> Table {
+    pub(crate) fn check_table(&self) -> Table {
         let columns = [
             Column::text("Check"),
             Column::number("Computed", ""),
@@ -69,8 +176,7 @@ impl SectionResult {
     }
 
     /// What stands behind each check.
-    #[must_use]
-    pub fn assumption_table(&self) -> Table {
+    pub(crate) fn assumption_table(&self) -> Table {
         let columns = [
             Column::text("Check"),
             Column::text("Reference from"),
@@ -90,8 +196,7 @@ impl SectionResult {
     }
 
     /// What is told and not judged; `None` if there is nothing.
-    #[must_use]
-    pub fn information_table(&self) -> Option<Table> {
+    pub(crate) fn information_table(&self) -> Option<Table> {
         let columns = [
             Column::text("Quantity"),
             Column::number("Computed", ""),
@@ -114,8 +219,7 @@ impl SectionResult {
     }
 
     /// The section of the report, tables of checks first.
-    #[must_use]
-    pub fn sections(&self) -> Vec<Section> {
+    pub(crate) fn sections(&self) -> Vec<Section> {
         let mut first = Section::new(&self.title);
         if !self.checks.is_empty() {
             first = first
@@ -139,5 +243,31 @@ pub(super) fn signed(value: f64) -> String {
         format!("+{}", significant(value, 2))
     } else {
         significant(value, 2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limit_decides_and_what_is_no_number_fails() {
+        let check = |computed, limit| Check {
+            name: "n".to_owned(),
+            section: "s".to_owned(),
+            computed,
+            reference: -2.0,
+            unit: "N".to_owned(),
+            source: "hand".to_owned(),
+            assumptions: String::new(),
+            limit,
+            reason: String::new(),
+        };
+        assert!(check(-2.25, 0.125).ok() && check(-1.75, 0.125).ok());
+        assert!(!check(-2.25, 0.12).ok() && !check(2.0, 0.5).ok());
+        assert!(!check(f64::NAN, 1.0).ok());
+        let json = serde_json::to_value(check(-2.25, 0.1)).unwrap();
+        assert_eq!(json["relative_error"], 0.125);
+        assert_eq!(json["ok"], false);
     }
 }

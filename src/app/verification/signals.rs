@@ -1,13 +1,9 @@
 //! Filters, spectra and envelopes on signals whose answer is known; and a dent that is found by its order.
 
 use std::f64::consts::{SQRT_2, TAU};
-use std::path::PathBuf;
 
-use super::check::Kind;
-use super::paper::BEARING;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
-use crate::app::case::{Case, Source};
+use super::built_in::{BEARING, SMOOTH, built_in};
+use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::app::commands::run::compute_run;
 use crate::bearing::kinematics::BallRow;
 use crate::numerics::Unwatched;
@@ -17,8 +13,6 @@ use crate::signal::{Butterworth, FilterBand, WindowFunction, amplitude_spectrum,
 
 /// Title of the section.
 const TITLE: &str = "Signals";
-/// The scene without impacts, as it was when the program was built.
-const SMOOTH: &str = include_str!("../../../examples/scenes/smooth.toml");
 /// The source's dent in the outer race.
 const DENT: &str = "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
 
@@ -147,11 +141,7 @@ fn dent() -> Result<Vec<Check>, VerificationError> {
         "analysis.energy=false",
         "analysis.envelope=[{from=0.02,to=0.42}]",
     ];
-    let case = Case::from_source(Source {
-        path: PathBuf::from("smooth.toml"),
-        text: SMOOTH.to_owned(),
-        set: set.iter().map(|key| (*key).to_owned()).collect(),
-    })?;
+    let case = built_in("smooth.toml", SMOOTH, &set)?;
     let run = compute_run(&case, &Unwatched)?;
     let pitch = BEARING.inner_race_radius + BEARING.outer_race_radius;
     let orders = BallRow::new(BEARING.balls, 2.0 * BEARING.ball_radius, pitch, 0.0)?.orders();

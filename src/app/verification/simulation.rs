@@ -1,12 +1,9 @@
 //! Stepping through time: an impact in closed form, the balance of energy, the order of a dent's impacts.
 
 use std::f64::consts::PI;
-use std::path::PathBuf;
 
-use super::check::Kind;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
-use crate::app::case::{Case, Source};
+use super::built_in::{IMPACT, SMOOTH, built_in};
+use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::app::commands::run::compute_run;
 use crate::bearing::HertzContact;
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
@@ -17,9 +14,6 @@ use crate::numerics::ode::{Method, Schedule, Stepping, integrate};
 
 /// Title of the section.
 const TITLE: &str = "Simulation";
-/// The scene without impacts, and that with a dent, as they were when the program was built.
-pub(super) const SMOOTH: &str = include_str!("../../../examples/scenes/smooth.toml");
-const IMPACT: &str = include_str!("../../../examples/scenes/impact.toml");
 
 /// Carries the section out.
 ///
@@ -122,15 +116,6 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
     Ok(checks)
 }
 
-/// An example with keys set.
-pub(super) fn example(name: &str, text: &str, set: &[&str]) -> Result<Case, VerificationError> {
-    Ok(Case::from_source(Source {
-        path: PathBuf::from(name),
-        text: text.to_owned(),
-        set: set.iter().map(|key| (*key).to_owned()).collect(),
-    })?)
-}
-
 /// What was put in, less what damping took, is what is stored.
 fn energy() -> Result<Vec<Check>, VerificationError> {
     let precise = [
@@ -158,7 +143,7 @@ fn energy() -> Result<Vec<Check>, VerificationError> {
         ),
     ] {
         let run = compute_run(
-            &example(&format!("{name}.toml"), text, &precise)?,
+            &built_in(&format!("{name}.toml"), text, &precise)?,
             &Unwatched,
         )?;
         let kind = Kind {

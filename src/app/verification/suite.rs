@@ -1,23 +1,22 @@
-//! The whole suite in its order: from the beam to the signal, then the source's own numbers.
+//! The whole suite in its order: from the beam to the signal, then the paper's own numbers.
 
 use super::beams::beams;
 use super::condensation::condensation;
 use super::housings::housings;
 use super::orders::orders;
-use super::readings::Grid;
+use super::paper::paper;
+use super::section::{SectionResult, VerificationError};
 use super::signals::signals;
 use super::simulation::simulation;
-use super::{SectionResult, VerificationError, paper_numbers, reading_study};
 use crate::numerics::Watch;
 
-/// Carries out every section that takes seconds; with `full` also orders of convergence, and the study of
-/// readings of the source, which takes minutes.
+/// Carries out every section that takes seconds; with `full` also the orders of convergence.
 ///
 /// # Errors
 /// [`VerificationError`] if something built in cannot be computed; a number that is wrong is no error.
-pub fn suite(
+pub(crate) fn suite(
     full: bool,
-    watch: &(impl Watch + Sync),
+    watch: &impl Watch,
 ) -> Result<Vec<SectionResult>, VerificationError> {
     watch.stage("beams");
     let mut sections = vec![beams()?];
@@ -29,21 +28,20 @@ pub fn suite(
     sections.push(simulation()?);
     watch.stage("signals");
     sections.push(signals()?);
-    sections.push(paper_numbers(watch)?);
+    sections.push(paper(watch)?);
     if full {
         watch.stage("orders");
         sections.push(orders()?);
-        sections.push(reading_study(Grid::full(), watch)?);
     }
     Ok(sections)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Check;
+    use super::super::section::Check;
     use super::*;
 
-    /// The sections without the source's numbers, which have tests of their own.
+    /// The sections without the paper's numbers, which have tests of their own.
     fn checks() -> Vec<Check> {
         let sections = [
             beams().unwrap(),

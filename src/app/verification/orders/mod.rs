@@ -5,9 +5,7 @@ mod rings;
 mod solids;
 mod steps;
 
-use super::check::Kind;
-use super::section::SectionResult;
-use super::{Check, VerificationError};
+use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::report::{Abscissa, Axis, Cell, Column, Curve, Plot, Section, Table};
 use serde_json::{Value, json};
 

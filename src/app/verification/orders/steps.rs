@@ -1,6 +1,6 @@
 //! Integrators on the preloaded bearing: the same signal with ever smaller steps.
 
-use super::super::simulation::{SMOOTH, example};
+use super::super::built_in::{SMOOTH, built_in};
 use super::{Family, Series, VerificationError};
 use crate::app::commands::run::compute_run;
 use crate::numerics::Unwatched;
@@ -65,7 +65,7 @@ fn signal(method: &str, step: f64, key: Option<&str>) -> Result<TimeSeries, Veri
         .chain(keys.iter().map(String::as_str))
         .chain(key);
     let keys: Vec<&str> = keys.collect();
-    let run = compute_run(&example("smooth.toml", SMOOTH, &keys)?, &Unwatched)?;
+    let run = compute_run(&built_in("smooth.toml", SMOOTH, &keys)?, &Unwatched)?;
     Ok(run.simulation.signal(0)?)
 }
 

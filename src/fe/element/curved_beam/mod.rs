@@ -17,6 +17,7 @@
 //! e_z out of the plane towards who sees the angles count counter-clockwise. u, w and theta are then
 //! the components of displacement along e_t and e_r and of rotation about e_z.
 
+pub mod closed_form;
 mod differences;
 mod exact_arc;
 mod force_method;

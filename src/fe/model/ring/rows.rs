@@ -25,7 +25,7 @@ impl Ring {
 
     /// The row of a displacement of the centroid line at an angle (rad) in a direction of the ring's frame: pairs (degree of
     /// freedom, factor). A ring in its plane takes what of the direction lies in the plane.
-    pub(crate) fn displacement_row(&self, angle: f64, [x, y, z]: [f64; 3]) -> Vec<(usize, f64)> {
+    pub fn displacement_row(&self, angle: f64, [x, y, z]: [f64; 3]) -> Vec<(usize, f64)> {
         let rows = self.rows_at(angle);
         let (sin, cos) = angle.sin_cos();
         let (radial, tangential) = (x * cos + y * sin, y * cos - x * sin);

@@ -1,6 +1,4 @@
-//! What the source does not report about its model, and the values that are tried.
-
-use serde::Serialize;
+//! What the paper does not report about its model, and the values that are tried.
 
 /// How the springs of the pedestal act on the ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +16,7 @@ pub enum Springs {
 /// Which nodes have springs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpringArc {
-    /// The 36 from 180 to 355 degrees: the source's number.
+    /// The 36 from 180 to 355 degrees: the paper's number.
     HalfOpen,
     /// The 37 from 180 to 360 degrees: both ends of the lower half.
     Closed,
@@ -49,15 +47,14 @@ pub enum ContactSource {
 /// Which equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Equations {
-    /// The source's (3)-(16), misprints put right.
+    /// The paper's (3)-(16), misprints put right.
     Printed,
     /// Ball positions from the fixed centre.
     Consistent,
 }
 
 /// What a reading chooses, in the order of [`Levels`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Factor {
     /// Width of the housing ring.
     Width,
@@ -112,7 +109,6 @@ impl Factor {
     ];
 
     /// What it is, for the head of a column.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Width => "Housing ring's width",
@@ -161,8 +157,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Everything that the source leaves open, in the ranges that its other statements allow.
-    #[must_use]
+    /// Everything that the paper leaves open, in the ranges that its other statements allow.
     pub fn full() -> Self {
         Self {
             widths: vec![3e-3, 3.5e-3, 4e-3, 4.5e-3, 5e-3],
@@ -194,7 +189,6 @@ impl Grid {
     }
 
     /// Number of values of each factor.
-    #[must_use]
     pub fn sizes(&self) -> Levels {
         [
             self.widths.len(),
@@ -213,25 +207,21 @@ impl Grid {
     }
 
     /// Number of readings.
-    #[must_use]
     pub fn readings(&self) -> usize {
         self.sizes().iter().product()
     }
 
     /// All combinations of the ring's own choices; those of the bearing are 0.
-    #[must_use]
     pub fn structures(&self) -> Vec<Levels> {
         combinations(&self.sizes(), 0..STRUCTURE_FACTORS)
     }
 
     /// All combinations of the bearing's choices; those of the ring are 0.
-    #[must_use]
     pub fn bearings(&self) -> Vec<Levels> {
         combinations(&self.sizes(), STRUCTURE_FACTORS..FACTORS)
     }
 
     /// A value in words; empty if there is none.
-    #[must_use]
     pub fn label(&self, factor: Factor, level: usize) -> String {
         let label = match factor {
             Factor::Width => self.widths.get(level).map(|w| format!("{} mm", 1e3 * w)),
@@ -297,7 +287,6 @@ impl Grid {
 
     /// Where the reading stands that the repository's case `examples/tadina2011/beam.toml` takes; `None` if this grid lacks
     /// one of its values.
-    #[must_use]
     pub fn known(&self) -> Option<Levels> {
         let number = |values: &[f64], wanted: f64| {
             let near = |value: &f64| (value / wanted - 1.0).abs() < 1e-9;

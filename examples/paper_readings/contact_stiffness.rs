@@ -1,14 +1,15 @@
-//! Where Table 1's contact stiffness may come from: what slips in Hertz' theory give.
+//! Where Table 1's contact stiffness may come from: what mistakes in Hertz' theory give.
 //!
 //! The geometry gives three times Table 1's figures, and the inner race the stiffer one; in Table 1 it is the softer one.
 //! Whatever acts on both contacts alike (units, moduli) keeps their ratio of 1.114, so it cannot explain Table 1's 0.990.
 
-use super::VerificationError;
-use super::paper::{BEARING, TABLE_ONE};
-use crate::bearing::hertz::{
+use crate::paper::{Failure, TABLE_ONE};
+use crate::tables::signed;
+use plummer::app::verification::BEARING;
+use plummer::bearing::hertz::{
     HertzError, HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness,
 };
-use serde::Serialize;
+use plummer::report::{Cell, Column, Section, Table, significant};
 
 /// Young's modulus of bearing steel, Pa.
 const STEEL: f64 = 206e9;
@@ -20,7 +21,7 @@ const POISSON: f64 = 0.3;
 const TABULATED: [f64; 2] = [0.3204, 0.4795];
 
 /// A way to arrive at two stiffnesses.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Hypothesis {
     /// What was done.
     pub what: String,
@@ -41,7 +42,7 @@ struct Contact {
 
 /// How one race's contact with a ball is put together, radii in m, a sign each: +1 convex, -1 concave, 0 left out.
 #[derive(Debug, Clone, Copy)]
-struct Slip {
+struct RaceCurvatures {
     ball: f64,
     groove: f64,
     groove_sign: f64,
@@ -51,7 +52,7 @@ struct Slip {
     plus: bool,
 }
 
-impl Slip {
+impl RaceCurvatures {
     /// The contacts as they are: the inner race convex along, both grooves concave across.
     fn right() -> [Self; 2] {
         let race = |groove, race, race_sign| Self {
@@ -70,11 +71,11 @@ impl Slip {
 
     /// Every radius of Table 1 taken as positive, and (22) as it is printed.
     fn literal() -> [Self; 2] {
-        Self::right().map(|slip| Self {
+        Self::right().map(|race| Self {
             groove_sign: 1.0,
             race_sign: 1.0,
             plus: true,
-            ..slip
+            ..race
         })
     }
 
@@ -124,8 +125,8 @@ fn hypothesis(what: impl Into<String>, found: [Result<f64, HertzError>; 2]) -> H
     Hypothesis {
         what: what.into(),
         misfit: [
-            inner.map(|k| k / TABLE_ONE.inner - 1.0),
-            outer.map(|k| k / TABLE_ONE.outer - 1.0),
+            inner.map(|k| k / TABLE_ONE[0] - 1.0),
+            outer.map(|k| k / TABLE_ONE[1] - 1.0),
         ],
         inner,
         outer,
@@ -134,14 +135,12 @@ fn hypothesis(what: impl Into<String>, found: [Result<f64, HertzError>; 2]) -> H
 
 impl Hypothesis {
     /// The larger of both distances from Table 1; infinite where theory refuses.
-    #[must_use]
     pub fn worst(&self) -> f64 {
         let magnitude = |misfit: Option<f64>| misfit.map_or(f64::INFINITY, f64::abs);
         magnitude(self.misfit[0]).max(magnitude(self.misfit[1]))
     }
 
     /// Inner over outer stiffness.
-    #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         Some(self.inner? / self.outer?)
     }
@@ -150,19 +149,26 @@ impl Hypothesis {
 /// All that was tried, the nearest to Table 1 first.
 ///
 /// # Errors
-/// [`VerificationError::Hertz`] if the moduli are refused, which they are not.
-pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
+/// What Hertz theory refuses of the right geometry, which is nothing.
+pub fn hypotheses() -> Result<Vec<Hypothesis>, Failure> {
     let modulus_of = |young: f64| effective_modulus([young; 2], [POISSON; 2]);
     let modulus = modulus_of(STEEL)?;
-    let of = |slips: [Slip; 2], modulus: f64| {
-        slips.map(|slip| slip.contact().hertz(modulus).map(|found| found.stiffness))
+    let of = |races: [RaceCurvatures; 2], modulus: f64| {
+        races.map(|race| race.contact().hertz(modulus).map(|found| found.stiffness))
     };
-    let scaled = |factor: f64| of(Slip::right(), modulus).map(|k| k.map(|k| factor * k));
-    let changed = |change: &dyn Fn(Slip) -> Slip| Slip::right().map(change);
+    let scaled = |factor: f64| of(RaceCurvatures::right(), modulus).map(|k| k.map(|k| factor * k));
+    let changed =
+        |change: &dyn Fn(RaceCurvatures) -> RaceCurvatures| RaceCurvatures::right().map(change);
     let mut all = vec![
         hypothesis("geometry, 206 GPa", scaled(1.0)),
-        hypothesis("geometry, 200 GPa", of(Slip::right(), modulus_of(200e9)?)),
-        hypothesis("geometry, 210 GPa", of(Slip::right(), modulus_of(210e9)?)),
+        hypothesis(
+            "geometry, 200 GPa",
+            of(RaceCurvatures::right(), modulus_of(200e9)?),
+        ),
+        hypothesis(
+            "geometry, 210 GPa",
+            of(RaceCurvatures::right(), modulus_of(210e9)?),
+        ),
         hypothesis(
             "the same per N/mm^1.5, turned with 10^4 instead of 10^4.5",
             scaled(10_f64.powf(-0.5)),
@@ -183,17 +189,17 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         ),
         hypothesis(
             "kappa not used: the approach of a circular patch",
-            Slip::right().map(|slip| {
-                let found = slip.contact().hertz(modulus)?;
+            RaceCurvatures::right().map(|race| {
+                let found = race.contact().hertz(modulus)?;
                 Ok(found.stiffness * found.approach.powf(1.5))
             }),
         ),
         hypothesis(
             "groove radii left out: ball on cylinders",
             of(
-                changed(&|slip| Slip {
+                changed(&|race| RaceCurvatures {
                     groove_sign: 0.0,
-                    ..slip
+                    ..race
                 }),
                 modulus,
             ),
@@ -201,9 +207,9 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         hypothesis(
             "race radii left out: ball in straight grooves",
             of(
-                changed(&|slip| Slip {
+                changed(&|race| RaceCurvatures {
                     race_sign: 0.0,
-                    ..slip
+                    ..race
                 }),
                 modulus,
             ),
@@ -211,28 +217,31 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         hypothesis(
             "both left out: ball on a flat",
             of(
-                changed(&|slip| Slip {
+                changed(&|race| RaceCurvatures {
                     groove_sign: 0.0,
                     race_sign: 0.0,
-                    ..slip
+                    ..race
                 }),
                 modulus,
             ),
         ),
         hypothesis(
             "groove radii exchanged between the races",
-            of(swapped_grooves(Slip::right()), modulus),
+            of(swapped_grooves(RaceCurvatures::right()), modulus),
         ),
         hypothesis(
             "(22) as printed, signs right",
-            of(changed(&|slip| Slip { plus: true, ..slip }), modulus),
+            of(
+                changed(&|race| RaceCurvatures { plus: true, ..race }),
+                modulus,
+            ),
         ),
         hypothesis(
             "grooves taken as convex, races right",
             of(
-                changed(&|slip| Slip {
+                changed(&|race| RaceCurvatures {
                     groove_sign: 1.0,
-                    ..slip
+                    ..race
                 }),
                 modulus,
             ),
@@ -240,9 +249,9 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         hypothesis(
             "every radius positive, (22) put right",
             of(
-                Slip::literal().map(|slip| Slip {
+                RaceCurvatures::literal().map(|race| RaceCurvatures {
                     plus: false,
-                    ..slip
+                    ..race
                 }),
                 modulus,
             ),
@@ -264,7 +273,7 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
     ));
     for (young, steel) in [(206e9, "206 GPa"), (200e9, "200 GPa")] {
         let modulus = modulus_of(young)?;
-        let literal = Slip::literal();
+        let literal = RaceCurvatures::literal();
         let with =
             |what: &str| format!("every radius positive, (21) and (22) as printed, {steel}{what}");
         all.push(hypothesis(with(""), of(literal, modulus)));
@@ -274,33 +283,118 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, VerificationError> {
         ));
         all.push(hypothesis(
             with(", approach interpolated in a table"),
-            literal.map(|slip| slip.contact().interpolated_in_a_table(modulus)),
+            literal.map(|race| race.contact().interpolated_in_a_table(modulus)),
         ));
         all.push(hypothesis(
             with(", groove radii exchanged, approach interpolated in a table"),
-            swapped_grooves(literal).map(|slip| slip.contact().interpolated_in_a_table(modulus)),
+            swapped_grooves(literal).map(|race| race.contact().interpolated_in_a_table(modulus)),
         ));
     }
     all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
     Ok(all)
 }
 
-fn swapped_grooves([inner, outer]: [Slip; 2]) -> [Slip; 2] {
+fn swapped_grooves([inner, outer]: [RaceCurvatures; 2]) -> [RaceCurvatures; 2] {
     [
-        Slip {
+        RaceCurvatures {
             groove: outer.groove,
             ..inner
         },
-        Slip {
+        RaceCurvatures {
             groove: inner.groove,
             ..outer
         },
     ]
 }
 
+/// Why Table 1's contact stiffness is a third of Hertz': the table of all hypotheses, and what follows from the nearest.
+pub fn section(hypotheses: &[Hypothesis]) -> Section {
+    let [inner, outer] = TABLE_ONE;
+    let mut section = Section::new("Where Table 1's contact stiffness may come from")
+        .paragraph(format!(
+            "Table 1 prints a contact stiffness of {} and {} N/m^1.5, a third of what its own radii give, and softer at the inner race where the radii make it stiffer. Whatever acts on both contacts alike, such as units or moduli, keeps their ratio of 1.114; Table 1 has 0.990. The slips below were tried. None gives both of its four-digit numbers. The nearest are those that take every radius of Table 1 as positive, the concave grooves too, in the equations (21) and (22) as they are printed.",
+            significant(inner, 4),
+            significant(outer, 4)
+        ))
+        .table(table(hypotheses));
+    if let Some([inner, outer]) = moduli(hypotheses) {
+        section = section.paragraph(format!(
+            "Read in this way, Table 1 needs steel of {} GPa at the inner race and of {} GPa at the outer one: the same within 1 %, and a usual figure for steel, but not the same to four digits. It is a likely origin, not a proven one.",
+            significant(1e-9 * inner, 4),
+            significant(1e-9 * outer, 4)
+        ));
+    }
+    if let Some(force) = tangent_force(hypotheses) {
+        section = section.paragraph(format!(
+            "The unit in Table 1 is N/m. As the slope of the force over the approach its figure would belong to a load of {} N, with the stiffness that the geometry gives.",
+            significant(force, 2)
+        ));
+    }
+    section
+}
+
+/// Force at which the inner contact's slope, 1.5 k^(2/3) F^(1/3), is Table 1's number, N.
+fn tangent_force(hypotheses: &[Hypothesis]) -> Option<f64> {
+    let geometry = hypotheses
+        .iter()
+        .find(|hypothesis| hypothesis.what == "geometry, 206 GPa")?;
+    let k = geometry.inner?;
+    Some((TABLE_ONE[0] / 1.5).powi(3) / (k * k))
+}
+
+/// Young's modulus with which every radius taken as positive gives Table 1's numbers, Pa: k goes with it.
+fn moduli(hypotheses: &[Hypothesis]) -> Option<[f64; 2]> {
+    let literal = hypotheses.iter().find(|hypothesis| {
+        hypothesis.what == "every radius positive, (21) and (22) as printed, 206 GPa"
+    })?;
+    let [inner, outer] = literal.misfit;
+    Some([206e9 / (1.0 + inner?), 206e9 / (1.0 + outer?)])
+}
+
+/// All hypotheses, the nearest first, and Table 1 itself.
+pub fn table(hypotheses: &[Hypothesis]) -> Table {
+    let columns = [
+        Column::text("What was done"),
+        Column::number("Inner race", "10^9 N/m^1.5"),
+        Column::number("Outer race", "10^9 N/m^1.5"),
+        Column::number("Their ratio", ""),
+        Column::number("Inner against Table 1", "%"),
+        Column::number("Outer against Table 1", "%"),
+    ];
+    let mut table = Table::new("Where Table 1's contact stiffness may come from", columns);
+    let blank = |cell: Option<Cell>| cell.unwrap_or_else(|| Cell::text("F ≥ 1"));
+    for hypothesis in hypotheses {
+        let stiffness = |k: Option<f64>| blank(k.map(|k| Cell::number(1e-9 * k, 4)));
+        let off = |misfit: Option<f64>| {
+            let cell =
+                misfit.map(|misfit| Cell::text(signed(100.0 * misfit)).value(100.0 * misfit));
+            cell.unwrap_or_else(|| Cell::text("–"))
+        };
+        table = table.row([
+            Cell::text(&hypothesis.what),
+            stiffness(hypothesis.inner),
+            stiffness(hypothesis.outer),
+            hypothesis
+                .ratio()
+                .map_or_else(|| Cell::text("–"), |ratio| Cell::number(ratio, 4)),
+            off(hypothesis.misfit[0]),
+            off(hypothesis.misfit[1]),
+        ]);
+    }
+    table.row([
+        Cell::text("Table 1 itself"),
+        Cell::number(1e-9 * TABLE_ONE[0], 4),
+        Cell::number(1e-9 * TABLE_ONE[1], 4),
+        Cell::number(TABLE_ONE[0] / TABLE_ONE[1], 4),
+        Cell::text("–"),
+        Cell::text("–"),
+    ])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use plummer::bearing::{BearingGeometry, ContactMaterial, RaceContacts};
 
     fn found(what: &str) -> Hypothesis {
         let all = hypotheses().unwrap();
@@ -310,12 +404,12 @@ mod tests {
 
     #[test]
     fn the_right_curvatures_give_the_bearings_own_stiffness() {
-        let geometry = crate::bearing::BearingGeometry::new(BEARING).unwrap();
-        let steel = crate::bearing::ContactMaterial {
+        let geometry = BearingGeometry::new(BEARING).unwrap();
+        let steel = ContactMaterial {
             young: STEEL,
             poisson: POISSON,
         };
-        let own = crate::bearing::RaceContacts::new(&geometry, steel, steel, steel).unwrap();
+        let own = RaceContacts::new(&geometry, steel, steel, steel).unwrap();
         let here = found("geometry, 206 GPa");
         // the same theory by way of sum and difference, whose 1 - F cancels two digits
         assert!((here.inner.unwrap() / own.inner.stiffness - 1.0).abs() < 1e-12);

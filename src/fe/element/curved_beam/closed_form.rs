@@ -29,17 +29,14 @@ pub const THIN_SHORTENING: f64 = FRAC_PI_4 - 2.0 * FRAC_1_PI;
 /// Widening of a thin pinched ring in units of `P R³ / (E I)`: `2/π − 1/2` = 0.1366.
 pub const THIN_WIDENING: f64 = 2.0 * FRAC_1_PI - 0.5;
 
-/// Why a ring answer cannot be given.
+/// A property of a ring is not positive (infinite is allowed for a stiffness, as a limit).
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum RingError {
-    /// A property is not positive (infinite is allowed for a stiffness, as a limit).
-    #[error("{name} = {value} must be positive")]
-    NotPositive {
-        /// What the value is.
-        name: &'static str,
-        /// The value that was given.
-        value: f64,
-    },
+#[error("{name} = {value} must be positive")]
+pub struct NotPositive {
+    /// What the value is.
+    pub name: &'static str,
+    /// The value that was given.
+    pub value: f64,
 }
 
 /// A ring's radius and section stiffnesses, as its theory takes them.
@@ -76,13 +73,13 @@ pub struct PinchedRing {
 /// Source: R. Hoppe 1871; R. D. Blevins, *Formulas for Natural Frequency and Mode Shape*, table 9-1.
 ///
 /// # Errors
-/// [`RingError::NotPositive`] names the property.
+/// [`NotPositive`] names the property.
 pub fn thin_frequency_hz(
     order: u32,
     radius: f64,
     bending: f64,
     mass_per_length: f64,
-) -> Result<f64, RingError> {
+) -> Result<f64, NotPositive> {
     positive("radius", radius)?;
     positive("bending stiffness", bending)?;
     positive("mass per length", mass_per_length)?;
@@ -108,14 +105,14 @@ pub fn thin_frequency_hz(
 /// Engineering*, section on the vibration of rings.
 ///
 /// # Errors
-/// [`RingError::NotPositive`] names the property.
+/// [`NotPositive`] names the property.
 pub fn thin_out_of_plane_frequency_hz(
     order: u32,
     radius: f64,
     bending: f64,
     torsion: f64,
     mass_per_length: f64,
-) -> Result<f64, RingError> {
+) -> Result<f64, NotPositive> {
     positive("radius", radius)?;
     positive("bending stiffness", bending)?;
     positive("torsion stiffness", torsion)?;
@@ -136,8 +133,8 @@ pub fn thin_out_of_plane_frequency_hz(
 /// ```
 ///
 /// # Errors
-/// [`RingError::NotPositive`] names the property of `section` that is not positive.
-pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, RingError> {
+/// [`NotPositive`] names the property of `section` that is not positive.
+pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, NotPositive> {
     let RingSection {
         radius,
         bending,
@@ -157,14 +154,14 @@ pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, RingErr
     })
 }
 
-fn positive(name: &'static str, value: f64) -> Result<(), RingError> {
+fn positive(name: &'static str, value: f64) -> Result<(), NotPositive> {
     if value > 0.0 {
         Ok(())
     } else {
-        Err(RingError::NotPositive { name, value })
+        Err(NotPositive { name, value })
     }
 }
 
 #[cfg(test)]
-#[path = "ring_tests.rs"]
+#[path = "closed_form_tests.rs"]
 mod tests;

@@ -1,10 +1,12 @@
 //! The study against `plummer modes` on the same settings: two ways through different code.
 
-use super::*;
-use crate::app::commands::modes::compute_modes;
-use crate::app::verification::beam_case;
-use crate::app::verification::readings::{Factor, Fit, Fits, moved_by_one_choice};
-use crate::numerics::Unwatched;
+use crate::choices::{ContactSource, Equations, Factor, Grid, RingBond, SpringArc, Springs};
+use crate::fits::{Fit, Fits, moved_by_one_choice};
+use crate::paper::{BOUNCE, SWAY, beam_case, outside_of_ring};
+use crate::study::{SharedBearing, Study, agrees, nearest, ring};
+use plummer::app::commands::modes::compute_modes;
+use plummer::numerics::Unwatched;
+use plummer::system::{Equilibrium, LoadedModes, Structure, StructureModes};
 
 /// A corner of the full grid with the known reading in it: 144 readings of 6 rings.
 fn small() -> Grid {
@@ -25,8 +27,7 @@ fn small() -> Grid {
 }
 
 fn study(grid: Grid) -> Study {
-    let case = beam_case(&["modes.variants=[]".to_owned()]).unwrap();
-    Study::compute(&case, PaperFrequencies::default(), grid, &Unwatched).unwrap()
+    Study::compute(grid).unwrap()
 }
 
 /// The case's keys that make a reading; those that it does not list are as in the built-in case.
@@ -138,16 +139,13 @@ fn a_reading_is_the_case_with_its_keys() {
         let study = study(grid);
         assert_eq!((study.readings.len(), study.without_equilibrium), (1, 0));
         let found = study.readings[0].nearest_hz;
-        let mut keys = vec!["modes.variants=[]".to_owned()];
-        keys.extend(set.iter().map(|key| (*key).to_owned()));
-        let case = beam_case(&keys).unwrap();
+        let case = beam_case(set).unwrap();
         let modes = compute_modes(&case, &Unwatched).unwrap();
         let loaded = modes.base.loaded.unwrap();
-        let paper = PaperFrequencies::default();
-        let ring = nearest(&loaded, |hz| paper.outside_of_ring(hz).abs()).unwrap();
+        let ring = nearest(&loaded, |hz| outside_of_ring(hz).abs()).unwrap();
         let expected = [
-            loaded.nearest(paper.sway).unwrap().frequency_hz,
-            loaded.nearest(paper.bounce).unwrap().frequency_hz,
+            loaded.nearest(SWAY).unwrap().frequency_hz,
+            loaded.nearest(BOUNCE).unwrap().frequency_hz,
             loaded.modes[ring].frequency_hz,
         ];
         for (found, expected) in found.iter().zip(expected) {
@@ -220,7 +218,7 @@ fn shapes_name_modes_where_the_nearest_is_another() {
             // nothing but contacts and springs across: below what springs with x and y give
             let sway = reading.by_shape.sway.unwrap();
             assert!(sway < 7e3, "{sway}");
-            assert!(Fit::of(&study, reading).is_none_or(|fit| !fit.all_shaped()));
+            assert!(Fit::of(reading).is_none_or(|fit| !fit.all_shaped()));
         }
     }
     let differing = study
@@ -233,21 +231,21 @@ fn shapes_name_modes_where_the_nearest_is_another() {
 /// Without residual vectors the same basis is wrong by far more than the study's tolerance.
 #[test]
 fn the_static_response_of_the_modes_left_out_is_what_makes_few_modes_enough() {
-    let source = Source::new(&beam_case(&[]).unwrap(), PaperFrequencies::default()).unwrap();
+    let shared = SharedBearing::new().unwrap();
     let grid = known();
     let levels = grid.structures()[0];
-    let structure = Structure::ring_alone(ring(&grid, &levels).unwrap(), source.setup.gravity);
+    let structure = Structure::ring_alone(ring(&grid, &levels).unwrap(), shared.setup.gravity);
     let modes = structure.modes().unwrap();
-    let (basis, _) = source.basis(&structure, &modes, 0.0).unwrap();
+    let (basis, _) = shared.basis(&structure, &modes, 0.0).unwrap();
     let kept = basis.count() - 7;
     let few = StructureModes {
         squared_frequencies: basis.squared_frequencies[..kept].to_vec(),
         shapes: basis.shapes.subcols(0, kept).to_owned(),
         has_more: false,
     };
-    let rest = Equilibrium::find(&structure, &source.setup, source.condition(0.0)).unwrap();
+    let rest = Equilibrium::find(&structure, &shared.setup, shared.condition(0.0)).unwrap();
     let bounce = |modes: &StructureModes| {
-        let loaded = LoadedModes::at(&structure, modes, &source.setup, &rest).unwrap();
+        let loaded = LoadedModes::at(&structure, modes, &shared.setup, &rest).unwrap();
         loaded.nearest(11.3e3).unwrap().frequency_hz
     };
     let (exact, with, without) = (bounce(&modes), bounce(&basis), bounce(&few));

@@ -1,31 +1,28 @@
 //! The three frequencies of every reading on a grid.
 
-use super::choices::{
+use crate::choices::{
     ContactSource, Equations, FACTORS, Grid, Levels, RingBond, STRUCTURE_FACTORS, SpringArc,
     Springs,
 };
-use super::shapes::{ByShape, NamedMotions, ShapeShares};
-use crate::app::case::Case;
-use crate::app::scene::bearing_setup;
-use crate::app::verification::{PaperFrequencies, TABLE_ONE, VerificationError};
-use crate::bearing::{ContactMaterial, ContactStiffness, RaceContacts};
-use crate::fe::element::curved_beam::RingInterpolation;
-use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
-use crate::fe::model::{RadialSupport, Ring, RingSupport, SpringShare};
-use crate::numerics::Watch;
-use crate::numerics::linalg::DenseMatrix;
-use crate::system::{
+use crate::paper::{BOUNCE, Failure, SWAY, TABLE_ONE, beam_case, outside_of_ring};
+use crate::shapes::{ByShape, NamedMotions, ShapeShares};
+use plummer::app::scene::bearing_setup;
+use plummer::bearing::{ContactMaterial, ContactStiffness, RaceContacts};
+use plummer::fe::element::curved_beam::RingInterpolation;
+use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use plummer::fe::model::{RadialSupport, Ring, RingSupport, SpringShare};
+use plummer::numerics::linalg::DenseMatrix;
+use plummer::system::{
     BearingSetup, Equilibrium, Formulation, LoadedModes, LoadedShapes, StaticCondition, Structure,
     StructureModes,
 };
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Ring nodes, as the source has them.
+/// Ring nodes, as the paper has them.
 const NODES: usize = 72;
 
-/// Stiffness of each spring, N/m: the source's.
+/// Stiffness of each spring, N/m: the paper's.
 const SPRING: f64 = 1e5;
 
 /// Part of it that radial springs have along the ring: they would leave the ring free to turn. It moves the other modes by
@@ -40,14 +37,12 @@ const KEPT_HZ: f64 = 300e3;
 pub struct ReadingResult {
     /// Its choices.
     pub levels: Levels,
-    /// Modes nearest to the source's three, Hz.
+    /// Modes nearest to the paper's three, Hz.
     pub nearest_hz: [f64; 3],
     /// The same by mode shape, Hz.
     pub by_shape: ByShape,
     /// Shapes of the nearest three.
     pub shapes: [ShapeShares; 3],
-    /// Eigenvalues of something that grows.
-    pub unstable: usize,
 }
 
 /// All readings of a grid.
@@ -55,8 +50,6 @@ pub struct ReadingResult {
 pub struct Study {
     /// The values tried.
     pub grid: Grid,
-    /// The frequencies looked for.
-    pub paper: PaperFrequencies,
     /// Readings in the order of the grid.
     pub readings: Vec<ReadingResult>,
     /// Readings without an equilibrium.
@@ -64,56 +57,42 @@ pub struct Study {
 }
 
 /// What all readings share.
-struct Source {
-    setup: BearingSetup,
+pub struct SharedBearing {
+    pub setup: BearingSetup,
     geometry: ContactStiffness,
     table_one: ContactStiffness,
-    paper: PaperFrequencies,
 }
 
 impl Study {
-    /// Computes every reading of `grid`, on as many threads as there are. `case` is the bearing that they share.
+    /// Computes every reading of `grid`, on as many threads as there are.
     ///
     /// # Errors
-    /// [`VerificationError`] if the case has no bearing or a structure cannot be built. A reading without an equilibrium is counted,
-    /// not an error.
-    pub fn compute(
-        case: &Case,
-        paper: PaperFrequencies,
-        grid: Grid,
-        watch: &(impl Watch + Sync),
-    ) -> Result<Self, VerificationError> {
-        let source = Source::new(case, paper)?;
-        let structures = grid.structures();
-        let done = AtomicUsize::new(0);
-        let parts: Vec<Vec<Option<ReadingResult>>> = structures
+    /// What stops a structure from being built. A reading without an equilibrium is counted, not an error.
+    pub fn compute(grid: Grid) -> Result<Self, Failure> {
+        let bearing = SharedBearing::new()?;
+        let parts: Vec<Vec<Option<ReadingResult>>> = grid
+            .structures()
             .par_iter()
-            .map(|levels| {
-                let part = source.readings_of(&grid, levels);
-                let before = done.fetch_add(1, Ordering::Relaxed);
-                watch.fraction((before + 1) as f64 / structures.len() as f64);
-                part
-            })
-            .collect::<Result<_, VerificationError>>()?;
+            .map(|levels| bearing.readings_of(&grid, levels))
+            .collect::<Result<_, Failure>>()?;
         let all = parts.into_iter().flatten();
         let readings: Vec<ReadingResult> = all.flatten().collect();
         Ok(Self {
             without_equilibrium: grid.readings() - readings.len(),
             grid,
-            paper,
             readings,
         })
     }
 }
 
-impl Source {
-    fn new(case: &Case, paper: PaperFrequencies) -> Result<Self, VerificationError> {
-        let setup = bearing_setup(case)?.ok_or(VerificationError::NoBearing)?;
+impl SharedBearing {
+    pub fn new() -> Result<Self, Failure> {
+        let setup = bearing_setup(&beam_case(&[])?)?.ok_or("the built-in case has no bearing")?;
+        let [inner, outer] = TABLE_ONE;
         Ok(Self {
             geometry: hertz(&setup, 206e9)?,
-            table_one: ContactStiffness::given(TABLE_ONE.inner, TABLE_ONE.outer)?,
+            table_one: ContactStiffness::given(inner, outer)?,
             setup,
-            paper,
         })
     }
 
@@ -122,7 +101,7 @@ impl Source {
         &self,
         grid: &Grid,
         structure_levels: &Levels,
-    ) -> Result<Vec<Option<ReadingResult>>, VerificationError> {
+    ) -> Result<Vec<Option<ReadingResult>>, Failure> {
         let ring = ring(grid, structure_levels)?;
         let structure = Structure::ring_alone(ring, self.setup.gravity);
         let modes = structure.modes()?;
@@ -155,13 +134,13 @@ impl Source {
                 continue;
             };
             let shapes = LoadedShapes::at(&structure, basis, &setup, &rest)?;
-            found.push(self.result(levels, &shapes, motions));
+            found.push(result(levels, &shapes, motions));
         }
         Ok(found)
     }
 
     /// Cage at `place` between two balls symmetric about the load (0) and one under it (1), at rest.
-    fn condition(&self, place: f64) -> StaticCondition {
+    pub fn condition(&self, place: f64) -> StaticCondition {
         let at_rest = StaticCondition::at(&self.setup, 0.0);
         let spacing = TAU / f64::from(self.setup.geometry.balls());
         StaticCondition {
@@ -171,12 +150,12 @@ impl Source {
     }
 
     /// Modes that a bearing at this cage angle needs.
-    fn basis(
+    pub fn basis(
         &self,
         structure: &Structure,
         modes: &StructureModes,
         place: f64,
-    ) -> Result<(StructureModes, NamedMotions), VerificationError> {
+    ) -> Result<(StructureModes, NamedMotions), Failure> {
         let balls = self.setup.balls();
         let condition = self.condition(place);
         let mut loads = DenseMatrix::zeros(structure.dof(), balls);
@@ -194,32 +173,25 @@ impl Source {
         let motions = NamedMotions::new(structure, &basis);
         Ok((basis, motions))
     }
+}
 
-    /// `None` for a reading without any mode.
-    fn result(
-        &self,
-        levels: Levels,
-        shapes: &LoadedShapes,
-        motions: &NamedMotions,
-    ) -> Option<ReadingResult> {
-        let paper = self.paper;
-        let numbers = [
-            nearest(&shapes.modes, |hz| (hz - paper.sway).abs())?,
-            nearest(&shapes.modes, |hz| (hz - paper.bounce).abs())?,
-            nearest(&shapes.modes, |hz| paper.outside_of_ring(hz).abs())?,
-        ];
-        Some(ReadingResult {
-            levels,
-            nearest_hz: numbers.map(|number| shapes.modes.modes[number].frequency_hz),
-            by_shape: motions.by_shape(shapes),
-            shapes: numbers.map(|number| motions.shares(shapes, number)),
-            unstable: shapes.modes.unstable,
-        })
-    }
+/// `None` for a reading without any mode.
+fn result(levels: Levels, shapes: &LoadedShapes, motions: &NamedMotions) -> Option<ReadingResult> {
+    let numbers = [
+        nearest(&shapes.modes, |hz| (hz - SWAY).abs())?,
+        nearest(&shapes.modes, |hz| (hz - BOUNCE).abs())?,
+        nearest(&shapes.modes, |hz| outside_of_ring(hz).abs())?,
+    ];
+    Some(ReadingResult {
+        levels,
+        nearest_hz: numbers.map(|number| shapes.modes.modes[number].frequency_hz),
+        by_shape: motions.by_shape(shapes),
+        shapes: numbers.map(|number| motions.shares(shapes, number)),
+    })
 }
 
 /// The mode with the smallest distance that is not a ball's own; of several at the same distance the lowest.
-fn nearest(loaded: &LoadedModes, distance: impl Fn(f64) -> f64) -> Option<usize> {
+pub fn nearest(loaded: &LoadedModes, distance: impl Fn(f64) -> f64) -> Option<usize> {
     let own = loaded
         .modes
         .iter()
@@ -230,7 +202,7 @@ fn nearest(loaded: &LoadedModes, distance: impl Fn(f64) -> f64) -> Option<usize>
 }
 
 /// Contact stiffness from Table 1's radii in steel of this modulus, Pa.
-fn hertz(setup: &BearingSetup, young: f64) -> Result<ContactStiffness, VerificationError> {
+fn hertz(setup: &BearingSetup, young: f64) -> Result<ContactStiffness, Failure> {
     let steel = ContactMaterial {
         young,
         poisson: 0.3,
@@ -239,10 +211,10 @@ fn hertz(setup: &BearingSetup, young: f64) -> Result<ContactStiffness, Verificat
 }
 
 /// Both rings as one beam on its springs.
-fn ring(grid: &Grid, levels: &Levels) -> Result<Ring, VerificationError> {
+pub fn ring(grid: &Grid, levels: &Levels) -> Result<Ring, Failure> {
     let width = grid.widths[levels[0]];
     let layer = |young, poisson, density, [area, inertia, radius]: [f64; 3]| {
-        Ok::<_, VerificationError>(RingLayer {
+        Ok::<_, Failure>(RingLayer {
             material: Material::new(young, poisson, density)?,
             area,
             inertia,
@@ -309,11 +281,6 @@ fn ring(grid: &Grid, levels: &Levels) -> Result<Ring, VerificationError> {
 }
 
 /// Whether the mode nearest to a frequency is the one that has its shape.
-#[must_use]
 pub fn agrees(nearest_hz: f64, by_shape: Option<f64>) -> bool {
     by_shape.is_some_and(|hz| (hz / nearest_hz - 1.0).abs() < 1e-9)
 }
-
-#[cfg(test)]
-#[path = "study_tests.rs"]
-mod tests;

@@ -1,8 +1,7 @@
 //! What a mode is: how much of its kinetic energy is a motion of the ring that has a name.
 
-use crate::numerics::linalg::DenseMatrix;
-use crate::system::{LoadedShapes, Structure, StructureModes};
-use serde::Serialize;
+use plummer::numerics::linalg::DenseMatrix;
+use plummer::system::{LoadedShapes, Structure, StructureModes};
 
 /// Share of a motion from which on a mode is called by it: more than all others together.
 const MOSTLY: f64 = 0.5;
@@ -15,7 +14,7 @@ pub struct NamedMotions {
 }
 
 /// Shares of a mode's kinetic energy, 0 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShapeShares {
     /// Ring as a rigid body across the load, x.
     pub across: f64,
@@ -31,8 +30,8 @@ pub struct ShapeShares {
     pub balls: f64,
 }
 
-/// The source's three frequencies as the shapes have them, Hz; `None` where no mode has the shape.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The paper's three frequencies as the shapes have them, Hz; `None` where no mode has the shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ByShape {
     /// "Bearing/housing-pedestal system": the ring across the load and turning, the higher of two such modes.
     pub sway: Option<f64>,
@@ -44,7 +43,6 @@ pub struct ByShape {
 
 impl NamedMotions {
     /// The motions of a structure's ring over its modes.
-    #[must_use]
     pub fn new(structure: &Structure, modes: &StructureModes) -> Self {
         let ring = structure.ring();
         let radius = ring.section().radius;
@@ -82,7 +80,6 @@ impl NamedMotions {
     }
 
     /// Shares of one loaded mode.
-    #[must_use]
     pub fn shares(&self, shapes: &LoadedShapes, number: usize) -> ShapeShares {
         let mode = &shapes.modes.modes[number];
         let amplitudes = &shapes.amplitudes[number];
@@ -107,8 +104,7 @@ impl NamedMotions {
         }
     }
 
-    /// The source's three by their shapes.
-    #[must_use]
+    /// The paper's three by their shapes.
     pub fn by_shape(&self, shapes: &LoadedShapes) -> ByShape {
         let mut found = ByShape {
             sway: None,

@@ -1,10 +1,11 @@
 //! Which readings give all three frequencies, and what they have in common.
 
-use super::choices::{FACTORS, Factor, Grid, Levels};
-use super::study::{ReadingResult, Study, agrees};
+use crate::choices::{Factor, Levels};
+use crate::paper::errors;
+use crate::study::{ReadingResult, Study, agrees};
 use std::collections::BTreeMap;
 
-/// Largest relative distance from each of the source's figures that counts as given: twice the rounding of "around 8.2 kHz".
+/// Largest relative distance from each of the paper's figures that counts as given: twice the rounding of "around 8.2 kHz".
 pub const WITHIN: f64 = 0.02;
 
 /// A reading that gives all three frequencies.
@@ -12,9 +13,9 @@ pub const WITHIN: f64 = 0.02;
 pub struct Fit {
     /// The reading.
     pub reading: ReadingResult,
-    /// Relative distances from the source's three.
+    /// Relative distances from the paper's three.
     pub errors: [f64; 3],
-    /// Whether each of the three is the mode with the shape that the source speaks of.
+    /// Whether each of the three is the mode with the shape that the paper speaks of.
     pub shaped: [bool; 3],
 }
 
@@ -83,15 +84,14 @@ pub struct Fits {
     pub groups: Vec<FitGroup>,
     /// Choices of which all that fit take the same value, and that value.
     pub determined: Vec<(Factor, usize)>,
-    /// Readings of which at least one of the nearest modes has not the shape that the source speaks of.
+    /// Readings of which at least one of the nearest modes has not the shape that the paper speaks of.
     pub misnamed: usize,
 }
 
 impl Fit {
     /// Judges a reading; `None` unless all three frequencies are within [`WITHIN`].
-    #[must_use]
-    pub fn of(study: &Study, reading: &ReadingResult) -> Option<Self> {
-        let errors = study.paper.errors(reading.nearest_hz);
+    pub fn of(reading: &ReadingResult) -> Option<Self> {
+        let errors = errors(reading.nearest_hz);
         let fits = errors.iter().all(|error| error.abs() <= WITHIN);
         fits.then(|| Self {
             reading: *reading,
@@ -101,13 +101,11 @@ impl Fit {
     }
 
     /// The largest of the three relative distances.
-    #[must_use]
     pub fn worst(&self) -> f64 {
         self.errors.iter().fold(0.0, |worst, e| worst.max(e.abs()))
     }
 
-    /// Whether all three modes have the shapes that the source speaks of.
-    #[must_use]
+    /// Whether all three modes have the shapes that the paper speaks of.
     pub fn all_shaped(&self) -> bool {
         self.shaped.iter().all(|shaped| *shaped)
     }
@@ -126,12 +124,11 @@ fn shaped(reading: &ReadingResult) -> [bool; 3] {
 
 impl Fits {
     /// Finds them.
-    #[must_use]
     pub fn of(study: &Study) -> Self {
         let mut fits: Vec<Fit> = study
             .readings
             .iter()
-            .filter_map(|reading| Fit::of(study, reading))
+            .filter_map(|reading| Fit::of(reading))
             .collect();
         fits.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         let counts = counts(study, &fits);
@@ -161,7 +158,6 @@ impl Fits {
     }
 
     /// The place of a reading among those that fit, from 1; `None`: it does not.
-    #[must_use]
     pub fn rank(&self, levels: &Levels) -> Option<usize> {
         let place = self
             .fits
@@ -189,15 +185,11 @@ fn counts(study: &Study, fits: &[Fit]) -> Vec<LevelCount> {
     counts
 }
 
-fn place(factor: Factor) -> usize {
-    factor as usize
-}
-
 fn groups(study: &Study, fits: &[Fit]) -> Vec<FitGroup> {
     let key = |levels: &Levels| -> Vec<usize> {
         FitGroup::SHARED
             .iter()
-            .map(|factor| levels[place(*factor)])
+            .map(|factor| levels[*factor as usize])
             .collect()
     };
     let mut by_key: BTreeMap<Vec<usize>, Vec<&Fit>> = BTreeMap::new();
@@ -217,7 +209,7 @@ fn groups(study: &Study, fits: &[Fit]) -> Vec<FitGroup> {
             let open = FitGroup::OPEN.iter().map(|factor| {
                 let mut levels: Vec<usize> = members
                     .iter()
-                    .map(|fit| fit.reading.levels[place(*factor)])
+                    .map(|fit| fit.reading.levels[*factor as usize])
                     .collect();
                 levels.sort_unstable();
                 levels.dedup();
@@ -249,12 +241,11 @@ pub struct Moved {
     pub hz: [f64; 3],
     /// How far they moved, relatively.
     pub by: [f64; 3],
-    /// Whether each is still the mode with the shape that the source speaks of.
+    /// Whether each is still the mode with the shape that the paper speaks of.
     pub shaped: [bool; 3],
 }
 
 /// The base reading with one choice changed at a time; its own values are left out.
-#[must_use]
 pub fn moved_by_one_choice(study: &Study, base: &Levels) -> Vec<Moved> {
     let index: BTreeMap<&Levels, &ReadingResult> = study
         .readings
@@ -267,7 +258,7 @@ pub fn moved_by_one_choice(study: &Study, base: &Levels) -> Vec<Moved> {
     };
     let mut moved = Vec::new();
     for (place, factor) in Factor::ALL.into_iter().enumerate() {
-        for level in (0..sizes(&study.grid)[place]).filter(|level| *level != base[place]) {
+        for level in (0..study.grid.sizes()[place]).filter(|level| *level != base[place]) {
             let mut levels = *base;
             levels[place] = level;
             if let Some(reading) = index.get(&levels) {
@@ -282,10 +273,6 @@ pub fn moved_by_one_choice(study: &Study, base: &Levels) -> Vec<Moved> {
         }
     }
     moved
-}
-
-fn sizes(grid: &Grid) -> [usize; FACTORS] {
-    grid.sizes()
 }
 
 fn differs_in_one(a: &Levels, b: &Levels) -> bool {
