@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
@@ -23,7 +24,7 @@ const ROW: f64 = 16.0;
 const SPACE: f64 = 2.0;
 
 /// What a method does in a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StepState {
     /// Small motions do not grow.
@@ -56,7 +57,7 @@ impl StepState {
 }
 
 /// One method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepPanel {
     /// Its name.
     pub name: String,
@@ -67,7 +68,7 @@ pub struct StepPanel {
 }
 
 /// States over steps, conditions and methods.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepMap {
     /// What it shows.
     pub title: String,

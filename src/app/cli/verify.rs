@@ -1,11 +1,10 @@
 //! `plummer verify`: the built-in verification suite.
 
 use super::report_files::ReportFiles;
-use super::results::stages_s;
+use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::app::verification::{Check, SectionResult, suite};
+use crate::app::verification::{Check, SectionResult, SectionValues, VerifyResult, suite};
 use crate::report::Report;
-use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// Folder of the results unless another is named.
@@ -51,26 +50,16 @@ fn conclude(
         written.push(folder.write_below(name, text.as_bytes())?);
     }
     let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
-    let information: Vec<_> = sections.iter().flat_map(|s| &s.information).collect();
-    let mut map = Map::new();
-    for (key, value) in [
-        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
-        ("command", json!("verify")),
-        ("full", json!(full)),
-        ("wall_s", json!(wall_s)),
-        ("stages_s", stages_s(progress)),
-        ("threads", json!(rayon::current_num_threads())),
-        ("tables", json!(files.tables)),
-        ("checks", json!(checks)),
-        ("information", json!(information)),
-    ] {
-        map.insert(key.to_owned(), value);
-    }
-    let values = sections.iter().flat_map(|section| section.values.clone());
-    map.extend(values);
-    let json = Value::Object(map);
-    let text = format!("{json:#}\n");
-    let path = folder.write("verify.json", text.as_bytes())?;
+    let information = sections.iter().flat_map(|s| &s.information);
+    let values = sections.iter().map(|section| section.values.clone());
+    let result = VerifyResult {
+        head: result_head("verify", progress, wall_s, Some(&files.tables)),
+        full,
+        checks: checks.iter().map(|check| check.summary()).collect(),
+        information: information.collect(),
+        values: values.reduce(SectionValues::and).unwrap_or_default(),
+    };
+    let (path, json) = folder.write_json("verify.json", &result)?;
     let failed: Vec<String> = checks
         .iter()
         .filter(|check| !check.ok())
@@ -132,7 +121,9 @@ fn summary(sections: &[SectionResult]) -> String {
 mod tests {
     use super::*;
     use crate::app::cli::Visibility;
+    use crate::app::verification::FormulationRow;
     use crate::report::Section;
+    use serde_json::Value;
 
     fn section(reference: f64) -> SectionResult {
         let check = |name: &str, reference| Check {
@@ -151,7 +142,16 @@ mod tests {
             checks: vec![check("right", 2.0), check("judged", reference)],
             information: Vec::new(),
             report: vec![Section::new("").paragraph("Told beside.")],
-            values: vec![("beside".to_owned(), json!(3))],
+            values: SectionValues {
+                formulations: Some(vec![FormulationRow {
+                    equations: "printed",
+                    contact: "Table 1",
+                    balls: "two",
+                    frequencies_hz: vec![8.2e3],
+                    stable: true,
+                }]),
+                ..SectionValues::default()
+            },
             files: vec![("below/a.csv".to_owned(), "a\n".to_owned())],
             lines: vec!["a line".to_owned()],
         }
@@ -187,7 +187,7 @@ mod tests {
         let json: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(json["checks"][0]["ok"], true);
         assert_eq!(json["checks"][1]["ok"], false);
-        assert_eq!(json["beside"], 3);
+        assert_eq!(json["formulations"][0]["balls"], "two");
         let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
         assert!(page.contains("1 of 2 pass") && page.contains("Told beside."));
         let beside = std::fs::read_to_string(folder.path().join("below/a.csv")).unwrap();

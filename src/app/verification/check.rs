@@ -1,18 +1,20 @@
 //! One number against its reference.
 
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde::ser::{SerializeStruct, Serializer};
 
 /// A number that was computed, what it ought to be, and under which assumptions both are the same thing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Check {
     /// What it is.
     pub name: String,
     /// The section that it belongs to.
     pub section: String,
     /// The program's value, in `unit`.
+    #[schemars(with = "Option<f64>")]
     pub computed: f64,
     /// What it is compared with, in `unit`; not zero.
+    #[schemars(with = "Option<f64>")]
     pub reference: f64,
     /// Unit of both; empty for none.
     pub unit: String,
@@ -23,7 +25,21 @@ pub struct Check {
     /// Largest magnitude of the relative error that passes.
     pub limit: f64,
     /// Why this limit.
+    #[serde(rename = "limit_reason")]
     pub reason: String,
+}
+
+/// A check with its verdict.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CheckSummary<'a> {
+    /// The check.
+    #[serde(flatten)]
+    pub check: &'a Check,
+    /// (computed - reference) / reference.
+    #[schemars(with = "Option<f64>")]
+    pub relative_error: f64,
+    /// Whether it passes.
+    pub ok: bool,
 }
 
 /// What all checks of a kind have in common.
@@ -53,7 +69,7 @@ impl Kind<'_> {
 }
 
 /// A number that is told, and not judged.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Information {
     /// What it is.
     pub name: String,
@@ -82,6 +98,16 @@ impl Check {
         self.relative_error().abs() <= self.limit
     }
 
+    /// What `verify.json` says of it.
+    #[must_use]
+    pub fn summary(&self) -> CheckSummary<'_> {
+        CheckSummary {
+            check: self,
+            relative_error: self.relative_error(),
+            ok: self.ok(),
+        }
+    }
+
     /// One line for a reader.
     #[must_use]
     pub fn line(&self) -> String {
@@ -95,24 +121,6 @@ impl Check {
             self.relative_error(),
             self.limit
         )
-    }
-}
-
-impl Serialize for Check {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_struct("Check", 11)?;
-        map.serialize_field("name", &self.name)?;
-        map.serialize_field("section", &self.section)?;
-        map.serialize_field("computed", &self.computed)?;
-        map.serialize_field("reference", &self.reference)?;
-        map.serialize_field("unit", &self.unit)?;
-        map.serialize_field("source", &self.source)?;
-        map.serialize_field("assumptions", &self.assumptions)?;
-        map.serialize_field("relative_error", &self.relative_error())?;
-        map.serialize_field("limit", &self.limit)?;
-        map.serialize_field("limit_reason", &self.reason)?;
-        map.serialize_field("ok", &self.ok())?;
-        map.end()
     }
 }
 
@@ -136,7 +144,7 @@ mod tests {
         assert!(check(-2.25, 0.125).ok() && check(-1.75, 0.125).ok());
         assert!(!check(-2.25, 0.12).ok() && !check(2.0, 0.5).ok());
         assert!(!check(f64::NAN, 1.0).ok());
-        let json = serde_json::to_value(check(-2.25, 0.1)).unwrap();
+        let json = serde_json::to_value(check(-2.25, 0.1).summary()).unwrap();
         assert_eq!(json["relative_error"], 0.125);
         assert_eq!(json["ok"], false);
     }

@@ -22,9 +22,11 @@ mod simulation;
 mod stiffness;
 mod structured_mesh;
 mod suite;
+mod summary;
 
-pub use check::{Check, Information};
+pub use check::{Check, CheckSummary, Information};
 pub use error::VerificationError;
+pub use orders::OrdersSummary;
 pub use paper::{
     BEAM_CASE, BEARING, GRAVITY, PAPER, PaperFrequencies, TABLE_ONE, TableStiffness, beam_case,
     table_one,
@@ -35,3 +37,4 @@ pub use section::SectionResult;
 pub use stiffness::{Hypothesis, hypotheses};
 pub use structured_mesh::{BODY, StructuredMesh};
 pub use suite::suite;
+pub use summary::{SectionValues, VerifyResult};

@@ -3,6 +3,7 @@
 use super::VerificationError;
 use crate::app::case::{Case, Source};
 use crate::bearing::{BearingDimensions, ContactStiffness};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -16,7 +17,7 @@ pub const PAPER: &str = "Tadina & Boltezar 2011";
 pub const GRAVITY: f64 = 9.81;
 
 /// Table 1's contact stiffness, N/m^1.5 (printed as N/m).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TableStiffness {
     /// Inner race.
     pub inner: f64,
@@ -42,7 +43,7 @@ pub const BEARING: BearingDimensions = BearingDimensions {
 };
 
 /// The source's eigenfrequencies, Hz, in its own digits ("around").
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct PaperFrequencies {
     /// "Eigenfrequency of the bearing/housing-pedestal system" (section 4.2).
     pub sway: f64,

@@ -5,22 +5,22 @@ use super::paper::{BEARING, GRAVITY, PAPER, PaperFrequencies};
 use super::paper_report::paper_report;
 use super::section::SectionResult;
 use super::stiffness::{Hypothesis, hypotheses};
-use super::{Check, Information, VerificationError, beam_case};
+use super::{Check, Information, SectionValues, VerificationError, beam_case};
 use crate::app::commands::modes::{ModesResult, compute_modes};
 use crate::app::scene::{Unwatched, Watch};
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
 use crate::bearing::impact::impact;
 use crate::bearing::kinematics::BallRow;
 use crate::bearing::{BearingGeometry, ContactMaterial, RaceContacts};
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::json;
 use std::f64::consts::PI;
 
 /// Title of the section.
 pub const TITLE: &str = "The paper's numbers";
 
 /// A row of the table of formulations: loaded frequencies of the built-in case with other choices.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FormulationRow {
     /// "printed" or "consistent".
     pub equations: &'static str,
@@ -73,11 +73,12 @@ pub fn paper_numbers(watch: &impl Watch) -> Result<SectionResult, VerificationEr
     }
     Ok(SectionResult {
         report: vec![paper_report(&stiffness, &rows)],
-        values: vec![
-            ("table_1_stiffness".to_owned(), json!(stiffness)),
-            ("formulations".to_owned(), json!(rows)),
-        ],
         lines: lines(&stiffness, &rows),
+        values: SectionValues {
+            table_1_stiffness: Some(stiffness),
+            formulations: Some(rows),
+            ..SectionValues::default()
+        },
         information,
         ..SectionResult::of_checks(TITLE, checks)
     })

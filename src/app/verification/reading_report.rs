@@ -6,14 +6,13 @@ use super::readings::{
     moved_by_one_choice,
 };
 use super::section::{SectionResult, signed};
-use super::{Check, VerificationError};
+use super::{Check, SectionValues, VerificationError};
 use crate::app::commands::modes::compute_modes;
 use crate::app::scene::{Unwatched, Watch};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Marker, Plot, Section, SpanPoint,
     SpanRow, Spans, Table, Verdict, fixed, significant,
 };
-use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Title of the section.
@@ -69,7 +68,10 @@ pub fn reading_study(
         checks,
         information: Vec::new(),
         report: vec![report(&study, &fits, base, &moved, &charts)],
-        values: vec![("readings".to_owned(), values(&study, &fits, base, &moved))],
+        values: SectionValues {
+            readings: Some(study.summary(&fits, base, &moved)),
+            ..SectionValues::default()
+        },
         files: files(&study, &fits, &charts)?,
         lines: lines(&study, &fits, base, &moved),
     })
@@ -430,59 +432,6 @@ fn words(study: &Study, levels: &Levels) -> String {
         }
     });
     words.collect::<Vec<_>>().join("; ")
-}
-
-fn values(study: &Study, fits: &Fits, base: Option<&ReadingResult>, moved: &[Moved]) -> Value {
-    let sizes = study.grid.sizes();
-    let labels = |factor: Factor, size: usize| -> Vec<String> {
-        (0..size)
-            .map(|level| study.grid.label(factor, level))
-            .collect()
-    };
-    let choices: Vec<Value> = Factor::ALL
-        .into_iter()
-        .zip(sizes)
-        .map(|(factor, size)| json!({ "choice": factor, "values": labels(factor, size) }))
-        .collect();
-    let fit = |fit: &Fit| {
-        json!({
-            "levels": fit.reading.levels,
-            "hz": fit.reading.nearest_hz,
-            "relative_error": fit.errors,
-            "by_shape": fit.shaped,
-        })
-    };
-    json!({
-        "expected_hz": study.paper,
-        "within": WITHIN,
-        "count": study.readings.len(),
-        "without_equilibrium": study.without_equilibrium,
-        "nearest_of_another_shape": fits.misnamed,
-        "choices": choices,
-        "known": study.grid.known(),
-        "known_shapes": base.map(|base| base.shapes),
-        "known_place": study.grid.known().and_then(|known| fits.rank(&known)),
-        "fits_count": fits.fits.len(),
-        "fits": fits.fits.iter().map(fit).collect::<Vec<_>>(),
-        "by_choice": fits.counts.iter().map(|count| json!({
-            "choice": count.factor,
-            "value": study.grid.label(count.factor, count.level),
-            "readings": count.readings,
-            "fits": count.fits,
-            "fits_by_shape": count.shaped_fits,
-        })).collect::<Vec<_>>(),
-        "determined": fits.determined.iter().map(|(factor, level)| json!({
-            "choice": factor,
-            "value": study.grid.label(*factor, *level),
-        })).collect::<Vec<_>>(),
-        "one_at_a_time": moved.iter().map(|moved| json!({
-            "choice": moved.factor,
-            "value": study.grid.label(moved.factor, moved.level),
-            "hz": moved.hz,
-            "moved_by": moved.by,
-            "by_shape": moved.shaped,
-        })).collect::<Vec<_>>(),
-    })
 }
 
 fn files(

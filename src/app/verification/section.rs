@@ -1,8 +1,7 @@
 //! What a section of the suite hands on: checks, what is told beside them, and its part of the report.
 
-use super::{Check, Information};
+use super::{Check, Information, SectionValues};
 use crate::report::{Cell, Column, Section, Table, Verdict, significant};
-use serde_json::Value;
 
 /// A section of the suite, carried out.
 #[derive(Debug, Clone)]
@@ -15,8 +14,8 @@ pub struct SectionResult {
     pub information: Vec<Information>,
     /// Its part of the report, after the tables of checks.
     pub report: Vec<Section>,
-    /// What the result file says of it beside the checks: key and value.
-    pub values: Vec<(String, Value)>,
+    /// What the result file says of it beside the checks.
+    pub values: SectionValues,
     /// Files that stand beside the report: path below the results' folder, content.
     pub files: Vec<(String, String)>,
     /// Lines for a terminal beside the table of checks.
@@ -34,7 +33,7 @@ impl SectionResult {
             checks,
             information: Vec::new(),
             report: Vec::new(),
-            values: Vec::new(),
+            values: SectionValues::default(),
             files: Vec::new(),
             lines: Vec::new(),
         }

@@ -8,6 +8,7 @@ use super::paper::{BEARING, TABLE_ONE};
 use crate::bearing::hertz::{
     HertzError, HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Young's modulus of bearing steel, Pa.
@@ -20,7 +21,7 @@ const POISSON: f64 = 0.3;
 const TABULATED: [f64; 2] = [0.3204, 0.4795];
 
 /// A way to arrive at two stiffnesses.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Hypothesis {
     /// What was done.
     pub what: String,

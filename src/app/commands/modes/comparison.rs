@@ -8,11 +8,12 @@ use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
 use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
 
 /// What a pair of modes, or a mode without a partner, misses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Miss {
     /// The shapes differ by more than the limit.
@@ -38,7 +39,7 @@ impl Miss {
 }
 
 /// Modes that belong together; indices count from 0 in each list of frequencies.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedPair {
     /// Modes of this case; several are a group of repeated ones.
     pub here: Vec<usize>,
@@ -59,7 +60,7 @@ pub struct ComparedPair {
 }
 
 /// A mode without a partner.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LoneMode {
     /// Index from 0 in its list of frequencies.
     pub mode: usize,
@@ -70,7 +71,7 @@ pub struct LoneMode {
 }
 
 /// The points that were compared.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedPoints {
     /// How they were found.
     pub by: MatchedBy,
@@ -85,7 +86,7 @@ pub struct ComparedPoints {
 }
 
 /// The modes of a case against those of a file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FileComparison {
     /// The file.
     pub file: PathBuf,

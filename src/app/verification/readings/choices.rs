@@ -1,5 +1,6 @@
 //! What the source does not report about its model, and the values that are tried.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How the springs of the pedestal act on the ring.
@@ -56,7 +57,7 @@ pub enum Equations {
 }
 
 /// What a reading chooses, in the order of [`Levels`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Factor {
     /// Width of the housing ring.

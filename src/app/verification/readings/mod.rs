@@ -7,6 +7,7 @@ mod choices;
 mod fits;
 mod shapes;
 mod study;
+mod summary;
 
 pub use choices::{
     ContactSource, Equations, FACTORS, Factor, Grid, Levels, RingBond, SpringArc, Springs,
@@ -14,3 +15,6 @@ pub use choices::{
 pub use fits::{Fit, FitGroup, Fits, LevelCount, Moved, WITHIN, moved_by_one_choice};
 pub use shapes::{ByShape, ShapeShares};
 pub use study::{ReadingResult, Study};
+pub use summary::{
+    ChoiceSummary, DeterminedSummary, FitSummary, LevelSummary, MovedSummary, ReadingsSummary,
+};

@@ -2,6 +2,7 @@
 
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{LoadedShapes, Structure, StructureModes};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Share of a motion from which on a mode is called by it: more than all others together.
@@ -15,7 +16,7 @@ pub struct NamedMotions {
 }
 
 /// Shares of a mode's kinetic energy, 0 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ShapeShares {
     /// Ring as a rigid body across the load, x.
     pub across: f64,
@@ -32,7 +33,7 @@ pub struct ShapeShares {
 }
 
 /// The source's three frequencies as the shapes have them, Hz; `None` where no mode has the shape.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ByShape {
     /// "Bearing/housing-pedestal system": the ring across the load and turning, the higher of two such modes.
     pub sway: Option<f64>,

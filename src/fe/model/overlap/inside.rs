@@ -6,11 +6,12 @@ use super::outline::{centre, holds};
 use super::{Bodies, at, both};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Two parts that fill one space, or a part that fills it twice.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Overlap {
     /// Names of the parts; twice the same for elements of one part.
     pub parts: [String; 2],
