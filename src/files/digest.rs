@@ -3,13 +3,14 @@
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::open;
 
 /// A file that a case rests on, mostly a mesh, and the SHA-256 of its bytes (FIPS 180-4), as `sha256sum` prints it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FileDigest {
     /// The file, as the case names it from where the program was called.
     pub path: PathBuf,

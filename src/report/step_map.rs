@@ -1,5 +1,6 @@
 //! What steps do: a row a condition, a panel a method, a cell a step, with the limits that were predicted and measured.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ReportError;
@@ -26,7 +27,7 @@ const PANEL_NAME: &str = "text-anchor=\"middle\" style=\"font-size:11.5px;font-w
 const TICK: &str = "text-anchor=\"middle\" style=\"font-size:10.5px\"";
 
 /// What a method does in a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StepState {
     /// Small motions do not grow.
@@ -59,7 +60,7 @@ impl StepState {
 }
 
 /// One method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepPanel {
     /// Its name.
     pub name: String,
@@ -70,7 +71,7 @@ pub struct StepPanel {
 }
 
 /// States over steps, conditions and methods.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepMap {
     /// What it shows.
     pub title: String,

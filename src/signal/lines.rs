@@ -1,5 +1,6 @@
 //! Peaks of an envelope spectrum and the lines they belong to: shaft, races, balls and their harmonics.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::SignalError;
@@ -83,7 +84,7 @@ impl NamedLine {
 }
 
 /// The line nearest to a peak.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LineMatch {
     /// Name of the line.
     pub nearest: String,
@@ -104,7 +105,7 @@ impl LineMatch {
 }
 
 /// A peak of an envelope spectrum with the line nearest to it, and the lines that it may be.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EnvelopePeak {
     /// Frequency found, Hz.
     pub frequency_hz: f64,

@@ -6,10 +6,12 @@ use super::error::SystemError;
 use super::resting::{RestingRaces, in_the_plane};
 use super::structure::{Structure, StructureModes};
 use crate::numerics::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// One mode of the loaded system.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LoadedMode {
     /// Frequency, Hz.
     pub frequency_hz: f64,
@@ -22,7 +24,7 @@ pub struct LoadedMode {
 }
 
 /// Modes of ring, housing, shaft and balls, linearised at an equilibrium.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LoadedModes {
     /// Modes with a positive frequency, ascending.
     pub modes: Vec<LoadedMode>,

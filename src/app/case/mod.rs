@@ -84,6 +84,7 @@ pub use nearest::Choices;
 pub use ring::{
     Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
 };
+pub(in crate::app) use schema::in_words;
 pub use sensor::{Sensor, SensorSpot};
 pub use set::{SetProblem, replaced_argument, split_argument};
 pub use slip::{Slip, SlipAtSpeed, SlipAtTime};

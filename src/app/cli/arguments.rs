@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
+use super::schema::ResultOf;
 use super::{AnalyzeArguments, InitArguments, SweepArguments};
 use crate::app::case::Case;
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
@@ -169,8 +170,9 @@ Files:
   report.html   the same as tables; with --full the charts of orders";
 
 const SCHEMA_EXAMPLE: &str = "\
-Example: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML
+Examples: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML; what modes.json holds
   plummer schema > plummer.schema.json
+  plummer schema --results modes
 
 The first line of a case file names the schema, relative to the case: #:schema plummer.schema.json
 Keys, kinds of values, options, and keys that exclude each other are in it; ranges and what needs the mesh are checked by every
@@ -294,9 +296,13 @@ pub enum Command {
         #[arg(long)]
         full: bool,
     },
-    /// JSON Schema of the case file, for editors, on standard output
+    /// JSON Schema of the case file, for editors, or of a result, on standard output
     #[command(after_help = SCHEMA_EXAMPLE)]
-    Schema,
+    Schema {
+        /// Of what this command writes as COMMAND.json and prints with --json
+        #[arg(long, value_name = "COMMAND", value_enum)]
+        results: Option<ResultOf>,
+    },
 }
 
 /// A part of `plummer chart`.
@@ -371,7 +377,7 @@ impl Command {
             Self::Export { .. } => "export",
             Self::Report { .. } => "report",
             Self::Verify { .. } => "verify",
-            Self::Schema => "schema",
+            Self::Schema { .. } => "schema",
         }
     }
 

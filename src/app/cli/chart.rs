@@ -1,19 +1,17 @@
 //! `plummer chart`: speed against accuracy, and the stability map.
 
+use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{common, warnings};
+use super::results::{case_result, result_head, result_of_case, warnings};
 use super::stability::{alone, stability_lines, write_stability};
 use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::RunModel;
 use crate::app::studies::chart::{
-    Chart, ComparedFigure, Condition, Effort, Estimate, Failure, GrowthError, Point, PointError,
-    StartReference, chart_report, compute_chart, compute_stability, parameter_of,
+    Chart, ChartResult, Condition, Effort, Point, chart_report, compute_chart, compute_stability,
     stability_section, work_precision,
 };
 use crate::report::significant;
-use serde_json::{Map, Value, json};
 
 /// What of the charts is computed, and how much.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,23 +60,31 @@ pub(super) fn chart(
     }
     let files = ReportFiles::write(&folder, "chart", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("chart", case, progress, wall_s, &files.meshes);
-    map.insert("tables".to_owned(), json!(files.tables));
-    map.extend(fields(case, &result));
+    let record = case_result(
+        "chart",
+        case,
+        progress,
+        wall_s,
+        &files,
+        result.summary(case),
+    );
+    let mut shown = ChartResult {
+        chart: record,
+        stability: None,
+    };
     let mut lines = summary(&result);
-    let mut shown = map.clone();
     if let Some(stability) = &stability {
-        let head = common("chart", case, progress, wall_s, &files.meshes);
-        let (record, paths) = write_stability(&folder, head, stability)?;
-        written.extend(paths);
+        let head = result_head("chart", progress, wall_s, None);
+        let record = result_of_case(head, case, &files.meshes, stability.summary());
+        written.extend(write_stability(&folder, stability, &record)?);
         lines = format!("{lines}\n{}", stability_lines(stability));
-        shown.insert("stability".to_owned(), record);
+        shown.stability = Some(record);
     }
-    let json = Value::Object(map);
-    written.push(folder.write("chart.json", format!("{json:#}\n").as_bytes())?);
+    let (path, _) = folder.write_json("chart.json", &shown.chart)?;
+    written.push(path);
     Ok(Outcome {
         summary: lines,
-        result: Value::Object(shown),
+        result: json(&shown)?,
         written: [written, files.paths].concat(),
         verdict: verdict(&result),
     })
@@ -177,141 +183,6 @@ fn line(point: &Point) -> String {
         point.model_name(),
         significant(value, 3)
     )
-}
-
-/// What `chart.json` says beside what every result carries.
-fn fields(case: &Case, result: &Chart) -> Map<String, Value> {
-    let reference = &result.reference;
-    let fields = json!({
-        "scene": case.title,
-        "warnings": result.scene.doubts,
-        "band_hz": case.band_hz(),
-        "target": result.settings.target,
-        "span_s": result.settings.span_s,
-        "ensemble": {
-            "starts_s": reference.starts.iter().map(|s| s.start.time_s).collect::<Vec<_>>(),
-            "spread_s": result.starts.spread_s,
-            "perturbation": result.settings.ensemble.perturbation,
-            "seed": result.settings.ensemble.seed,
-            "left_out": result.starts.left_out,
-        },
-        "reference": {
-            "methods": reference.models.map(|model| method(&model)),
-            "model": "all modes, balls with inertia",
-            "modes": result.scene.stage.modes.count(),
-            "disagreement": reference.disagreement,
-            "agreed": reference.agreed,
-            "starts": reference.starts.iter().map(of_start).collect::<Vec<_>>(),
-        },
-        "horizon_s": reference.mean_horizon_s(),
-        "least_horizon_s": reference.least_horizon_s(),
-        "growth_rate_per_s": reference.growth_rate_per_s(),
-        "points": result.points.iter().map(|point| of_point(result, point)).collect::<Vec<_>>(),
-        "front": result.front,
-        "omissions": result.omissions().map(|(place, failure)| json!({
-            "point": place,
-            "method": result.points[place].method(),
-            "model": result.points[place].model_name(),
-            "parameter": parameter(&result.points[place]),
-            "kind": failure.kind.name(),
-            "reason": failure.reason,
-        })).collect::<Vec<_>>(),
-        "chosen": result.chosen,
-        "source": result.source,
-        "over_all_starts": {
-            "chosen": of_error(&result.over_all_starts[0]),
-            "source": of_error(&result.over_all_starts[1]),
-        },
-        "statistics": {
-            "seconds": result.settings.statistics_s,
-            "models": result.statistics.iter().map(|of| json!({
-                "point": of.point,
-                "figures": of.figures.as_ref().ok().map(|all| all.iter().map(|figure| of_figure(result, figure)).collect::<Vec<_>>()),
-                "reason": of.figures.as_ref().err(),
-            })).collect::<Vec<_>>(),
-        },
-    });
-    match fields {
-        Value::Object(map) => map,
-        _ => Map::new(),
-    }
-}
-
-/// A method of the reference and what it was refined to.
-fn method(model: &RunModel) -> Value {
-    let (name, value) = parameter_of(model);
-    json!({ "method": model.method.name(), name: value })
-}
-
-fn of_start(start: &StartReference) -> Value {
-    json!({
-        "start_s": start.start.time_s,
-        "horizon_s": start.horizon_s,
-        "disagreement": start.disagreement,
-        "refinements": start.refinements,
-        "growth_rate_per_s": start.growth.rate_per_s(),
-        "time_s": start.growth.times_s(),
-        "perturbed": start.growth.distances(),
-        "methods": start.between.distances(),
-    })
-}
-
-fn parameter(point: &Point) -> Value {
-    let (name, value) = point.parameter();
-    json!({ name: value })
-}
-
-fn of_point(result: &Chart, point: &Point) -> Value {
-    let mut fields = json!({
-        "method": point.method(),
-        "model": point.model_name(),
-        "parameter": parameter(point),
-        "wall_s": point.wall_s,
-        "below_floor": result.below_floor(point),
-    });
-    if let (Value::Object(fields), Value::Object(error)) = (&mut fields, of_error(&point.error)) {
-        fields.extend(error);
-    }
-    fields
-}
-
-fn of_error(error: &Result<PointError, Failure>) -> Value {
-    let (error, failure) = (error.as_ref().ok(), error.as_ref().err());
-    json!({
-        "error": error.map(|error| error.mean),
-        "deviation": error.map(|error| error.deviation),
-        "largest_error": error.map(|error| error.largest),
-        "by_growth": error.map(|error| by_growth(&error.by_growth)),
-        "ok": failure.is_none(),
-        "reason": failure.map(|failure| &failure.reason),
-    })
-}
-
-/// Errors while nearby solutions have parted by less than over the horizon.
-fn by_growth(parts: &[GrowthError]) -> Value {
-    let parts = parts
-        .iter()
-        .map(|part| json!({ "growth": part.growth, "span_s": part.span_s, "error": part.mean }));
-    parts.collect()
-}
-
-fn of_figure(result: &Chart, figure: &ComparedFigure) -> Value {
-    let estimate = |of: &Estimate| {
-        json!({
-            "mean": of.mean,
-            "deviation": of.deviation,
-            "standard_error": of.standard_error,
-        })
-    };
-    json!({
-        "name": figure.name,
-        "unit": figure.unit,
-        "own": estimate(&figure.own),
-        "reference": estimate(&figure.reference),
-        "difference": estimate(&figure.difference),
-        "standard_errors": figure.standard_errors(),
-        "differs": figure.differs(result.settings.target),
-    })
 }
 
 #[cfg(test)]

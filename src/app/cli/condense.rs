@@ -1,7 +1,7 @@
 //! `plummer condense`: a superelement and its certificate.
 
 use super::report_files::ReportFiles;
-use super::results::{common, condense_fields, imported_fields, warnings};
+use super::results::{case_result, warnings};
 use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::commands::condense::{
@@ -12,7 +12,6 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
-use serde_json::Value;
 
 /// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
 /// A superelement from a file is checked instead.
@@ -53,11 +52,8 @@ pub fn condense(
     };
     write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("condense", case, progress, wall_s, &files.meshes);
-    map.insert("tables".to_owned(), serde_json::json!(files.tables));
-    map.extend(condense_fields(&result));
-    let json = Value::Object(map);
-    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    let record = case_result("condense", case, progress, wall_s, &files, result.summary());
+    let (path, json) = folder.write_json("condense.json", &record)?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -90,11 +86,15 @@ fn check_imported(
     let report = imported_report(case, imported, &command);
     let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("condense", case, progress, wall_s, &files.meshes);
-    map.insert("tables".to_owned(), serde_json::json!(files.tables));
-    map.extend(imported_fields(imported));
-    let json = Value::Object(map);
-    let path = folder.write("condense.json", format!("{json:#}\n").as_bytes())?;
+    let record = case_result(
+        "condense",
+        case,
+        progress,
+        wall_s,
+        &files,
+        imported.summary(),
+    );
+    let (path, json) = folder.write_json("condense.json", &record)?;
     let mut lines = imported.notes.clone();
     lines.extend(check_lines(&imported.checks));
     Ok(Outcome {

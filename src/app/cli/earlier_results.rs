@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 use super::{CliError, ResultsError};
 use crate::app::case::Case;
@@ -28,14 +29,14 @@ pub(super) struct Wanted {
 ///
 /// # Errors
 /// [`CliError::File`] for a file that is gone.
-pub(super) fn digests(files: &[PathBuf]) -> Result<Value, CliError> {
-    let mut map = Map::new();
+pub(super) fn digests(files: &[PathBuf]) -> Result<BTreeMap<String, String>, CliError> {
+    let mut digests = BTreeMap::new();
     for path in files {
         let digest = FileDigest::of_file(path).map_err(FileError::write(path))?;
         let name = path.file_name().unwrap_or_default();
-        map.insert(name.to_string_lossy().into_owned(), json!(digest.sha256));
+        digests.insert(name.to_string_lossy().into_owned(), digest.sha256);
     }
-    Ok(Value::Object(map))
+    Ok(digests)
 }
 
 /// The case of the results in a folder, which are whole and belong together; `set` is applied after what they were computed with.

@@ -1,14 +1,13 @@
 //! `plummer frf`: transfer paths.
 
 use super::report_files::ReportFiles;
-use super::results::{common, warnings};
+use super::results::{case_result, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
 use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
-use serde_json::{Value, json};
 
 /// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
 ///
@@ -26,11 +25,8 @@ pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     write_responses_uff(&uff, &case.title, &responses(case, &result)?)
         .map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("frf", case, progress, wall_s, &files.meshes);
-    map.insert("tables".to_owned(), json!(files.tables));
-    map.extend(fields(&result));
-    let json = Value::Object(map);
-    let path = folder.write("frf.json", format!("{json:#}\n").as_bytes())?;
+    let record = case_result("frf", case, progress, wall_s, &files, result.summary());
+    let (path, json) = folder.write_json("frf.json", &record)?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -133,69 +129,6 @@ fn summary(result: &FrfResult) -> String {
         }
     }
     lines.join("\n")
-}
-
-/// What `frf.json` says beside what every result carries.
-fn fields(result: &FrfResult) -> serde_json::Map<String, Value> {
-    let receptance = |place: (usize, usize)| {
-        let values = result.response.receptance().iter();
-        values.map(|at| at[place]).collect::<Vec<_>>()
-    };
-    let full = |path: usize| {
-        let compared = result.compared.iter();
-        compared.map(|at| at.full[path]).collect::<Vec<_>>()
-    };
-    let paths: Vec<Value> = result
-        .paths
-        .iter()
-        .enumerate()
-        .map(|(index, path)| {
-            let (values, full) = (receptance(path.place), full(index));
-            json!({
-                "from": path.from,
-                "to": path.to,
-                "closed": path.is_closed(),
-                "re": values.iter().map(|h| h.re).collect::<Vec<_>>(),
-                "im": values.iter().map(|h| h.im).collect::<Vec<_>>(),
-                "full_re": full.iter().map(|h| h.re).collect::<Vec<_>>(),
-                "full_im": full.iter().map(|h| h.im).collect::<Vec<_>>(),
-                "modes": path.shares.modes.iter().map(|share| json!({
-                    "mode": share.mode,
-                    "frequency_hz": share.frequency_hz,
-                    "damping_ratio": share.ratio,
-                    "share": share.share,
-                    "alone": share.alone,
-                })).collect::<Vec<_>>(),
-            })
-        })
-        .collect();
-    let fields = json!({
-        "unit": "m/N",
-        "band_hz": result.band_hz,
-        "interface_dof": result.housing.element().interface_dof,
-        "vectors": result.housing.element().modal_dof(),
-        "frequency_hz": result.response.frequencies_hz(),
-        "paths": paths,
-        "full_frequency_hz": result.compared.iter().map(|at| at.frequency_hz).collect::<Vec<_>>(),
-        "full_residual": result.compared.iter().map(|at| at.residual).collect::<Vec<_>>(),
-        "estimated_error": result.estimate.as_ref().map(|estimate| &estimate.relative_errors),
-        "difference": result.compared.iter().map(|at| at.difference).collect::<Vec<_>>(),
-        "target": result.target,
-        "not_compared": result.not_compared,
-        "warnings": result.doubts,
-        "ranking": result.ranking.iter().map(|ranked| json!({
-            "path": ranked.path,
-            "variants": ranked.variants.iter().map(|variant| json!({
-                "name": variant.name,
-                "mean_db": variant.mean_db,
-                "above_quietest_db": variant.above_quietest_db,
-            })).collect::<Vec<_>>(),
-        })).collect::<Vec<_>>(),
-    });
-    match fields {
-        Value::Object(map) => map,
-        _ => serde_json::Map::new(),
-    }
 }
 
 /// A direction of the case, which may have any length; none where the case has none, as of a superelement's sensor.

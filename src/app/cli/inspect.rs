@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use serde_json::json;
-
+use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
-use crate::app::commands::Inspection;
+use crate::app::commands::result::VERSION;
+use crate::app::commands::{InspectResult, Inspection};
 use crate::app::error::ComputeError;
 use crate::numerics::units::LengthUnit;
 use crate::report::significant;
@@ -26,23 +26,21 @@ pub fn inspect(
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let found = Inspection::of_file(path, unit).map_err(ComputeError::from)?;
-    let mut result = json!({
-        "plummer": env!("CARGO_PKG_VERSION"),
-        "command": "inspect",
-        "mesh": path,
-        "wall_s": started.elapsed().as_secs_f64(),
-        "mass_kg": density.filter(|_| unit.is_some()).map(|density| density * found.size),
-    });
-    if let (Some(map), Ok(serde_json::Value::Object(fields))) =
-        (result.as_object_mut(), serde_json::to_value(&found))
-    {
-        map.extend(fields);
-    }
+    let result = json(&InspectResult {
+        plummer: VERSION,
+        command: "inspect",
+        mesh: path,
+        wall_s: started.elapsed().as_secs_f64(),
+        mass_kg: density
+            .filter(|_| unit.is_some())
+            .map(|density| density * found.size),
+        found: &found,
+    })?;
     let mut written = Vec::new();
     if let Some(folder) = &options.out {
         let folder = OutputFolder::at(folder);
         folder.claim("inspect", options.force)?;
-        written.push(folder.write("inspect.json", format!("{result:#}\n").as_bytes())?);
+        written.push(folder.write_json("inspect.json", &result)?.0);
     }
     Ok(Outcome {
         summary: summary(path, &found, density),

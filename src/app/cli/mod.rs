@@ -25,6 +25,7 @@ mod report_files;
 mod results;
 mod results_error;
 mod run;
+mod schema;
 mod set_arguments;
 mod shell;
 mod stability;
@@ -47,6 +48,7 @@ pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
 pub use results_error::ResultsError;
+pub use schema::ResultOf;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
@@ -130,7 +132,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Sweep(asked) => sweep::sweep(asked, options),
         Command::Report { folder } => report::report(folder, options),
         Command::Verify { full } => verify::verify(*full, options),
-        Command::Schema => return emit(to, &format!("{:#}", Case::schema())),
+        Command::Schema { results } => return emit(to, &format!("{:#}", schema::schema(*results))),
         Command::Init(asked) => init::init(asked, options),
         Command::Inspect {
             mesh,

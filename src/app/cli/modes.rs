@@ -1,9 +1,9 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
-use super::earlier_results::{ARRAYS, digests};
+use super::earlier_results::digests;
 use super::mode_checks::{check_lines, failures};
 use super::report_files::ReportFiles;
-use super::results::{modes_json, warnings, write_modes};
+use super::results::{case_result, warnings, write_modes};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::commands::modes::{ModesResult, Reading, compute_modes, modes_report};
@@ -21,20 +21,14 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
     let report = modes_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "modes", case, report, progress)?;
     let shapes = write_modes(&folder, &result)?;
-    let mut json = modes_json(
-        case,
-        &result,
-        progress,
-        started.elapsed().as_secs_f64(),
-        &files,
-    );
-    json[ARRAYS] = digests(std::slice::from_ref(&shapes))?;
-    let text = format!("{json:#}\n");
-    let json_path = folder.write("modes.json", text.as_bytes())?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut record = case_result("modes", case, progress, wall_s, &files, result.summary());
+    record.arrays = digests(std::slice::from_ref(&shapes))?;
+    let (path, json) = folder.write_json("modes.json", &record)?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
-        written: [vec![json_path, shapes], files.paths].concat(),
+        written: [vec![path, shapes], files.paths].concat(),
         verdict: if result.passes() {
             Verdict::Good
         } else {

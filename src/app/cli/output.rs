@@ -4,6 +4,9 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+use serde_json::Value;
+
 use super::{CliError, Options, folder_lock};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
@@ -29,6 +32,14 @@ pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// name is as it was.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
+}
+
+/// A result as JSON.
+///
+/// # Errors
+/// [`CliError::StandardOutput`] for what JSON cannot hold: names of files that are not UTF-8.
+pub(super) fn json(result: &impl Serialize) -> Result<Value, CliError> {
+    serde_json::to_value(result).map_err(|error| CliError::StandardOutput(error.into()))
 }
 
 /// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
@@ -116,6 +127,20 @@ impl OutputFolder {
         } else {
             "report.html".to_owned()
         }
+    }
+
+    /// Writes a result as JSON; gives its path, and what it says.
+    ///
+    /// # Errors
+    /// [`CliError::Write`], and as [`json`].
+    pub(super) fn write_json(
+        &self,
+        name: &str,
+        result: &impl Serialize,
+    ) -> Result<(PathBuf, Value), CliError> {
+        let json = json(result)?;
+        let path = self.write(name, format!("{json:#}\n").as_bytes())?;
+        Ok((path, json))
     }
 
     /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.

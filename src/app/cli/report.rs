@@ -3,13 +3,40 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use schemars::JsonSchema;
+use serde::Serialize;
 
+use super::output::json;
 use super::report_files::{ReportFiles, page_of};
 use super::results_error::{ResultsError, WITH_REPORT};
 use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use crate::app::commands::result::VERSION;
 use crate::files::FileError;
 use crate::report::Report;
+
+/// The pages that were drawn.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ReportResult {
+    /// Version of the program.
+    plummer: &'static str,
+    /// "report".
+    command: &'static str,
+    /// The pages, by name.
+    reports: Vec<PageSummary>,
+}
+
+/// A page.
+#[derive(Debug, Serialize, JsonSchema)]
+struct PageSummary {
+    /// The file.
+    page: PathBuf,
+    /// The command that it is of.
+    command: String,
+    /// Version of the program that computed what it shows.
+    computed_by: String,
+    /// Files of its tables in the folder of the results.
+    tables: Vec<String>,
+}
 
 /// Draws every report in a folder again, page, tables and figures, there or in `--out`. Nothing is computed; the results stay.
 ///
@@ -31,12 +58,12 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
             "{command}: {}, computed by {version}",
             report.title
         ));
-        pages.push(json!({
-            "page": folder.path().join(&page),
-            "command": command,
-            "computed_by": version,
-            "tables": files.tables,
-        }));
+        pages.push(PageSummary {
+            page: folder.path().join(&page),
+            command,
+            computed_by: version.clone(),
+            tables: files.tables,
+        });
         written.extend(files.paths);
     }
     // two reports share the folders of tables and figures
@@ -48,11 +75,11 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
     });
     Ok(Outcome {
         summary: summary.join("\n"),
-        result: json!({
-            "plummer": env!("CARGO_PKG_VERSION"),
-            "command": "report",
-            "reports": pages,
-        }),
+        result: json(&ReportResult {
+            plummer: VERSION,
+            command: "report",
+            reports: pages,
+        })?,
         written,
         verdict: Verdict::Good,
     })

@@ -1,8 +1,9 @@
 //! `plummer run`: the simulation in time.
 
-use super::earlier_results::{ARRAYS, digests};
+use super::earlier_results::digests;
+use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{choice_json, run_json, warnings, write_scalograms, write_signals};
+use super::results::{case_result, warnings, write_scalograms, write_signals};
 use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
@@ -43,11 +44,9 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
 pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
     let (choice, told) = explain_run(case, progress)?;
     let lines = std::iter::once(choice.table().plain()).chain(warnings(&told));
-    let mut result = choice_json(&choice);
-    result["warnings"] = serde_json::json!(told);
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
-        result,
+        result: json(&choice.summary(&told))?,
         written: Vec::new(),
         verdict: Verdict::Good,
     })
@@ -78,21 +77,15 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
     let command = options.command_line("run", case);
     let report = run_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "run", case, report, progress)?;
-    let mut json = run_json(
-        case,
-        &result,
-        progress,
-        started.elapsed().as_secs_f64(),
-        &files,
-    );
-    json[ARRAYS] = digests(&arrays)?;
-    let text = format!("{json:#}\n");
-    let json_path = folder.write("run.json", text.as_bytes())?;
+    let wall_s = started.elapsed().as_secs_f64();
+    let mut record = case_result("run", case, progress, wall_s, &files, result.summary());
+    record.arrays = digests(&arrays)?;
+    let (path, json) = folder.write_json("run.json", &record)?;
     unfinished.remove().map_err(ComputeError::from)?;
     Ok(Outcome {
         summary: summary(&result, started.elapsed().as_secs_f64()),
         result: json,
-        written: [arrays, vec![json_path], files.paths].concat(),
+        written: [arrays, vec![path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
     })
 }

@@ -27,7 +27,7 @@ fn without_case(command: &Command) -> Option<&'static str> {
     match command {
         Command::Completions { .. } => Some("completions"),
         Command::Man => Some("man"),
-        Command::Schema => Some("schema"),
+        Command::Schema { .. } => Some("schema"),
         Command::Init(_) => Some("init"),
         Command::Inspect { .. } => Some("inspect"),
         Command::Verify { .. } => Some("verify"),

@@ -1,17 +1,18 @@
 //! The stability map of `plummer chart`: its files and its lines.
 
+use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::common;
+use super::results::case_result;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
+use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{
-    Condition, Effort, Stability, compute_stability, resonance_plot, stability_map,
-    stability_record, stability_report,
+    Condition, Effort, Stability, StabilitySummary, compute_stability, resonance_plot,
+    stability_map, stability_report,
 };
 use crate::report::significant;
-use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 /// Computes the map alone and writes `stability.svg`, `resonance.svg`, the report, its tables and, last, `stability.json`.
@@ -34,39 +35,33 @@ pub(super) fn alone(
     let report = stability_report(case, &stability, command);
     let files = ReportFiles::write(&folder, "stability", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut head = common("chart", case, progress, wall_s, &files.meshes);
-    head.insert("tables".to_owned(), json!(files.tables));
-    let (result, written) = write_stability(&folder, head, &stability)?;
+    let record = case_result("chart", case, progress, wall_s, &files, stability.summary());
+    let written = write_stability(&folder, &stability, &record)?;
     Ok(Outcome {
         summary: stability_lines(&stability),
-        result,
+        result: json(&record)?,
         written: [written, files.paths].concat(),
         verdict: Verdict::Good,
     })
 }
 
-/// Writes the pictures and `stability.json`, which begins with `head`; gives what it says, and the files.
+/// Writes the pictures and `stability.json`; gives the files.
 ///
 /// # Errors
 /// [`CliError`] when a file cannot be written.
 pub(super) fn write_stability(
     folder: &OutputFolder,
-    head: Map<String, Value>,
     stability: &Stability,
-) -> Result<(Value, Vec<PathBuf>), CliError> {
+    record: &CaseResult<'_, StabilitySummary<'_>>,
+) -> Result<Vec<PathBuf>, CliError> {
     let map = stability_map(stability)
         .to_svg()
         .map_err(ComputeError::from)?;
     let map = folder.write("stability.svg", map.as_bytes())?;
     let resonance = resonance_plot().to_svg().map_err(ComputeError::from)?;
     let resonance = folder.write("resonance.svg", resonance.as_bytes())?;
-    let mut all = head;
-    if let Value::Object(fields) = stability_record(stability) {
-        all.extend(fields);
-    }
-    let json = Value::Object(all);
-    let path = folder.write("stability.json", format!("{json:#}\n").as_bytes())?;
-    Ok((json, vec![path, map, resonance]))
+    let (path, _) = folder.write_json("stability.json", record)?;
+    Ok(vec![path, map, resonance])
 }
 
 /// The limits of the case as it is, and the range of the measured ones over all conditions.

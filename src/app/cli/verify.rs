@@ -1,11 +1,10 @@
 //! `plummer verify`: the built-in verification suite.
 
 use super::report_files::ReportFiles;
-use super::results::stages_s;
+use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::app::verification::{Check, SectionResult, suite};
+use crate::app::verification::{Check, SectionResult, VerifyResult, suite};
 use crate::report::Report;
-use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// Folder of the results unless another is named.
@@ -47,26 +46,17 @@ fn conclude(
     let report = report(sections, command);
     let files = ReportFiles::without_case(folder, "verify", report)?;
     let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
-    let information: Vec<_> = sections.iter().flat_map(|s| &s.information).collect();
-    let mut map = Map::new();
-    for (key, value) in [
-        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
-        ("command", json!("verify")),
-        ("full", json!(full)),
-        ("wall_s", json!(wall_s)),
-        ("stages_s", stages_s(progress)),
-        ("threads", json!(rayon::current_num_threads())),
-        ("tables", json!(files.tables)),
-        ("checks", json!(checks)),
-        ("information", json!(information)),
-    ] {
-        map.insert(key.to_owned(), value);
-    }
-    let values = sections.iter().flat_map(|section| section.values.clone());
-    map.extend(values);
-    let json = Value::Object(map);
-    let text = format!("{json:#}\n");
-    let path = folder.write("verify.json", text.as_bytes())?;
+    let information = sections.iter().flat_map(|s| &s.information);
+    let result = VerifyResult {
+        head: result_head("verify", progress, wall_s, Some(&files.tables)),
+        full,
+        checks: checks.iter().map(|check| check.summary()).collect(),
+        information: information.collect(),
+        orders: sections
+            .iter()
+            .find_map(|section| section.orders.as_deref()),
+    };
+    let (path, json) = folder.write_json("verify.json", &result)?;
     let failed: Vec<String> = checks
         .iter()
         .filter(|check| !check.ok())
@@ -127,7 +117,9 @@ fn summary(sections: &[SectionResult]) -> String {
 mod tests {
     use super::*;
     use crate::app::cli::Visibility;
+    use crate::app::verification::FormulationRow;
     use crate::report::Section;
+    use serde_json::Value;
 
     fn section(reference: f64) -> SectionResult {
         let check = |name: &str, reference| Check {
@@ -146,7 +138,7 @@ mod tests {
             checks: vec![check("right", 2.0), check("judged", reference)],
             information: Vec::new(),
             report: vec![Section::new("").paragraph("Told beside.")],
-            values: vec![("beside".to_owned(), json!(3))],
+            orders: None,
         }
     }
 
@@ -180,7 +172,7 @@ mod tests {
         let json: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(json["checks"][0]["ok"], true);
         assert_eq!(json["checks"][1]["ok"], false);
-        assert_eq!(json["beside"], 3);
+        assert!(json.get("orders").is_none());
         let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
         assert!(page.contains("1 of 2 pass") && page.contains("Told beside."));
         std::fs::remove_dir_all(folder.path()).unwrap();

@@ -6,6 +6,7 @@ use crate::fe::model::{
     Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind,
 };
 use crate::numerics::units::LengthUnit;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -14,7 +15,7 @@ use std::path::Path;
 const LISTED: usize = 10;
 
 /// The shape of one element.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ElementShape {
     /// gmsh's tag.
     pub tag: u64,
@@ -30,7 +31,7 @@ pub struct ElementShape {
 }
 
 /// Length (m), area (m^2) or volume (m^3) of a group of curves, surfaces or volumes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GroupSize {
     /// The group.
     pub name: String,
@@ -40,8 +41,26 @@ pub struct GroupSize {
     pub size: f64,
 }
 
+/// The result of `plummer inspect`.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct InspectResult<'a> {
+    /// Version of the program.
+    pub plummer: &'static str,
+    /// "inspect".
+    pub command: &'static str,
+    /// The mesh.
+    pub mesh: &'a Path,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Mass, kg; `None` unless unit and density were given.
+    pub mass_kg: Option<f64>,
+    /// What was found.
+    #[serde(flatten)]
+    pub found: &'a Inspection,
+}
+
 /// What was found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Inspection {
     /// Unit of the file's coordinates; `None`: not given, one unit was taken as 1 m.
     pub length_unit: Option<LengthUnit>,

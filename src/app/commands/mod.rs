@@ -7,6 +7,7 @@ pub mod init;
 pub mod inspect;
 pub mod modes;
 pub mod parts;
+pub mod result;
 pub mod run;
 
-pub use inspect::{ElementShape, GroupSize, Inspection};
+pub use inspect::{ElementShape, GroupSize, InspectResult, Inspection};

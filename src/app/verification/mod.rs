@@ -15,8 +15,10 @@ mod signals;
 mod simulation;
 mod structured_mesh;
 mod suite;
+mod summary;
 
 pub use built_in::{BEAM_CASE, BEARING};
 pub(crate) use section::{Check, SectionResult};
 pub use structured_mesh::{BODY, StructuredMesh};
 pub(crate) use suite::suite;
+pub use summary::VerifyResult;

@@ -4,11 +4,11 @@ use super::built_in::{BEAM_CASE, BEARING, GRAVITY, built_in};
 use super::section::{Check, Information, Kind, SectionResult, VerificationError};
 use crate::app::commands::modes::{ModesResult, compute_modes};
 use crate::app::scene::bearing_setup;
-use crate::numerics::{Unwatched, Watch};
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
 use crate::bearing::impact::impact;
 use crate::bearing::kinematics::BallRow;
 use crate::bearing::{BearingGeometry, ContactMaterial, RaceContacts};
+use crate::numerics::{Unwatched, Watch};
 use crate::report::Section;
 use std::f64::consts::PI;
 

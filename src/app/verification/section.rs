@@ -1,9 +1,9 @@
 //! What a section of the suite hands on: checks, what is told beside them, and its part of the report.
 
+use super::orders::OrdersSummary;
 use crate::report::{Cell, Column, Section, Table, Verdict, significant};
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde::ser::{SerializeStruct, Serializer};
-use serde_json::Value;
 
 /// Why a built-in check could not be carried out: an error of what is part of the program, which no user can set right.
 pub(crate) type VerificationError = Box<dyn std::error::Error + Send + Sync>;
@@ -58,8 +58,8 @@ impl Kind<'_> {
 }
 
 /// A number that is told, and not judged.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Information {
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Information {
     /// What it is.
     pub(crate) name: String,
     /// The section that it belongs to.
@@ -100,21 +100,51 @@ impl Check {
     }
 }
 
-impl Serialize for Check {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_struct("Check", 11)?;
-        map.serialize_field("name", &self.name)?;
-        map.serialize_field("section", &self.section)?;
-        map.serialize_field("computed", &self.computed)?;
-        map.serialize_field("reference", &self.reference)?;
-        map.serialize_field("unit", &self.unit)?;
-        map.serialize_field("source", &self.source)?;
-        map.serialize_field("assumptions", &self.assumptions)?;
-        map.serialize_field("relative_error", &self.relative_error())?;
-        map.serialize_field("limit", &self.limit)?;
-        map.serialize_field("limit_reason", &self.reason)?;
-        map.serialize_field("ok", &self.ok())?;
-        map.end()
+/// A check with its verdict, as `verify.json` has it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CheckSummary<'a> {
+    /// What it is.
+    pub name: &'a str,
+    /// The section that it belongs to.
+    pub section: &'a str,
+    /// The program's value, in `unit`.
+    #[schemars(with = "Option<f64>")]
+    pub computed: f64,
+    /// What it is compared with, in `unit`.
+    pub reference: f64,
+    /// Unit of both; empty for none.
+    pub unit: &'a str,
+    /// Where the reference comes from.
+    pub source: &'a str,
+    /// What was assumed, in words.
+    pub assumptions: &'a str,
+    /// (computed - reference) / reference.
+    #[schemars(with = "Option<f64>")]
+    pub relative_error: f64,
+    /// Largest magnitude of the relative error that passes.
+    pub limit: f64,
+    /// Why this limit.
+    pub limit_reason: &'a str,
+    /// Whether it passes.
+    pub ok: bool,
+}
+
+impl Check {
+    /// What `verify.json` says of it.
+    pub(crate) fn summary(&self) -> CheckSummary<'_> {
+        CheckSummary {
+            name: &self.name,
+            section: &self.section,
+            computed: self.computed,
+            reference: self.reference,
+            unit: &self.unit,
+            source: &self.source,
+            assumptions: &self.assumptions,
+            relative_error: self.relative_error(),
+            limit: self.limit,
+            limit_reason: &self.reason,
+            ok: self.ok(),
+        }
     }
 }
 
@@ -129,8 +159,8 @@ pub(crate) struct SectionResult {
     pub(crate) information: Vec<Information>,
     /// Its part of the report, after the tables of checks.
     pub(crate) report: Vec<Section>,
-    /// What the result file says of it beside the checks: key and value.
-    pub(crate) values: Vec<(String, Value)>,
+    /// Orders of convergence, if it is the section of these.
+    pub(crate) orders: Option<Vec<OrdersSummary>>,
 }
 
 impl SectionResult {
@@ -144,7 +174,7 @@ impl SectionResult {
             checks,
             information: Vec::new(),
             report: Vec::new(),
-            values: Vec::new(),
+            orders: None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 /// Version of gmsh's MSH format.
@@ -14,9 +15,10 @@ pub enum MshVersion {
 }
 
 /// Version and encoding of an MSH file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 pub struct MshFormat {
     /// Version of the format.
+    #[schemars(with = "String")]
     pub version: MshVersion,
     /// Binary numbers, not decimal digits.
     pub binary: bool,

@@ -1,11 +1,12 @@
 //! Element kinds: what gmsh calls them and what they are made of.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Kind of a mesh element. Nodes are in gmsh's order.
 ///
 /// A further kind is a variant here and a row in the table of this file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, JsonSchema)]
 pub enum ElementKind {
     /// One node.
     Point,

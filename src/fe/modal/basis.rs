@@ -39,7 +39,7 @@ impl ModeRange {
 }
 
 /// The proof that no mode is missing: Sylvester's law of inertia at one or two shifts.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct FrequencyCount {
     /// Frequency above which was counted, Hz; `None`: from zero.
     pub above_hz: Option<f64>,

@@ -7,13 +7,14 @@ use super::membership::Membership;
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{HousingModel, NodalMatrix, NodalSource, Ring};
 use crate::numerics::linalg::DenseMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Name of the springs between ring and ground among the others.
 const RING_SPRINGS: &str = "ring supports";
 
 /// Energy of modes by where it is. Numbers of a mode are in the order of the names here.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyShares {
     /// Groups of the parts, in the model's order. Every element is in one part.
     pub parts: Vec<String>,
@@ -29,7 +30,7 @@ pub struct EnergyShares {
 }
 
 /// Energy of one mode.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ModeShares {
     /// Twice the strain energy, summed element by element and spring by spring: `phi^T K phi`, 1/s^2 if
     /// mass-normalised.
@@ -44,7 +45,7 @@ pub struct ModeShares {
 }
 
 /// Fractions of a mode's strain energy; `parts`, `ring` and `springs` together add up to 1.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StrainShares {
     /// By part.
     pub parts: Vec<f64>,
@@ -57,7 +58,7 @@ pub struct StrainShares {
 }
 
 /// Fractions of a mode's kinetic energy; `parts`, `ring` and `masses` together add up to 1.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct KineticShares {
     /// By part.
     pub parts: Vec<f64>,

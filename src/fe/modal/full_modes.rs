@@ -3,8 +3,8 @@
 use super::{ModalBasis, ModalError, ModeRange, Participation, strain_products};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::model::HousingModel;
-use crate::numerics::{Unwatched, Watch};
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows, sparse_times_dense};
+use crate::numerics::{Unwatched, Watch};
 
 /// Modes of a housing, a ring, or both.
 #[derive(Debug)]

@@ -6,10 +6,11 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingModel;
 use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What a model weighs and how that is spread, in the axes of its coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MassProperties {
     /// Mass with point masses, kg, > 0.
     pub mass: f64,
@@ -19,7 +20,7 @@ pub struct MassProperties {
 
 /// Centroid and inertia, as far as the model knows them: a plane one knows neither its place along z nor its moments
 /// about x and y.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MassDistribution {
     /// Of a plane model.

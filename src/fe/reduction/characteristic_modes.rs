@@ -15,6 +15,8 @@
 use super::coupled_modes::{Attached, interface_matrices};
 use super::{ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, symmetric_eigen, symmetric_generalised_eigen};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Squared length of a combination of rigid motions beside the longest, below which it is dependent on the others.
@@ -44,7 +46,7 @@ pub struct CharacteristicModes {
 }
 
 /// Share of the interface's static flexibility that kept modes lack.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LostFlexibility {
     /// The largest of all coordinates, 0 to 1.
     pub largest: f64,

@@ -5,12 +5,14 @@ use super::basis_vectors::{filled, modes};
 use super::coupled_lowest::CoupledProblem;
 use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Sizes that are tried.
 const SIZES: [usize; 10] = [4, 8, 12, 16, 24, 32, 40, 52, 64, 80];
 
 /// Errors of reductions of one size.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SizeErrors {
     /// Coordinates: vectors of the interior beside the whole interface, or these and modes of the interface.
     pub size: usize,
@@ -20,11 +22,12 @@ pub struct SizeErrors {
     /// With residual vectors among them.
     pub enhanced: Option<f64>,
     /// With a reduced interface.
+    #[serde(rename = "interface_reduced")]
     pub reduced: Option<ReducedSize>,
 }
 
 /// The best split of so many coordinates between interface and interior, of those tried.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ReducedSize {
     /// Largest relative error of a frequency.
     pub error: f64,

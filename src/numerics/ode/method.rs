@@ -45,7 +45,7 @@ pub struct StepLimit {
 }
 
 /// A mode that grows because its phase in a step is near a multiple of pi.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Resonance {
     /// Frequency of the mode, Hz.
     pub mode_hz: f64,

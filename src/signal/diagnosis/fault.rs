@@ -1,5 +1,6 @@
 //! Faults and the orders at which they show.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::DiagnosisError;
@@ -11,7 +12,7 @@ const HIGHEST_ORDER: f64 = 200.0;
 const LARGEST_ERROR: f64 = 0.1;
 
 /// A part that may be damaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum Fault {
     /// The outer race, at rest: each ball that passes strikes.
     #[serde(rename = "outer race")]

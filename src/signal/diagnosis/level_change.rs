@@ -1,5 +1,6 @@
 //! How the vibration as a whole, and that of each octave, changed since an earlier signal.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::DiagnosisError;
@@ -17,7 +18,7 @@ const CENTRE_HZ: f64 = 1000.0;
 const LEAST_VALUES: f64 = 4.0;
 
 /// Root mean square in both signals.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LevelChange {
     /// Centre of the octave, Hz; `None`: all of the signal.
     pub centre_hz: Option<f64>,

@@ -1,5 +1,6 @@
 //! What is said of a change since an earlier signal: the words, the limits, the figures.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Fault;
@@ -11,7 +12,7 @@ pub const LEAST_CHANGE_DB: f64 = 3.0;
 pub const AS_BEFORE_WITHIN_DB: f64 = 6.0;
 
 /// What is said of a change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum ChangeConclusion {
     /// The interval lies above 3 dB.
     #[serde(rename = "grew")]
@@ -62,7 +63,7 @@ impl ChangeConclusion {
 }
 
 /// How the impacts of a part, or of something else, changed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LineChange {
     /// The part; `None` for impacts that belong to none.
     pub fault: Option<Fault>,

@@ -1,5 +1,6 @@
 //! The shaft's speed, sharpened by the lines that it leaves in a signal and in its envelope.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::angle_grid::AngleGrid;
@@ -44,7 +45,7 @@ const WHOLE: f64 = 5e-3;
 const HARMONICS_OF_ONE: u32 = 5;
 
 /// How well the shaft's speed is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum SpeedSource {
     /// Exactly: a simulation's.
     #[serde(rename = "exact")]

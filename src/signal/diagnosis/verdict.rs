@@ -1,5 +1,6 @@
 //! Verdicts on the parts of a bearing, with their evidence.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Fault;
@@ -35,7 +36,7 @@ pub const LEAST_IMPULSIVENESS: f64 = 0.2;
 pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.4;
 
 /// What is said of a part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum Conclusion {
     /// The part is damaged, as far as a signal can say it.
     #[serde(rename = "named")]
@@ -61,7 +62,7 @@ impl Conclusion {
 }
 
 /// A harmonic of a fault's line, as found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Harmonic {
     /// What it is called: "2 x ball -1 x cage".
     pub name: String,
@@ -84,7 +85,7 @@ pub struct Harmonic {
 }
 
 /// A line beside a harmonic: a sideband.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SideLine {
     /// Harmonic that it is beside.
     pub harmonic: u32,
@@ -99,7 +100,7 @@ pub struct SideLine {
 }
 
 /// What is said of one part, and why.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FaultVerdict {
     /// The part.
     pub fault: Fault,
@@ -140,7 +141,7 @@ pub struct FaultVerdict {
 }
 
 /// The lines of the cage, by which a ball shows that differs from the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CageLines {
     /// Probability by chance.
     pub false_alarm: f64,
@@ -182,7 +183,7 @@ impl FaultVerdict {
 }
 
 /// Repeated impacts at an order that belongs to no part of the bearing, nor to the shaft.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UnexplainedImpacts {
     /// Events per revolution of the shaft.
     pub order: f64,

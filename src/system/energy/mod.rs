@@ -22,23 +22,32 @@ use crate::numerics::ode::{
 };
 use integral::Integral;
 use power::Powers;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The energy balance of a run, J.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyBalance {
     /// Work of weight, loads and unbalance.
+    #[serde(rename = "loads")]
     pub loads_j: f64,
     /// Work of cage and shaft, which turn as prescribed.
+    #[serde(rename = "rotation")]
     pub rotation_j: f64,
     /// What contacts got, or lost if negative, as their stiffness changed along the profiles of defects.
+    #[serde(rename = "blending")]
     pub blending_j: f64,
     /// Taken by the damping of the kept modes.
+    #[serde(rename = "modal_damping")]
     pub modal_damping_j: f64,
     /// Taken by the damping of the contacts.
+    #[serde(rename = "contact_damping")]
     pub contact_damping_j: f64,
     /// What is stored at the end less what was at the start.
+    #[serde(rename = "stored")]
     pub stored_j: f64,
     /// All that flowed in or out, each flow by its magnitude at every instant.
+    #[serde(rename = "exchanged")]
     pub exchanged_j: f64,
 }
 

@@ -8,6 +8,8 @@
 mod forms;
 mod tidy;
 
+pub(in crate::app) use tidy::in_words;
+
 pub(super) use forms::{any_of, number, one_of, table, text, together, whole, words};
 
 use schemars::generate::SchemaSettings;

@@ -2,14 +2,30 @@
 
 use serde_json::{Map, Value};
 
-/// TOML has no null, `format` names types of Rust, and descriptions are written for readers of the library.
+/// TOML has no null, and descriptions are in words.
 pub(super) fn tidy(value: &mut Value) {
+    in_words(value, "absent");
+    without_nulls(value);
+}
+
+/// `format` names types of Rust, and descriptions are written for readers of the library, where `none` is `None`.
+pub(in crate::app) fn in_words(value: &mut Value, none: &str) {
     match value {
-        Value::Array(items) => items.iter_mut().for_each(tidy),
+        Value::Array(items) => items.iter_mut().for_each(|item| in_words(item, none)),
+        Value::Object(schema) => {
+            plain(schema, none);
+            schema.values_mut().for_each(|part| in_words(part, none));
+        }
+        _ => {}
+    }
+}
+
+fn without_nulls(value: &mut Value) {
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(without_nulls),
         Value::Object(schema) => {
             without_null(schema);
-            plain(schema);
-            schema.values_mut().for_each(tidy);
+            schema.values_mut().for_each(without_nulls);
         }
         _ => {}
     }
@@ -43,20 +59,20 @@ fn without_null(schema: &mut Map<String, Value>) {
 }
 
 /// The schema of a key named `format` is an object, the keyword's value a string: only the keyword goes.
-fn plain(schema: &mut Map<String, Value>) {
+fn plain(schema: &mut Map<String, Value>, none: &str) {
     if schema.get("format").is_some_and(Value::is_string) {
         schema.remove("format");
     }
     if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = words(text);
+        *text = words(text, none);
     }
 }
 
-/// Without links and line ends; an absent key is not called `None`.
-fn words(text: &str) -> String {
+/// Without links and line ends; `none` in the place of `None`.
+fn words(text: &str, none: &str) -> String {
     let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let unlinked = joined.replace("[`", "`").replace("`]", "`");
-    unlinked.replace("`None`", "absent")
+    unlinked.replace("`None`", none)
 }
 
 #[cfg(test)]

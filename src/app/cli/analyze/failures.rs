@@ -1,6 +1,7 @@
 //! What could not be analysed among many files.
 
 use crate::app::cli::CliError;
+use crate::app::commands::analyze::FailureSummary;
 
 /// Most files that a message names.
 const LISTED: usize = 20;
@@ -24,6 +25,15 @@ impl Failure {
             message: error.to_string(),
             help: error.help(),
             is_input: error.exit_code() == 2,
+        }
+    }
+
+    /// What a result says of it.
+    pub(super) fn summary(&self) -> FailureSummary {
+        FailureSummary {
+            input: self.input.clone(),
+            channel: self.channel.clone(),
+            error: self.message.clone(),
         }
     }
 

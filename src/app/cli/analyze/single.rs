@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
-
 use super::baseline::Baseline;
 use super::read::Unnamed;
 use super::source::Source;
 use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
-use crate::app::cli::results::{stages_s, windows_json};
+use crate::app::cli::results::result_head;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
-use crate::app::commands::analyze::{AnalysisRow, WindowAnalysis, WindowChange, analysis_report};
+use crate::app::commands::analyze::{
+    AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
+};
 use crate::report::significant;
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 
@@ -54,29 +54,21 @@ pub(super) fn single(
         .map(|window| AnalysisRow::of(&name, window))
         .collect();
     let table = write_table(folder, &rows)?;
-    let mut map = Map::new();
-    for (key, value) in [
-        ("plummer", json!(env!("CARGO_PKG_VERSION"))),
-        ("command", json!("analyze")),
-        (
-            "case",
-            json!(source.case.as_ref().map(|path| path.display().to_string())),
+    let result = AnalysisResult {
+        head: result_head(
+            "analyze",
+            &progress,
+            started.elapsed().as_secs_f64(),
+            Some(&files.tables),
         ),
-        ("input", json!(name)),
-        ("wall_s", json!(started.elapsed().as_secs_f64())),
-        ("stages_s", stages_s(&progress)),
-        ("threads", json!(rayon::current_num_threads())),
-        ("tables", json!(files.tables)),
-        (
-            "defect_orders",
-            source.defect_orders(input, windows.first())?,
-        ),
-        ("windows", windows_json(&windows)),
-    ] {
-        map.insert(key.to_owned(), value);
-    }
-    let json = Value::Object(map);
-    let path = folder.write("analysis.json", format!("{json:#}\n").as_bytes())?;
+        input: InputSummary {
+            defect_orders: Some(source.defect_orders(input, windows.first())?),
+            case: source.case.as_ref().map(|path| path.display().to_string()),
+            input: name,
+        },
+        windows: windows.iter().map(WindowAnalysis::summary).collect(),
+    };
+    let (path, json) = folder.write_json("analysis.json", &result)?;
     progress.finish();
     Ok(Outcome {
         summary: summary(&windows),

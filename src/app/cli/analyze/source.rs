@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
-
 use super::bearing::{Named, named_bearing};
 use super::machine::Machine;
 use super::read::{Unnamed, read};
@@ -12,7 +10,7 @@ use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{
-    AnalysisSettings, AskedBand, WindowAnalysis, compute_analysis,
+    AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis,
 };
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredSignal, SignalRequest};
@@ -20,7 +18,6 @@ use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
-use crate::signal::diagnosis::{Fault, FaultOrders};
 
 /// The results that a run's signals are taken from.
 const RUN: Wanted = Wanted {
@@ -165,7 +162,7 @@ impl Source {
         &self,
         input: &Path,
         window: Option<&WindowAnalysis>,
-    ) -> Result<Value, CliError> {
+    ) -> Result<OrdersSummary, CliError> {
         let orders = match (self.signals.first(), window) {
             (Some(signal), Some(window)) => {
                 let (from, to) = (window.from, window.to);
@@ -175,14 +172,7 @@ impl Source {
             }
             _ => None,
         };
-        let order = |fault| orders.and_then(|orders: FaultOrders| orders.order(fault));
-        Ok(json!({
-            "cage": order(Fault::Cage),
-            "outer": order(Fault::OuterRace),
-            "inner": order(Fault::InnerRace),
-            "ball": order(Fault::Ball),
-            "relative_error": orders.map(|orders| orders.error(Fault::OuterRace)),
-        }))
+        Ok(OrdersSummary::of(orders))
     }
 
     /// How the machine of a signal of this file moves.

@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use serde_json::{Value, json};
-
 use super::baseline::Baseline;
 use super::each::each;
 use super::failures::{Failure, failure};
@@ -14,10 +12,11 @@ use super::source::Source;
 use super::terminal;
 use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
-use crate::app::cli::results::{stages_s, window_json};
+use crate::app::cli::results::result_head;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::commands::analyze::{
-    AnalysisRow, SHOWN_WINDOWS, WindowAnalysis, survey_report, survey_section,
+    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput,
+    survey_report, survey_section,
 };
 use crate::report::Section;
 
@@ -25,10 +24,10 @@ use crate::report::Section;
 #[derive(Debug, Default)]
 struct Analysed {
     /// What `analysis.json` says of the input; nothing of one that could not be read.
-    json: Option<Value>,
+    input: Option<InputSummary>,
     assumptions: Vec<String>,
     rows: Vec<AnalysisRow>,
-    windows: Vec<Value>,
+    windows: Vec<WindowOfInput>,
     sections: Vec<Section>,
     warnings: Vec<String>,
     failures: Vec<Failure>,
@@ -63,7 +62,7 @@ pub(super) fn survey(
     let mut failed = 0;
     for one in analysed {
         failed += usize::from(!one.failures.is_empty());
-        of_inputs.extend(one.json);
+        of_inputs.extend(one.input);
         all.rows.extend(one.rows);
         all.windows.extend(one.windows);
         all.sections.extend(one.sections);
@@ -93,26 +92,19 @@ pub(super) fn survey(
     report.warnings.extend(all.warnings);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let table = write_table(folder, &all.rows)?;
-    let failures = all.failures.iter().map(|failure| {
-        json!({
-            "input": failure.input,
-            "channel": failure.channel,
-            "error": failure.message,
-        })
-    });
-    let json = json!({
-        "plummer": env!("CARGO_PKG_VERSION"),
-        "command": "analyze",
-        "inputs": of_inputs,
-        "failures": failures.collect::<Vec<_>>(),
-        "wall_s": started.elapsed().as_secs_f64(),
-        "stages_s": stages_s(&progress),
-        "threads": rayon::current_num_threads(),
-        "tables": files.tables,
-        "windows": all.windows,
-    });
+    let result = SurveyResult {
+        head: result_head(
+            "analyze",
+            &progress,
+            started.elapsed().as_secs_f64(),
+            Some(&files.tables),
+        ),
+        inputs: of_inputs,
+        failures: all.failures.iter().map(Failure::summary).collect(),
+        windows: all.windows,
+    };
     let error = (failed > 0).then(|| failure(&all.failures, failed, inputs.len()));
-    let path = folder.write("analysis.json", format!("{json:#}\n").as_bytes())?;
+    let (path, json) = folder.write_json("analysis.json", &result)?;
     progress.finish();
     Ok(Outcome {
         summary: terminal::table(&all.rows),
@@ -162,9 +154,10 @@ impl Analysed {
                 for text in window.change.iter().flat_map(|change| &change.warnings) {
                     analysed.warnings.push(format!("{name}: {text}"));
                 }
-                let mut json = window_json(window);
-                json["input"] = json!(name);
-                analysed.windows.push(json);
+                analysed.windows.push(WindowOfInput {
+                    input: name.clone(),
+                    window: window.summary(),
+                });
                 if shown.fetch_add(1, Ordering::Relaxed) < SHOWN_WINDOWS {
                     analysed.sections.push(survey_section(&name, window));
                 }
@@ -173,11 +166,11 @@ impl Analysed {
                 orders = source.defect_orders(input, windows.first()).ok();
             }
         }
-        analysed.json = Some(json!({
-            "input": name,
-            "case": source.case.map(|path| path.display().to_string()),
-            "defect_orders": orders,
-        }));
+        analysed.input = Some(InputSummary {
+            input: name,
+            case: source.case.map(|path| path.display().to_string()),
+            defect_orders: orders,
+        });
         analysed.assumptions = source.assumptions;
         analysed
     }

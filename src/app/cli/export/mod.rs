@@ -14,10 +14,11 @@ use std::path::{Path, PathBuf};
 
 pub use error::ExportError;
 
-use super::results::{common, warnings};
+use super::results::{result_head, result_of_case, warnings};
 use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::scene::{doubts_of_case, mesh_digests};
+pub(super) use record::ExportSummary;
 use record::WrittenFile;
 use source::Source;
 
@@ -65,15 +66,20 @@ pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcom
     let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("export", case, &progress, wall_s, &meshes);
-    map.insert("to".to_owned(), to.name().into());
-    map.insert("results".to_owned(), serde_json::json!(source.folder()));
-    map.insert("warnings".to_owned(), serde_json::json!(told));
-    let result = record::record(map, &files, &folder);
+    let record = ExportSummary {
+        to: to.name(),
+        results: source.folder(),
+        warnings: &told,
+        earlier: record::earlier(folder.path(), to.name()),
+        files,
+    };
+    let head = result_head("export", &progress, wall_s, None);
+    let record = result_of_case(head, case, &meshes, record);
     // what stayed as it was is listed, not written
     let written = names.iter().map(|name| folder.path().join(name));
     let mut written: Vec<PathBuf> = written.collect();
-    written.push(folder.write("export.json", format!("{result:#}\n").as_bytes())?);
+    let (path, result) = folder.write_json("export.json", &record)?;
+    written.push(path);
     Ok(Outcome {
         summary,
         result,

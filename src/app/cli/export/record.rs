@@ -3,19 +3,33 @@
 use std::fs;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
 use super::CliError;
-use crate::app::cli::OutputFolder;
 use crate::files::FileError;
+/// What `export.json` says.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(in crate::app::cli) struct ExportSummary<'a> {
+    /// The format.
+    pub(super) to: &'static str,
+    /// Folder of the results that were exported; `None` for a case.
+    pub(super) results: Option<&'a Path>,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub(super) warnings: &'a [String],
+    /// The files.
+    pub(super) files: Vec<WrittenFile>,
+    /// What an earlier `export.json` says of other formats, without its own `earlier`.
+    pub(super) earlier: Vec<Value>,
+}
 
 /// A file of an export.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(super) struct WrittenFile {
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub(in crate::app::cli) struct WrittenFile {
     /// Name in the folder.
     pub(super) file: String,
-    /// Size.
+    /// Size, bytes.
     pub(super) bytes: u64,
     /// What it holds.
     pub(super) what: String,
@@ -37,21 +51,9 @@ impl WrittenFile {
     }
 }
 
-/// The content of `export.json`: the given fields, the files, and what an earlier `export.json` says of other formats.
-/// An earlier file that is no result of an export is left out.
-pub(super) fn record(
-    mut fields: Map<String, Value>,
-    files: &[WrittenFile],
-    folder: &OutputFolder,
-) -> Value {
-    let earlier = earlier(folder.path(), fields.get("to"));
-    fields.insert("files".to_owned(), json!(files));
-    fields.insert("earlier".to_owned(), Value::Array(earlier));
-    Value::Object(fields)
-}
-
 /// Exports to other formats that a folder's `export.json` speaks of.
-fn earlier(folder: &Path, to: Option<&Value>) -> Vec<Value> {
+/// An earlier file that is no result of an export is left out.
+pub(super) fn earlier(folder: &Path, to: &str) -> Vec<Value> {
     let text = fs::read_to_string(folder.join("export.json")).unwrap_or_default();
     let Ok(Value::Object(mut last)) = serde_json::from_str(&text) else {
         return Vec::new();
@@ -61,6 +63,6 @@ fn earlier(folder: &Path, to: Option<&Value>) -> Vec<Value> {
         _ => Vec::new(),
     };
     all.push(Value::Object(last));
-    all.retain(|export| export.get("to").is_some() && export.get("to") != to);
+    all.retain(|export| export.get("to").is_some_and(|other| *other != *to));
     all
 }

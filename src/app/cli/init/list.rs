@@ -2,23 +2,25 @@
 
 use std::fmt::Write as _;
 
-use serde_json::json;
-
-use super::{Outcome, Verdict};
+use super::{CliError, Outcome, Verdict};
 use crate::app::cli::analyze::catalogue_orders;
-use crate::bearing::catalogue::{CatalogueBearing, Source, normal_clearance};
+use crate::app::cli::output::json;
+use crate::app::commands::init::{BearingSummary, CatalogueResult};
+use crate::app::commands::result::VERSION;
+use crate::bearing::catalogue::{CatalogueBearing, Source};
 
-pub(super) fn list() -> Outcome {
-    Outcome {
+pub(super) fn list() -> Result<Outcome, CliError> {
+    let entry = |bearing| BearingSummary::of(bearing, catalogue_orders(bearing).ok());
+    Ok(Outcome {
         summary: table(),
-        result: json!({
-            "plummer": env!("CARGO_PKG_VERSION"),
-            "command": "init",
-            "bearings": CatalogueBearing::all().iter().map(entry).collect::<Vec<_>>(),
-        }),
+        result: json(&CatalogueResult {
+            plummer: VERSION,
+            command: "init",
+            bearings: CatalogueBearing::all().iter().map(entry).collect(),
+        })?,
         written: Vec::new(),
         verdict: Verdict::Good,
-    }
+    })
 }
 
 fn table() -> String {
@@ -59,26 +61,4 @@ fn table() -> String {
     }
     text.push_str("\nMakers choose the balls themselves: those of another maker's bearing of the same name may differ.");
     text
-}
-
-fn entry(bearing: &CatalogueBearing) -> serde_json::Value {
-    let orders = catalogue_orders(bearing).ok();
-    json!({
-        "name": bearing.name,
-        "bore_m": bearing.bore,
-        "outer_diameter_m": bearing.outer_diameter,
-        "width_m": bearing.width,
-        "balls": bearing.balls,
-        "ball_diameter_m": bearing.ball_diameter,
-        "pitch_diameter_m": bearing.pitch_diameter,
-        "pitch_published": bearing.pitch_published,
-        "shoulder_diameter_m": bearing.shoulder_diameter,
-        "mass_kg": bearing.mass,
-        "bpfo": orders.map(|orders| orders.outer),
-        "bpfi": orders.map(|orders| orders.inner),
-        "bsf": orders.map(|orders| orders.ball_spin),
-        "ftf": orders.map(|orders| orders.cage),
-        "normal_clearance_m": normal_clearance(bearing.bore),
-        "source": bearing.source.citation(),
-    })
 }

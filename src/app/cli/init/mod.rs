@@ -8,15 +8,15 @@ mod relative;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
-
 pub use arguments::InitArguments;
 pub use error::InitError;
 pub(in crate::app::cli) use error::bearing_names;
 
 use super::inspect::verdict;
+use super::output::json;
 use super::{CliError, Options, Outcome, Verdict, write_atomic};
-use crate::app::commands::init::{Draft, DraftRequest};
+use crate::app::commands::init::{Draft, DraftRequest, DraftResult};
+use crate::app::commands::result::VERSION;
 use crate::app::shell_word::shell_word;
 use crate::bearing::catalogue::CatalogueBearing;
 
@@ -26,7 +26,7 @@ use crate::bearing::catalogue::CatalogueBearing;
 /// [`CliError`] when the mesh cannot be read, makes no case or has elements that no command takes, the bearing is not known, or the file exists or cannot be written.
 pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliError> {
     let Some(mesh) = &asked.mesh else {
-        return Ok(list::list());
+        return list::list();
     };
     let bearing = asked.bearing.as_deref().map(named).transpose()?;
     let case = case_file(mesh, options)?;
@@ -62,7 +62,13 @@ pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliErro
     write_atomic(&case, draft.text.as_bytes())?;
     Ok(Outcome {
         summary: summary(&draft, &case),
-        result: result(mesh, &case, &draft),
+        result: json(&DraftResult {
+            plummer: VERSION,
+            command: "init",
+            mesh,
+            case: &case,
+            draft: &draft,
+        })?,
         written: vec![case],
         verdict: Verdict::Good,
     })
@@ -93,19 +99,4 @@ fn summary(draft: &Draft, case: &Path) -> String {
         "Look through the guesses, then: plummer modes {case}"
     ));
     lines.join("\n")
-}
-
-fn result(mesh: &Path, case: &Path, draft: &Draft) -> Value {
-    let mut result = json!({
-        "plummer": env!("CARGO_PKG_VERSION"),
-        "command": "init",
-        "mesh": mesh,
-        "case": case,
-    });
-    if let (Some(map), Ok(Value::Object(fields))) =
-        (result.as_object_mut(), serde_json::to_value(draft))
-    {
-        map.extend(fields);
-    }
-    result
 }

@@ -6,17 +6,17 @@ mod points;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
-
 pub use arguments::{Share, SweepArguments};
 
+use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{common, stages_s, warnings};
+use super::results::{case_result, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interrupt, write_atomic};
 use crate::app::case::Case;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, SweepError, SweepResult, slurm_scripts, sweep_report, write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepError, SweepResult, TaskSummary, slurm_scripts,
+    sweep_report, write_sweep_npz,
 };
 use crate::report::Document;
 use points::Workers;
@@ -156,7 +156,12 @@ fn task(
     }
     Ok(Outcome {
         summary: lines.join("\n"),
-        result: json!({ "command": "sweep", "task": share.number, "of": share.of, "points": numbers }),
+        result: json(&TaskSummary {
+            command: "sweep",
+            task: share.number,
+            of: share.of,
+            points: numbers,
+        })?,
         written: vec![points],
         verdict: Verdict::Good,
     })
@@ -230,47 +235,14 @@ fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outco
     let report = sweep_report(&case.title, &result, &command).document(document);
     let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let mut map = common("sweep", &case, progress, wall_s, &files.meshes);
-    map.insert("stages_s".to_owned(), stages_s(progress));
-    map.insert("tables".to_owned(), json!(files.tables));
-    map.extend(fields(&result));
-    let json = Value::Object(map);
-    let path = folder.write("sweep.json", format!("{json:#}\n").as_bytes())?;
+    let record = case_result("sweep", &case, progress, wall_s, &files, result.summary());
+    let (path, json) = folder.write_json("sweep.json", &record)?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
         written: [vec![csv, npz, path], files.paths].concat(),
         verdict: verdict(&result),
     })
-}
-
-/// What `sweep.json` says beside what every result carries.
-fn fields(result: &SweepResult) -> Map<String, Value> {
-    let point = |point: &crate::app::studies::sweep::PointResult| {
-        json!({
-            "point": point.point.number,
-            "values": point.point.values,
-            "state": point.state.name(),
-            "exit_code": point.record.as_ref().and_then(|record| record.exit_code),
-            "message": point.record.as_ref().map(|record| &record.message),
-            "wall_s": point.record.as_ref().map(|record| record.wall_s),
-        })
-    };
-    let count = |state| result.count(state);
-    let fields = json!({
-        "of": result.plan.command.name(),
-        "axes": result.plan.axes,
-        "done": count(PointState::Done),
-        "bad": count(PointState::Bad),
-        "failed": count(PointState::Failed),
-        "not_computed": count(PointState::Missing),
-        "warnings": result.warnings(),
-        "points": result.points.iter().map(point).collect::<Vec<_>>(),
-    });
-    match fields {
-        Value::Object(map) => map,
-        _ => Map::new(),
-    }
 }
 
 /// Points that are not done, and how many are.
@@ -356,7 +328,12 @@ fn write_scripts(
             plan.count(),
             shell_word(&submit.to_string_lossy())
         ),
-        result: json!({ "command": "sweep", "points": plan.count(), "tasks": tasks, "scripts": written }),
+        result: json(&ScriptsSummary {
+            command: "sweep",
+            points: plan.count(),
+            tasks,
+            scripts: &written,
+        })?,
         written,
         verdict: Verdict::Good,
     })

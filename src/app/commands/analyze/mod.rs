@@ -10,6 +10,7 @@ pub(crate) mod compute;
 pub(crate) mod no_signs;
 pub(crate) mod order_plot;
 pub(crate) mod report;
+pub(crate) mod summary;
 pub(crate) mod survey_report;
 pub(crate) mod table;
 pub(crate) mod window;
@@ -18,6 +19,10 @@ pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use change::{EarlierSignal, compare_window};
 pub use compute::compute_analysis;
 pub use report::analysis_report;
+pub use summary::{
+    AnalysisResult, ChangeSummary, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary,
+    OuterRaceLine, SurveyResult, VerdictSummary, WindowOfInput, WindowSummary,
+};
 pub use survey_report::{SHOWN_WINDOWS, survey_report, survey_section};
 pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures, analysis_table};
 pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse};

@@ -5,9 +5,11 @@ pub(crate) mod imported_report;
 pub(crate) mod reduced_interface_report;
 pub(crate) mod report;
 pub(crate) mod size_chart;
+pub(crate) mod summary;
 pub(crate) mod superelement_record;
 
 pub use compute::{Comparison, CondenseResult, FullComparison, compute_condense};
 pub use imported_report::imported_report;
 pub use report::condense_report;
+pub use summary::{CondenseSummary, EstimateSummary, ImportedSummary, InterfaceSummary};
 pub use superelement_record::{reduced_superelement_record, superelement_record};

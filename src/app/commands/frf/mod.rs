@@ -7,6 +7,7 @@ pub(crate) mod path;
 pub(crate) mod ranking;
 pub(crate) mod reduced;
 pub(crate) mod report;
+pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 
@@ -16,3 +17,4 @@ pub use housing::FrfHousing;
 pub use path::{CarriedPart, TransferPath};
 pub use ranking::RankedPath;
 pub use report::frf_report;
+pub use summary::{FrfSummary, PathSummary};

@@ -4,10 +4,12 @@ use super::path::TransferPath;
 use crate::fe::reduction::frf::{
     BandVariant, FrequencyResponse, FrfError, RankedVariant, rank_in_band,
 };
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Variants of the case by what one path transmits.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RankedPath {
     /// Which path.
     pub path: usize,

@@ -6,6 +6,7 @@
 //!
 //! **Limitations**: one bore, one bearing; links between parts that share no nodes are left to the user.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::error::DraftError;
@@ -19,7 +20,7 @@ use crate::fe::mesh::Mesh;
 use crate::numerics::units::LengthUnit;
 
 /// A case file, and what it was made from.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Draft {
     /// Unit that the file says.
     pub length_unit: LengthUnit,

@@ -5,6 +5,7 @@ use super::unit::UnitFrom;
 use super::{page, sensor, unit};
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
@@ -32,7 +33,7 @@ pub struct DraftRequest<'a> {
 }
 
 /// A group that lies on a cylinder, in m.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FoundCylinder {
     /// Name of the group.
     pub group: String,

@@ -10,6 +10,7 @@ pub(crate) mod page;
 pub(crate) mod run_text;
 pub(crate) mod scene;
 pub(crate) mod sensor;
+pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 pub(crate) mod text;
@@ -18,4 +19,5 @@ pub(crate) mod unit;
 pub use draft::Draft;
 pub use error::DraftError;
 pub use found::{DraftRequest, FoundCylinder};
+pub use summary::{BearingSummary, CatalogueResult, DraftResult};
 pub use unit::UnitFrom;

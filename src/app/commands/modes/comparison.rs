@@ -8,13 +8,14 @@ use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, 
 use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
 use crate::numerics::linalg::DenseMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::HashMap;
 use std::path::Path;
 use std::path::PathBuf;
 
 /// What a pair of modes, or a mode without a partner, misses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Miss {
     /// The shapes differ by more than the limit.
@@ -40,7 +41,7 @@ impl Miss {
 }
 
 /// Modes that belong together; indices count from 0 in each list of frequencies.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedPair {
     /// Modes of this case; several are a group of repeated ones.
     pub here: Vec<usize>,
@@ -61,7 +62,7 @@ pub struct ComparedPair {
 }
 
 /// A mode without a partner.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LoneMode {
     /// Index from 0 in its list of frequencies.
     pub mode: usize,
@@ -72,7 +73,7 @@ pub struct LoneMode {
 }
 
 /// The points that were compared.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedPoints {
     /// How they were found.
     pub by: MatchedBy,
@@ -87,7 +88,7 @@ pub struct ComparedPoints {
 }
 
 /// The modes of a case against those of a file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FileComparison {
     /// The file.
     pub file: PathBuf,

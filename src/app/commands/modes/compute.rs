@@ -19,15 +19,18 @@ use crate::numerics::{Unwatched, Watch};
 use crate::system::LoadedPass;
 use crate::system::Statics;
 use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// One reading of a case: the case itself or one of its variants.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Reading {
     /// What it changes; empty for the case itself.
     pub what: String,
     /// The keys that it sets.
     pub set: Vec<String>,
     /// Modes without contact in full, Hz, ascending, as many as asked for.
+    #[serde(rename = "frequencies_hz")]
     pub unloaded_hz: Vec<f64>,
     /// How far condensing the housing moves them: the largest relative difference of the frequencies of the condensed
     /// model from these, over the elastic modes listed. Loaded modes are those of the condensed model. `None` where

@@ -11,6 +11,7 @@ use crate::fe::modal::{
 };
 use crate::fe::model::HousingModel;
 use crate::numerics::Watch;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -29,7 +30,7 @@ const BAND_MARGIN: f64 = 0.1;
 const NEAREST: f64 = 0.5;
 
 /// A mesh of the sequence.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SequenceMesh {
     /// The file.
     pub mesh: PathBuf,
@@ -50,7 +51,7 @@ pub struct SequenceMesh {
 }
 
 /// One mode on all meshes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ModeOnMeshes {
     /// Index from 0 in the case's frequencies.
     pub mode: usize,
@@ -65,7 +66,7 @@ pub struct ModeOnMeshes {
 }
 
 /// The elastic modes of a case on several meshes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MeshConvergence {
     /// Order of the frequencies' error that the elements promise, or that the case gives.
     pub formal_order: f64,

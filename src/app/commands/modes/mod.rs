@@ -10,6 +10,7 @@ pub(crate) mod mesh_sequence;
 pub(crate) mod report;
 pub(crate) mod shape_view;
 pub(crate) mod shapes;
+pub(crate) mod summary;
 pub(crate) mod tables;
 
 pub use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
@@ -18,4 +19,5 @@ pub use compute::{ModesResult, Reading, compute_modes};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub use report::modes_report;
 pub use shapes::compute_mode_shapes;
+pub use summary::{BallPassSummary, LoadedPointSummary, ModesSummary};
 pub use tables::free_motions;

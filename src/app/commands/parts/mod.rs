@@ -4,8 +4,10 @@ pub(crate) mod bearing_table;
 pub(crate) mod dent_drops;
 pub(crate) mod drawing;
 pub(crate) mod statics_report;
+pub(crate) mod summary;
 pub(crate) mod tables;
 
 pub use bearing_table::bearing_table;
+pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;
 pub(crate) use tables::{assumptions, model_facts};

@@ -1,5 +1,6 @@
 //! Tables and texts that both reports show.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::app::case::{Bond, Case, Damping, PlaneAssumption, RadiusRule, RingElement};
@@ -270,7 +271,7 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
 }
 
 /// An expected frequency and what was found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExpectedMode {
     /// Expected, Hz.
     pub hz: f64,

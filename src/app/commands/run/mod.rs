@@ -9,6 +9,7 @@ pub(crate) mod scalogram;
 pub(crate) mod simulation;
 #[cfg(test)]
 mod simulation_tests;
+pub(crate) mod summary;
 pub mod unfinished;
 
 pub use compute::{RunResult, compute_kept_run, compute_run, explain_run};
@@ -17,3 +18,7 @@ pub use recording::Recording;
 pub use report::run_report;
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
+pub use summary::{
+    DefectOrdersSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary,
+    OtherEquilibrium, RunSummary,
+};

@@ -25,6 +25,7 @@ use crate::fe::model::{
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Elastic modes whose price is computed where nothing is said.
@@ -43,7 +44,7 @@ pub(crate) const MORE: [usize; 2] = [4, 4];
 pub(crate) const SLIDING: f64 = 1e3;
 
 /// The price of a tie, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TiePrice {
     /// It was computed.
@@ -53,7 +54,7 @@ pub enum TiePrice {
 }
 
 /// A ring of beams that is tied to the bore against the same ring as a body that is joined to it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TieComparison {
     /// The lowest elastic modes of housing and ring.
     pub modes: Vec<BeamAndSolid>,
@@ -76,7 +77,7 @@ pub struct TieComparison {
 }
 
 /// A mode with the ring as beams and with the ring as a body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct BeamAndSolid {
     /// Index from 0 among the modes with beams, rigid ones included.
     pub mode: usize,

@@ -2,11 +2,12 @@
 
 use crate::app::error::ComputeError;
 use crate::fe::model::ModelError;
+use schemars::JsonSchema;
 use serde::Serialize;
 use thiserror::Error;
 
 /// Why the price of a tie was not computed.
-#[derive(Debug, Clone, PartialEq, Error, Serialize)]
+#[derive(Debug, Clone, PartialEq, Error, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NoTiePrice {
     /// Nothing is tied.

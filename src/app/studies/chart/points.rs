@@ -7,6 +7,8 @@ use super::{Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
 use crate::app::scene::{RunModel, Scene};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// An error of the signal's own size or more shows nothing.
@@ -41,13 +43,14 @@ pub struct PointError {
 pub const GROWTHS: [f64; 3] = [3.0, 10.0, 30.0];
 
 /// Error while nearby solutions have parted by no more than a factor.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
 pub struct GrowthError {
     /// The factor.
     pub growth: f64,
     /// How long that takes, mean over the starts, s.
     pub span_s: f64,
     /// Relative difference from the reference over that time, mean over the starts.
+    #[serde(rename = "error")]
     pub mean: f64,
 }
 

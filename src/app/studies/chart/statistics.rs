@@ -8,6 +8,8 @@ use crate::app::scene::RunModel;
 use crate::numerics::series::TimeSeries;
 use crate::signal::{EnvelopeAnalysis, SignalError, third_octaves};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Standard errors beyond which a difference is not chance: with many runs one in 370 is larger by chance alone.
 pub const BEYOND_CHANCE: f64 = 3.0;
@@ -24,18 +26,21 @@ pub struct Figure {
 }
 
 /// Mean of a figure over an ensemble.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Estimate {
     /// Mean.
+    #[schemars(with = "Option<f64>")]
     pub mean: f64,
     /// Standard deviation of one run.
+    #[schemars(with = "Option<f64>")]
     pub deviation: f64,
     /// Standard error of the mean: `deviation / sqrt(runs)`.
+    #[schemars(with = "Option<f64>")]
     pub standard_error: f64,
 }
 
 /// A figure of two models over the same starts.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedFigure {
     /// What it is.
     pub name: String,

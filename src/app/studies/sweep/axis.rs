@@ -1,5 +1,6 @@
 //! `--vary KEY=VALUES`: which values a key of the case takes.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -9,7 +10,7 @@ use crate::app::case::split_argument;
 const MOST_VALUES: usize = 100_000;
 
 /// A key of the case and its values.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Axis {
     /// Path of the key, as `--set` has it.
     pub key: String,

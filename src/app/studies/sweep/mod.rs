@@ -17,6 +17,7 @@ mod record;
 mod report;
 mod result;
 mod slurm;
+mod summary;
 
 pub use axis::{Axis, AxisProblem};
 pub use error::SweepError;
@@ -27,3 +28,4 @@ pub use record::{PointRecord, PointState};
 pub use report::sweep_report;
 pub use result::{PointResult, PointWarning, SweepResult};
 pub use slurm::{SlurmScripts, slurm_scripts};
+pub use summary::{PointSummary, ScriptsSummary, SweepSummary, TaskSummary};

@@ -7,7 +7,8 @@ mod steps;
 
 use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::report::{Abscissa, Axis, Cell, Column, Curve, Plot, Section, Table};
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Title of the section.
 const TITLE: &str = "Orders of convergence";
@@ -38,6 +39,25 @@ struct Family {
     series: Vec<Series>,
 }
 
+/// What `verify.json` says of the errors of one quantity over ever finer sizes.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OrdersSummary {
+    /// What it is.
+    pub name: String,
+    /// What a size is.
+    pub size: &'static str,
+    /// Unit of the sizes.
+    pub unit: &'static str,
+    /// Sizes, falling.
+    pub sizes: Vec<f64>,
+    /// Relative errors, as many.
+    pub relative_errors: Vec<f64>,
+    /// Order from each size to the next.
+    pub orders: Vec<f64>,
+    /// Order that theory gives.
+    pub theory: f64,
+}
+
 /// Carries the section out.
 ///
 /// # Errors
@@ -51,10 +71,10 @@ pub(super) fn orders() -> Result<SectionResult, VerificationError> {
     for family in &families {
         report = report.table(family.table()).plot(family.plot());
     }
-    let values = families.iter().flat_map(Family::values).collect();
+    let orders = families.iter().flat_map(Family::summary).collect();
     let mut section = SectionResult::of_checks(TITLE, checks);
     section.report = vec![report];
-    section.values = vec![("orders".to_owned(), Value::Array(values))];
+    section.orders = Some(orders);
     Ok(section)
 }
 
@@ -137,19 +157,16 @@ impl Family {
         plot.caption(self.assumptions)
     }
 
-    fn values(&self) -> Vec<Value> {
-        let value = |series: &Series| {
-            json!({
-                "name": series.name,
-                "size": self.size[0],
-                "unit": self.size[1],
-                "sizes": series.sizes,
-                "relative_errors": series.errors,
-                "orders": series.orders(),
-                "theory": series.theory,
-            })
-        };
-        self.series.iter().map(value).collect()
+    fn summary(&self) -> impl Iterator<Item = OrdersSummary> {
+        self.series.iter().map(|series| OrdersSummary {
+            name: series.name.clone(),
+            size: self.size[0],
+            unit: self.size[1],
+            sizes: series.sizes.clone(),
+            relative_errors: series.errors.clone(),
+            orders: series.orders(),
+            theory: series.theory,
+        })
     }
 }
 
@@ -166,12 +183,10 @@ mod tests {
         }
         assert_eq!(section.checks.len(), 4 * 4 + 3 + 5);
         // conforming elements are too stiff, and on boxes the incompatible one is too
-        let series = section.values[0].1.as_array().unwrap();
-        let solids = series.iter().filter(|series| series["unit"] == "m");
-        for series in solids {
-            let errors = series["relative_errors"].as_array().unwrap();
-            let above = errors.iter().all(|error| error.as_f64() > Some(0.0));
-            assert!(above, "{series}");
+        let series = section.orders.unwrap();
+        for series in series.iter().filter(|series| series.unit == "m") {
+            let above = series.relative_errors.iter().all(|&error| error > 0.0);
+            assert!(above, "{series:?}");
         }
     }
 }

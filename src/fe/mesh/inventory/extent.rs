@@ -1,9 +1,10 @@
 //! Where the nodes are.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Smallest box with sides along the axes that holds all nodes, m.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct BoundingBox {
     /// Lower corner, m.
     pub min: [f64; 3],

@@ -1,12 +1,13 @@
 //! Physical groups in numbers, and which elements are in several or in none.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{KindCount, counted};
 use crate::fe::mesh::{ElementId, Mesh};
 
 /// A physical group in numbers.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct GroupSummary {
     /// Name, or the tag in digits.
     pub name: String,
@@ -23,7 +24,7 @@ pub struct GroupSummary {
 }
 
 /// Two groups of one dimension that share elements: which material would those have?
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct GroupOverlap {
     /// Dimension of both.
     pub dimension: usize,

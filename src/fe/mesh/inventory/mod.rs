@@ -11,6 +11,7 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{ElementKind, Mesh, MshFormat};
@@ -22,7 +23,7 @@ pub use parts::Part;
 pub(crate) use parts::Sets;
 
 /// How many elements of a kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct KindCount {
     /// The kind.
     pub kind: ElementKind,
@@ -31,7 +32,7 @@ pub struct KindCount {
 }
 
 /// Contents of a mesh.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Inventory {
     /// Version and encoding of the file.
     pub format: MshFormat,

@@ -1,5 +1,6 @@
 //! Nodes that no element uses and nodes in the same place.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::BoundingBox;
@@ -9,7 +10,7 @@ use crate::fe::mesh::Mesh;
 const EXAMPLES: usize = 5;
 
 /// Nodes that no element uses: harmless, but a sign of a mesh saved with `Mesh.SaveAll`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct UnusedNodes {
     /// How many.
     pub count: usize,
@@ -18,7 +19,7 @@ pub struct UnusedNodes {
 }
 
 /// Nodes closer than a tolerance to one before them: parts that touch but are not joined, if not meant so.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DuplicateNodes {
     /// Distance below which nodes count as one, m.
     pub tolerance: f64,

@@ -1,12 +1,13 @@
 //! Connected parts: which elements hang together through common nodes.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::BoundingBox;
 use crate::fe::mesh::Mesh;
 
 /// Elements joined by common nodes, and joined to no others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Part {
     /// Number of elements.
     pub elements: usize,

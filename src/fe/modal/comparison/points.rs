@@ -3,6 +3,7 @@
 use super::super::ModalError;
 use super::super::error::{check_count, check_finite};
 use crate::numerics::linalg::DenseMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::HashMap;
 
@@ -24,7 +25,7 @@ pub struct ModeSet {
 }
 
 /// How points were found to be the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MatchedBy {
     /// By the mesh's tags; all common ones agree in place.

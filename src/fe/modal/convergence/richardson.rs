@@ -3,6 +3,7 @@
 use super::super::ModalError;
 use super::super::error::{check_count, check_finite};
 use super::fit::{Law, law_past_many, limit_of_two, order_of_three};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Safety factor where the observed order is near the formal one. Source: Roache (1994).
@@ -36,7 +37,7 @@ pub struct MeshLevels {
 }
 
 /// How a value changes from mesh to mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Behaviour {
     /// All values agree up to round-off.
@@ -54,7 +55,7 @@ pub enum Behaviour {
 }
 
 /// What a sequence of values says about its limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Convergence {
     /// Value of the finest mesh.
     pub finest: f64,

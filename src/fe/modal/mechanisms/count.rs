@@ -8,6 +8,7 @@ use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
 use crate::fe::mesh::{Mesh, Sets};
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
 use crate::numerics::linalg::SparseMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -23,7 +24,7 @@ enum Bore<'m> {
 }
 
 /// Elements that hang together through whole faces (edges in the plane).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Body {
     /// Whether it is the ring, which has neither parts nor groups.
     pub is_ring: bool,
@@ -40,7 +41,7 @@ pub struct Body {
 }
 
 /// Bodies that are joined somehow, directly or through others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Piece {
     /// Its bodies, largest first, the ring last.
     pub bodies: Vec<usize>,
@@ -53,7 +54,7 @@ pub struct Piece {
 }
 
 /// What joins some bodies directly, and lets them move against each other.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Joint {
     /// The bodies; two, unless a tied node or a spring acts on more at once.
     pub bodies: Vec<usize>,
@@ -68,7 +69,7 @@ pub struct Joint {
 }
 
 /// Motions without energy of a housing, by their reason.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Mechanisms {
     /// 2 or 3.
     pub dimension: usize,

@@ -6,6 +6,7 @@ use super::outline::normal;
 use super::{Overlap, Touching};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 const PARALLEL: f64 = 1e-9;
 
 /// Two parts, or one in itself, whose elements have places in common.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Crossing {
     /// Names of the parts; twice the same within one part.
     pub parts: [String; 2],

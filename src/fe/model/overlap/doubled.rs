@@ -2,10 +2,11 @@
 
 use super::bodies::{Bodies, Solid, at, both};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Elements that stand on the corners of one before them: their mass and stiffness would count twice.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Doubled {
     /// How many, > 0.
     pub elements: usize,

@@ -22,7 +22,7 @@ pub enum OverlapRule {
 }
 
 /// Two parts that fill one space, or a part that fills it twice.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Overlap {
     /// Names of the parts; twice the same for elements of one part.
     pub parts: [String; 2],

@@ -3,11 +3,12 @@
 use super::bodies::{Bodies, Solid, at, both};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Edges on which elements do not have the same middle node.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MixedOrders {
     /// How many, > 0.
     pub edges: usize,

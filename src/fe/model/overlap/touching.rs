@@ -6,6 +6,7 @@ use super::facets::Facet;
 use super::outline::{centre, holds};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 const OPPOSED: f64 = -0.5;
 
 /// Two parts, or one in itself, with faces that lie on each other: nothing holds them together there.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Touching {
     /// Names of the parts; twice the same for faces of one part.
     pub parts: [String; 2],

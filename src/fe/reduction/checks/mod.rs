@@ -6,27 +6,32 @@ mod matrices;
 mod rigid;
 
 pub use rigid::RigidMotions;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::{CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;
 
 /// Which side of its limit a value should be on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum Bound {
     /// Good up to the limit.
+    #[serde(rename = "at most")]
     AtMost,
     /// Good from the limit on.
+    #[serde(rename = "at least")]
     AtLeast,
 }
 
 /// A check and its verdict.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Check {
     /// Short name.
     pub name: &'static str,
     /// What the value is.
     pub what: String,
     /// What was found, relative to what `what` says.
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// What passes.
     pub limit: f64,

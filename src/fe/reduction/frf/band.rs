@@ -3,6 +3,8 @@
 use super::FrfError;
 use super::error::check_frequencies;
 use super::system::same;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A band on a list of frequencies: weights of the trapezoidal rule, with straight lines to the band's ends.
 #[derive(Debug)]
@@ -73,11 +75,12 @@ pub struct BandVariant<'a> {
 }
 
 /// A variant's place among others.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RankedVariant {
     /// Its name.
     pub name: String,
     /// Its place in the list given.
+    #[serde(skip)]
     pub index: usize,
     /// Energy mean of `|H|` over the band, in dB above the reference.
     pub mean_db: f64,

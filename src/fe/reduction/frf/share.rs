@@ -3,15 +3,18 @@
 use super::band::Window;
 use super::{FrfError, ModalSuperposition};
 use faer::c64;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// What one mode carries of a path in a band.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ModeShare {
     /// Mode, from 0.
     pub mode: usize,
     /// Its natural frequency, Hz.
     pub frequency_hz: f64,
     /// Its damping ratio; none for a rigid mode.
+    #[serde(rename = "damping_ratio")]
     pub ratio: Option<f64>,
     /// `int Re(conj(H) H_r) df / int |H|^2 df`: 1 for a mode that is the whole response, negative for one that works against
     /// it. The shares of all modes and of the residual add up to 1; where modes cancel, some are far above it and others as

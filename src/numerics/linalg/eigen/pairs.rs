@@ -2,10 +2,12 @@
 
 use super::super::DenseMatrix;
 use super::super::count::CountCheck;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::ops::Range;
 
 /// Where the time of an eigenvalue computation went, s. With several threads the count goes on beside the iteration.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
 pub struct EigenTimes {
     /// Ordering, permutation, symbolic analysis.
     pub order: f64,

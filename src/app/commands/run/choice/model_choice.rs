@@ -3,6 +3,8 @@
 use crate::app::scene::RunModel;
 use crate::report::significant;
 use crate::system::ModeSelection;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The parts that are a superelement from a file and a housing condensed for the run.
 pub(crate) const SUPERELEMENT: &str = "superelement";
@@ -28,7 +30,7 @@ pub struct ModelChoice {
 }
 
 /// One part of a model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ChosenPart {
     /// Which part.
     pub what: &'static str,

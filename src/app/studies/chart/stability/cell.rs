@@ -23,7 +23,7 @@ const WIDEST: f64 = 0.2;
 const EDGE_HALVINGS: usize = 5;
 
 /// A step of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct StepRecord {
     /// Its length, s.
     pub step_s: f64,
@@ -34,7 +34,7 @@ pub struct StepRecord {
 }
 
 /// Steps in which a mode is in resonance.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Window {
     /// Shortest of them, s.
     pub from_s: f64,

@@ -13,12 +13,12 @@ mod compute;
 mod condition;
 mod measured;
 mod plots;
-mod record;
 mod section;
+mod summary;
 
 pub use cell::{MethodStability, StepRecord, Window};
 pub use compute::{ConditionStability, Stability, compute_stability};
 pub use condition::Condition;
 pub use plots::{resonance_plot, stability_map};
-pub use record::stability_record;
 pub use section::{stability_report, stability_section};
+pub use summary::{ConditionSummary, MethodSummary, StabilityModel, StabilitySummary};

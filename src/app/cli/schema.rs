@@ -1,0 +1,113 @@
+//! `plummer schema`: what case files and results look like, for editors and for programs that read them.
+
+use std::borrow::Cow;
+use std::marker::PhantomData;
+
+use clap::ValueEnum;
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::Value;
+
+use super::export::ExportSummary;
+use super::report::ReportResult;
+use crate::app::case::{Case, in_words};
+use crate::app::commands::InspectResult;
+use crate::app::commands::analyze::{AnalysisResult, SurveyResult};
+use crate::app::commands::condense::{CondenseSummary, ImportedSummary};
+use crate::app::commands::frf::FrfSummary;
+use crate::app::commands::init::{CatalogueResult, DraftResult};
+use crate::app::commands::modes::ModesSummary;
+use crate::app::commands::result::CaseResult;
+use crate::app::commands::run::{ExplainSummary, RunSummary};
+use crate::app::studies::chart::{ChartResult, StabilitySummary};
+use crate::app::studies::sweep::{ScriptsSummary, SweepSummary, TaskSummary};
+use crate::app::verification::VerifyResult;
+
+/// A result that has a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ResultOf {
+    /// modes.json
+    Modes,
+    /// condense.json, of a mesh or of a superelement from a file
+    Condense,
+    /// frf.json
+    Frf,
+    /// run.json, and what run --explain prints
+    Run,
+    /// analysis.json, of one input or of several
+    Analyze,
+    /// chart.json
+    Chart,
+    /// stability.json
+    Stability,
+    /// sweep.json, and what --task and --slurm print
+    Sweep,
+    /// verify.json
+    Verify,
+    /// inspect.json
+    Inspect,
+    /// What init prints, of a case file or of the catalogue
+    Init,
+    /// export.json
+    Export,
+    /// What report prints
+    Report,
+}
+
+/// The JSON Schema of a result, without one that of the case file.
+pub(super) fn schema(results: Option<ResultOf>) -> Value {
+    results.map_or_else(Case::schema, ResultOf::schema)
+}
+
+/// Either of two results.
+struct Either<A, B>(PhantomData<(A, B)>);
+
+impl<A: JsonSchema, B: JsonSchema> JsonSchema for Either<A, B> {
+    fn schema_name() -> Cow<'static, str> {
+        "Either".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let forms = [
+            generator.subschema_for::<A>(),
+            generator.subschema_for::<B>(),
+        ];
+        json_schema!({ "anyOf": forms })
+    }
+}
+
+impl ResultOf {
+    fn schema(self) -> Value {
+        match self {
+            Self::Modes => of::<CaseResult<'_, ModesSummary<'_>>>(self),
+            Self::Condense => {
+                of::<CaseResult<'_, Either<CondenseSummary<'_>, ImportedSummary<'_>>>>(self)
+            }
+            Self::Frf => of::<CaseResult<'_, FrfSummary<'_>>>(self),
+            Self::Run => of::<Either<CaseResult<'_, RunSummary<'_>>, ExplainSummary<'_>>>(self),
+            Self::Analyze => of::<Either<AnalysisResult, SurveyResult>>(self),
+            Self::Chart => of::<ChartResult<'_>>(self),
+            Self::Stability => of::<CaseResult<'_, StabilitySummary<'_>>>(self),
+            Self::Sweep => of::<
+                Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>,
+            >(self),
+            Self::Verify => of::<VerifyResult<'_>>(self),
+            Self::Inspect => of::<InspectResult<'_>>(self),
+            Self::Init => of::<Either<DraftResult<'_>, CatalogueResult>>(self),
+            Self::Export => of::<CaseResult<'_, ExportSummary<'_>>>(self),
+            Self::Report => of::<ReportResult>(self),
+        }
+    }
+}
+
+/// Draft 07, as that of the case file.
+fn of<T: JsonSchema>(result: ResultOf) -> Value {
+    let settings = SchemaSettings::draft07().for_serialize();
+    let schema = settings.into_generator().into_root_schema_for::<T>();
+    let mut schema = schema.to_value();
+    in_words(&mut schema, "null");
+    let command = result.to_possible_value();
+    let command = command.as_ref().map_or("", |value| value.get_name());
+    schema["title"] = format!("result of plummer {command}").into();
+    schema
+}

@@ -1,0 +1,97 @@
+//! What `plummer init --json` says.
+
+use super::Draft;
+use crate::bearing::catalogue::{CatalogueBearing, normal_clearance};
+use crate::bearing::kinematics::DefectOrders;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::path::Path;
+
+/// A case file that was written.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DraftResult<'a> {
+    /// Version of the program.
+    pub plummer: &'static str,
+    /// "init".
+    pub command: &'static str,
+    /// The mesh.
+    pub mesh: &'a Path,
+    /// The case file.
+    pub case: &'a Path,
+    /// What it was made from.
+    #[serde(flatten)]
+    pub draft: &'a Draft,
+}
+
+/// The catalogue: what `--list-bearings` prints.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CatalogueResult {
+    /// Version of the program.
+    pub plummer: &'static str,
+    /// "init".
+    pub command: &'static str,
+    /// The bearings, by series and bore.
+    pub bearings: Vec<BearingSummary>,
+}
+
+/// A bearing of the catalogue.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BearingSummary {
+    /// Designation.
+    pub name: &'static str,
+    /// Bore diameter, m.
+    pub bore_m: f64,
+    /// Outer diameter, m.
+    pub outer_diameter_m: f64,
+    /// Width, m.
+    pub width_m: f64,
+    /// Number of balls.
+    pub balls: u32,
+    /// Ball diameter, m.
+    pub ball_diameter_m: f64,
+    /// Diameter of the circle of the balls' centres, m.
+    pub pitch_diameter_m: f64,
+    /// Whether the maker publishes it; if not, it is the mean of bore and outer diameter.
+    pub pitch_published: bool,
+    /// Diameter of the outer ring's shoulders, m; `None`: not published.
+    pub shoulder_diameter_m: Option<f64>,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Balls that pass a place of the outer race in a turn of the shaft, without contact angle.
+    pub bpfo: Option<f64>,
+    /// Balls that pass a place of the inner race.
+    pub bpfi: Option<f64>,
+    /// Spin of a ball.
+    pub bsf: Option<f64>,
+    /// Turns of the cage.
+    pub ftf: Option<f64>,
+    /// Smallest and largest diametral clearance of group N, m; `None` for a bore outside the table.
+    pub normal_clearance_m: Option<[f64; 2]>,
+    /// Where this is published.
+    pub source: &'static str,
+}
+
+impl BearingSummary {
+    /// Of a bearing and its orders.
+    #[must_use]
+    pub fn of(bearing: &CatalogueBearing, orders: Option<DefectOrders>) -> Self {
+        Self {
+            name: bearing.name,
+            bore_m: bearing.bore,
+            outer_diameter_m: bearing.outer_diameter,
+            width_m: bearing.width,
+            balls: bearing.balls,
+            ball_diameter_m: bearing.ball_diameter,
+            pitch_diameter_m: bearing.pitch_diameter,
+            pitch_published: bearing.pitch_published,
+            shoulder_diameter_m: bearing.shoulder_diameter,
+            mass_kg: bearing.mass,
+            bpfo: orders.map(|orders| orders.outer),
+            bpfi: orders.map(|orders| orders.inner),
+            bsf: orders.map(|orders| orders.ball_spin),
+            ftf: orders.map(|orders| orders.cage),
+            normal_clearance_m: normal_clearance(bearing.bore),
+            source: bearing.source.citation(),
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! What `run.json` says, and `plummer run --explain`.
+
+use super::choice::{ChosenPart, ModelChoice};
+use super::{Recording, RunEnd, RunResult};
+use crate::app::commands::analyze::{WindowAnalysis, WindowSummary};
+use crate::app::commands::parts::SuperelementSummary;
+use crate::system::{BallLoad, BallsInertia, EnergyBalance, Equilibrium};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A simulated run.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct RunSummary<'a> {
+    /// Integration method.
+    pub method: &'static str,
+    /// Length of a step, s; of a method that chooses its steps their mean.
+    pub step_s: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps rejected.
+    pub rejected: u64,
+    /// Simulated time, s.
+    pub simulated_s: f64,
+    /// Simulated time over the wall time of the stepping.
+    #[schemars(with = "Option<f64>")]
+    pub realtime_factor: f64,
+    /// Wall time of the stepping alone, s.
+    pub stepping_s: f64,
+    /// "complete", or how the solution blew up.
+    pub status: String,
+    /// What of the case was modelled.
+    pub model: ModelSummary<'a>,
+    /// Estimated relative error in the band; `None` where a part of the model has no estimate.
+    pub estimated_error: Option<f64>,
+    /// Until when the estimate was seen to hold, s; `None` where this was not measured, as of the next two.
+    pub estimate_held_s: Option<f64>,
+    /// Where it was looked at from, s.
+    pub estimate_from_s: Option<f64>,
+    /// Until when it was looked at, s.
+    pub estimate_looked_s: Option<f64>,
+    /// The energy balance; `None` where it was not asked for, where the equations have none, and after a blow-up.
+    pub energy: Option<EnergySummary>,
+    /// Where the run began.
+    pub equilibrium: EquilibriumSummary,
+    /// Other equilibria that were found.
+    pub other_equilibria: Vec<OtherEquilibrium>,
+    /// How often the parts of the bearing strike in a turn of the shaft.
+    pub defect_orders: DefectOrdersSummary,
+    /// Analysed windows of all sensors.
+    pub windows: Vec<WindowSummary>,
+    /// The superelement in the housing's place, if there is one.
+    pub superelement: Option<SuperelementSummary<'a>>,
+    /// Windows or sensors that could not be analysed, and why.
+    pub not_analysed: &'a [String],
+    /// What of the case may be meant otherwise, and what of the model errs, a sentence each.
+    pub warnings: &'a [String],
+}
+
+/// What of a case was modelled.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ModelSummary<'a> {
+    /// Kept modes of ring and housing.
+    pub modes: usize,
+    /// Of how many.
+    pub of_modes: usize,
+    /// Number of vectors of the condensed housing's interior.
+    pub fixed_interface_modes: usize,
+    /// "dynamic" or "quasi-static".
+    pub balls: &'static str,
+    /// Whether the static residual of the other modes was in use.
+    pub residual: bool,
+    /// Its parts, and why they are these.
+    pub why: &'a [ChosenPart],
+}
+
+/// The energy balance of a run, J.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct EnergySummary {
+    /// What flowed.
+    #[serde(flatten)]
+    pub flows: EnergyBalance,
+    /// Work done on the system, J.
+    pub input: f64,
+    /// Taken out by damping, J.
+    pub dissipated: f64,
+    /// What does not add up, in units of what was exchanged.
+    pub balance_error: f64,
+}
+
+/// A static equilibrium.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct EquilibriumSummary {
+    /// Shaft displacement x, y, m.
+    pub shaft_m: [f64; 2],
+    /// Angle of each ball, rad.
+    pub ball_angle_rad: Vec<f64>,
+    /// Force of the inner race on each ball, N.
+    pub inner_force_n: Vec<f64>,
+    /// Force of the outer race on each ball, N.
+    pub outer_force_n: Vec<f64>,
+    /// Largest force out of balance, N.
+    pub residual_n: f64,
+    /// Smallest curvature of the potential among directions that a contact holds, N/m.
+    #[schemars(with = "Option<f64>")]
+    pub least_curvature_n_per_m: f64,
+    /// Stiffness that a further force on the shaft meets, `dF_i / dx_j`, N/m.
+    #[schemars(with = "[[Option<f64>; 2]; 2]")]
+    pub shaft_stiffness_n_per_m: [[f64; 2]; 2],
+    /// Newton iterations.
+    pub iterations: usize,
+}
+
+/// An equilibrium beside that of the run.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OtherEquilibrium {
+    /// Shaft displacement x, y, m.
+    pub shaft_m: [f64; 2],
+    /// Force of the inner race on each ball, N.
+    pub inner_force_n: Vec<f64>,
+    /// Whether it is stable.
+    pub stable: bool,
+}
+
+/// Events in a turn of the shaft.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DefectOrdersSummary {
+    /// Turns of the cage.
+    pub cage: f64,
+    /// Balls that pass a place of the outer race.
+    pub outer: f64,
+    /// Balls that pass a place of the inner race.
+    pub inner: f64,
+    /// Strikes of a place on a ball against both races.
+    pub ball: f64,
+}
+
+/// The model that the run of a case would take.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ExplainSummary<'a> {
+    /// "run --explain".
+    pub command: &'static str,
+    /// Its parts, and why they are these.
+    pub parts: &'a [ChosenPart],
+    /// Estimated relative error in the band; `None` where a part has no estimate.
+    pub estimated_error: Option<f64>,
+    /// What of the case may be meant otherwise, and what of the model errs, a sentence each.
+    pub warnings: &'a [String],
+}
+
+impl ModelChoice {
+    /// What `plummer run --explain --json` says of it, with warnings.
+    #[must_use]
+    pub fn summary<'a>(&'a self, warnings: &'a [String]) -> ExplainSummary<'a> {
+        ExplainSummary {
+            command: "run --explain",
+            parts: &self.parts,
+            estimated_error: self.estimated_error,
+            warnings,
+        }
+    }
+}
+
+impl<R: Recording> RunResult<R> {
+    /// What `run.json` says of it.
+    #[must_use]
+    pub fn summary(&self) -> RunSummary<'_> {
+        let (scene, simulation) = (&self.scene, &self.simulation);
+        let orders = scene.setup.geometry.orders();
+        let other = |other: &Equilibrium| OtherEquilibrium {
+            shaft_m: other.shaft,
+            inner_force_n: other.balls.iter().map(|ball| ball.inner).collect(),
+            stable: other.is_stable(),
+        };
+        RunSummary {
+            method: simulation.method.name(),
+            step_s: simulation.step_s(),
+            steps: simulation.statistics.steps,
+            rejected: simulation.statistics.rejected,
+            simulated_s: simulation.simulated_s,
+            realtime_factor: simulation.realtime_factor(),
+            stepping_s: simulation.stepping_s,
+            status: match &simulation.end {
+                RunEnd::Complete => "complete".to_owned(),
+                RunEnd::BlewUp(error) => error.to_string(),
+            },
+            model: ModelSummary {
+                modes: simulation.modes,
+                of_modes: scene.stage.structure.dof(),
+                fixed_interface_modes: scene.stage.fixed_interface_modes,
+                balls: match self.choice.model.balls_inertia {
+                    BallsInertia::Dynamic => "dynamic",
+                    BallsInertia::QuasiStatic => "quasi-static",
+                },
+                residual: simulation.residual,
+                why: &self.choice.parts,
+            },
+            estimated_error: self.choice.estimated_error,
+            estimate_held_s: self.horizon.map(|horizon| horizon.held_s),
+            estimate_from_s: self.horizon.map(|horizon| horizon.from_s),
+            estimate_looked_s: self.horizon.map(|horizon| horizon.looked_s),
+            energy: simulation.energy.map(EnergySummary::of),
+            equilibrium: EquilibriumSummary::of(&scene.equilibrium),
+            other_equilibria: self.statics.equilibria.iter().skip(1).map(other).collect(),
+            defect_orders: DefectOrdersSummary {
+                cage: orders.cage,
+                outer: orders.outer,
+                inner: orders.inner,
+                ball: orders.ball_defect,
+            },
+            windows: self.windows.iter().map(WindowAnalysis::summary).collect(),
+            superelement: SuperelementSummary::of(&scene.stage),
+            not_analysed: &self.not_analysed,
+            warnings: &self.warnings,
+        }
+    }
+}
+
+impl EnergySummary {
+    fn of(flows: EnergyBalance) -> Self {
+        Self {
+            input: flows.input_j(),
+            dissipated: flows.dissipated_j(),
+            balance_error: flows.error(),
+            flows,
+        }
+    }
+}
+
+impl EquilibriumSummary {
+    fn of(equilibrium: &Equilibrium) -> Self {
+        let balls = |value: fn(&BallLoad) -> f64| equilibrium.balls.iter().map(value).collect();
+        Self {
+            shaft_m: equilibrium.shaft,
+            ball_angle_rad: balls(|ball| ball.angle),
+            inner_force_n: balls(|ball| ball.inner),
+            outer_force_n: balls(|ball| ball.outer),
+            residual_n: equilibrium.residual_n,
+            least_curvature_n_per_m: equilibrium.least_curvature,
+            shaft_stiffness_n_per_m: equilibrium.shaft_stiffness,
+            iterations: equilibrium.iterations,
+        }
+    }
+}

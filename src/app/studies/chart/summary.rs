@@ -1,0 +1,352 @@
+//! What `chart.json` says.
+
+use super::{
+    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Point, PointError,
+    StabilitySummary, StartReference, parameter_of,
+};
+use crate::app::case::Case;
+use crate::app::commands::result::CaseResult;
+use crate::app::scene::RunModel;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A chart as the program prints it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ChartResult<'a> {
+    /// `chart.json`.
+    #[serde(flatten)]
+    pub chart: CaseResult<'a, ChartSummary<'a>>,
+    /// `stability.json`, where the map was computed too; not in `chart.json`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stability: Option<CaseResult<'a, StabilitySummary<'a>>>,
+}
+
+/// Speed against accuracy.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ChartSummary<'a> {
+    /// Title of the case.
+    pub scene: &'a str,
+    /// What of the case may be meant otherwise, a sentence each.
+    pub warnings: &'a [String],
+    /// Band, Hz.
+    pub band_hz: Option<[f64; 2]>,
+    /// Relative error that is good enough.
+    pub target: f64,
+    /// Longest span compared point by point, s.
+    pub span_s: f64,
+    /// Where the runs began.
+    pub ensemble: EnsembleSummary<'a>,
+    /// What the errors are measured by.
+    pub reference: ReferenceSummary<'a>,
+    /// Time over which nearby solutions stay together, mean over the starts, s.
+    pub horizon_s: f64,
+    /// The shortest of the starts', s.
+    pub least_horizon_s: f64,
+    /// Growth rate of the distance of nearby solutions, 1/s; `None` where none was found.
+    pub growth_rate_per_s: Option<f64>,
+    /// Every candidate that was computed.
+    pub points: Vec<PointSummary<'a>>,
+    /// Indices from 0 of the points that none beats in cost and error, by cost.
+    pub front: &'a [usize],
+    /// Points without an error.
+    pub omissions: Vec<OmissionSummary<'a>>,
+    /// Index of the program's own choice.
+    pub chosen: usize,
+    /// Index of the source paper's method.
+    pub source: usize,
+    /// Errors of these two over every start.
+    pub over_all_starts: OverAllStarts<'a>,
+    /// Statistics beyond the horizon.
+    pub statistics: StatisticsSummary<'a>,
+}
+
+/// The starts of a chart.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct EnsembleSummary<'a> {
+    /// When, s.
+    pub starts_s: Vec<f64>,
+    /// Time over which they are spread, s.
+    pub spread_s: f64,
+    /// Relative perturbation of a start.
+    pub perturbation: f64,
+    /// Seed of the perturbations.
+    pub seed: u64,
+    /// Starts without an equilibrium, and why.
+    pub left_out: &'a [String],
+}
+
+/// The reference of a chart.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ReferenceSummary<'a> {
+    /// The method measured by and the one beside it, as the last refined start has them.
+    pub methods: [MethodParameter; 2],
+    /// The model in words.
+    pub model: &'static str,
+    /// Number of its modes.
+    pub modes: usize,
+    /// Mean relative difference of the two methods: the floor of the chart.
+    pub disagreement: f64,
+    /// Whether it is well below the target.
+    pub agreed: bool,
+    /// Of every start.
+    pub starts: Vec<StartSummary<'a>>,
+}
+
+/// A method and what it was refined to.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MethodParameter {
+    /// The method.
+    pub method: &'static str,
+    /// Its step or tolerance.
+    #[serde(flatten)]
+    pub parameter: Parameter,
+}
+
+/// What of a model is refined, and how far.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Parameter {
+    /// Length of a step, s.
+    StepS(f64),
+    /// Relative tolerance of a step.
+    Tolerance(f64),
+}
+
+/// The reference from one start.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct StartSummary<'a> {
+    /// When, s.
+    pub start_s: f64,
+    /// Time over which nearby solutions stay together, s.
+    pub horizon_s: f64,
+    /// Relative difference of the two methods over it.
+    pub disagreement: f64,
+    /// Refinements that it took.
+    pub refinements: usize,
+    /// Growth rate of the distance of a perturbed solution, 1/s; `None` where none was found.
+    pub growth_rate_per_s: Option<f64>,
+    /// Times of the following distances, s.
+    pub time_s: Vec<f64>,
+    /// Relative distance of the perturbed solution.
+    pub perturbed: &'a [f64],
+    /// Relative distance of the two methods.
+    pub methods: &'a [f64],
+}
+
+/// A candidate and what came of it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PointSummary<'a> {
+    /// The method.
+    pub method: &'static str,
+    /// The model in words.
+    pub model: String,
+    /// Its step or tolerance.
+    pub parameter: Parameter,
+    /// Wall time a simulated second, s; `None` where it was not measured.
+    pub wall_s: Option<f64>,
+    /// Whether the error is below what the reference can tell.
+    pub below_floor: bool,
+    /// Its error.
+    #[serde(flatten)]
+    pub error: ErrorSummary<'a>,
+}
+
+/// Relative differences from the reference over the horizons, or why there are none.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ErrorSummary<'a> {
+    /// Mean over the starts.
+    pub error: Option<f64>,
+    /// Standard deviation over the starts.
+    pub deviation: Option<f64>,
+    /// Largest of the starts.
+    pub largest_error: Option<f64>,
+    /// While nearby solutions have parted by less than over the horizon.
+    pub by_growth: Option<&'a [GrowthError]>,
+    /// Whether there is an error to speak of.
+    pub ok: bool,
+    /// Why not.
+    pub reason: Option<&'a str>,
+}
+
+/// A point without an error.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OmissionSummary<'a> {
+    /// Its index from 0.
+    pub point: usize,
+    /// The method.
+    pub method: &'static str,
+    /// The model in words.
+    pub model: String,
+    /// Its step or tolerance.
+    pub parameter: Parameter,
+    /// "refused", "unstable", "blew up" or "too inaccurate".
+    pub kind: &'static str,
+    /// What happened.
+    pub reason: &'a str,
+}
+
+/// Errors over every start.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OverAllStarts<'a> {
+    /// Of the program's own choice.
+    pub chosen: ErrorSummary<'a>,
+    /// Of the source paper's method.
+    pub source: ErrorSummary<'a>,
+}
+
+/// Statistics beyond the horizon.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct StatisticsSummary<'a> {
+    /// Length of the runs, s.
+    pub seconds: f64,
+    /// By model.
+    pub models: Vec<ModelStatisticsSummary<'a>>,
+}
+
+/// Statistics of a model against those of the reference.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ModelStatisticsSummary<'a> {
+    /// Index from 0 of its point.
+    pub point: usize,
+    /// The figures; `None` where there are none.
+    pub figures: Option<Vec<FigureSummary<'a>>>,
+    /// Why there are none.
+    pub reason: Option<&'a str>,
+}
+
+/// A figure of a model against that of the reference.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FigureSummary<'a> {
+    /// The figure.
+    #[serde(flatten)]
+    pub figure: &'a ComparedFigure,
+    /// Mean difference in its standard errors.
+    #[schemars(with = "Option<f64>")]
+    pub standard_errors: f64,
+    /// Whether it differs by more than chance and the target.
+    pub differs: bool,
+}
+
+impl Chart {
+    /// What `chart.json` says of it; `case` is the case that it was computed of.
+    #[must_use]
+    pub fn summary<'a>(&'a self, case: &'a Case) -> ChartSummary<'a> {
+        let (reference, settings) = (&self.reference, &self.settings);
+        let starts = reference.starts.iter();
+        let [chosen, source] = &self.over_all_starts;
+        ChartSummary {
+            scene: &case.title,
+            warnings: &self.scene.doubts,
+            band_hz: case.band_hz(),
+            target: settings.target,
+            span_s: settings.span_s,
+            ensemble: EnsembleSummary {
+                starts_s: starts.clone().map(|of| of.start.time_s).collect(),
+                spread_s: self.starts.spread_s,
+                perturbation: settings.ensemble.perturbation,
+                seed: settings.ensemble.seed,
+                left_out: &self.starts.left_out,
+            },
+            reference: ReferenceSummary {
+                methods: reference.models.map(|model| MethodParameter {
+                    method: model.method.name(),
+                    parameter: Parameter::of(&model),
+                }),
+                model: "all modes, balls with inertia",
+                modes: self.scene.stage.modes.count(),
+                disagreement: reference.disagreement,
+                agreed: reference.agreed,
+                starts: starts.map(StartSummary::of).collect(),
+            },
+            horizon_s: reference.mean_horizon_s(),
+            least_horizon_s: reference.least_horizon_s(),
+            growth_rate_per_s: reference.growth_rate_per_s(),
+            points: self.points.iter().map(|point| self.point(point)).collect(),
+            front: &self.front,
+            omissions: self
+                .omissions()
+                .map(|(point, failure)| OmissionSummary {
+                    point,
+                    method: self.points[point].method(),
+                    model: self.points[point].model_name(),
+                    parameter: Parameter::of(&self.points[point].model),
+                    kind: failure.kind.name(),
+                    reason: &failure.reason,
+                })
+                .collect(),
+            chosen: self.chosen,
+            source: self.source,
+            over_all_starts: OverAllStarts {
+                chosen: ErrorSummary::of(chosen),
+                source: ErrorSummary::of(source),
+            },
+            statistics: StatisticsSummary {
+                seconds: settings.statistics_s,
+                models: self.statistics.iter().map(|of| self.figures(of)).collect(),
+            },
+        }
+    }
+
+    fn point<'a>(&self, point: &'a Point) -> PointSummary<'a> {
+        PointSummary {
+            method: point.method(),
+            model: point.model_name(),
+            parameter: Parameter::of(&point.model),
+            wall_s: point.wall_s,
+            below_floor: self.below_floor(point),
+            error: ErrorSummary::of(&point.error),
+        }
+    }
+
+    fn figures<'a>(&self, of: &'a ModelStatistics) -> ModelStatisticsSummary<'a> {
+        let summary = |figure: &'a ComparedFigure| FigureSummary {
+            figure,
+            standard_errors: figure.standard_errors(),
+            differs: figure.differs(self.settings.target),
+        };
+        let figures = of.figures.as_ref();
+        ModelStatisticsSummary {
+            point: of.point,
+            figures: figures.ok().map(|all| all.iter().map(summary).collect()),
+            reason: figures.err().map(String::as_str),
+        }
+    }
+}
+
+impl Parameter {
+    fn of(model: &RunModel) -> Self {
+        match parameter_of(model) {
+            ("tolerance", tolerance) => Self::Tolerance(tolerance),
+            (_, step_s) => Self::StepS(step_s),
+        }
+    }
+}
+
+impl<'a> StartSummary<'a> {
+    fn of(start: &'a StartReference) -> Self {
+        Self {
+            start_s: start.start.time_s,
+            horizon_s: start.horizon_s,
+            disagreement: start.disagreement,
+            refinements: start.refinements,
+            growth_rate_per_s: start.growth.rate_per_s(),
+            time_s: start.growth.times_s(),
+            perturbed: start.growth.distances(),
+            methods: start.between.distances(),
+        }
+    }
+}
+
+impl<'a> ErrorSummary<'a> {
+    fn of(error: &'a Result<PointError, Failure>) -> Self {
+        let (error, failure) = (error.as_ref().ok(), error.as_ref().err());
+        Self {
+            error: error.map(|error| error.mean),
+            deviation: error.map(|error| error.deviation),
+            largest_error: error.map(|error| error.largest),
+            by_growth: error.map(|error| error.by_growth.as_slice()),
+            ok: failure.is_none(),
+            reason: failure.map(|failure| failure.reason.as_str()),
+        }
+    }
+}
