@@ -8,6 +8,8 @@ use serde_json::{Value, json};
 
 use super::schema::{any_of, one_of, table, words};
 use super::union::{Loose, Mismatch, written_as};
+use crate::bearing::Race;
+use crate::bearing::defect::CurvatureReading;
 
 /// Damage in the plane of the bearing. Lengths in m.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +26,7 @@ pub enum Defect {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DentDefect {
     /// The race that carries it.
-    pub on: RaceName,
+    pub on: Race,
     /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero.
     pub angle_deg: f64,
     /// Extent along the rolling direction, below the race's circumference.
@@ -38,14 +40,14 @@ pub struct DentDefect {
     /// Radius by which the edge is rounded, below half the length.
     pub rim_radius: f64,
     /// Curvature of the contact at its bottom.
-    pub curvature: DefectCurvature,
+    pub curvature: CurvatureReading,
 }
 
 /// Measured profile of a race.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredDefect {
     /// The race that carries it.
-    pub on: RaceName,
+    pub on: Race,
     /// Angle of its middle in degrees, counted like a dent's.
     pub angle_deg: f64,
     /// Table of arc length and depth.
@@ -66,7 +68,7 @@ pub struct FlatDefect {
     /// Radius by which its ends are rounded.
     pub rim_radius: f64,
     /// Curvature of the contact on it.
-    pub curvature: DefectCurvature,
+    pub curvature: CurvatureReading,
 }
 
 /// What of a dent's shape a ball feels.
@@ -77,27 +79,6 @@ pub enum DentProfile {
     InPlane,
     /// The depression in three dimensions, over which the ball may bridge.
     Surface,
-}
-
-/// A race.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RaceName {
-    /// The inner race: turns with the shaft.
-    Inner,
-    /// The outer race: fixed in space.
-    Outer,
-}
-
-/// Curvature that enters the stiffness of the contact on a defect.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DefectCurvature {
-    /// That of the profile as it is.
-    #[default]
-    Profile,
-    /// As the source paper prints it: of the dent alone, or of the ball for its flat.
-    Paper,
 }
 
 impl Defect {
@@ -198,7 +179,7 @@ struct DefectForm {
     rim_radius: Option<f64>,
     /// Curvature of the contact on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    curvature: Option<DefectCurvature>,
+    curvature: Option<CurvatureReading>,
     /// Of a flat: the ball, from 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ball: Option<usize>,
@@ -255,8 +236,8 @@ impl TryFrom<DefectForm> for Defect {
 
     fn try_from(form: DefectForm) -> Result<Self, Mismatch> {
         let on = match form.on {
-            Place::Inner => RaceName::Inner,
-            Place::Outer => RaceName::Outer,
+            Place::Inner => Race::Inner,
+            Place::Outer => Race::Outer,
             Place::Ball => return flat(form).map(Self::Flat),
         };
         const RACE: &str = "keys of a race's defect";
@@ -342,8 +323,8 @@ impl From<Defect> for DefectForm {
             flat_radius: None,
         };
         let race = |on| match on {
-            RaceName::Inner => Place::Inner,
-            RaceName::Outer => Place::Outer,
+            Race::Inner => Place::Inner,
+            Race::Outer => Place::Outer,
         };
         match defect {
             Defect::Dent(dent) => Self {

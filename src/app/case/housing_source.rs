@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::union::{Mismatch, written_as};
-use super::{Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support};
-use crate::fe::model::OverlapRule;
+use super::{Case, Housing, Part, Support};
+use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
+use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass};
 use crate::numerics::units::LengthUnit;
 
 /// Where the housing comes from.
@@ -79,13 +80,13 @@ struct SourceForm {
     length_unit: Option<LengthUnit>,
     /// How a plane mesh stands for a solid; plane meshes only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    plane: Option<Plane>,
+    plane: Option<PlaneModel>,
     /// Integration of the stiffness of ten-noded tetrahedra.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     integration: Option<Integration>,
     /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    linear: Option<LinearElements>,
+    linear: Option<LinearFormulation>,
     /// Which group is made of what; at least one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     parts: Option<Vec<Part>>,
@@ -144,8 +145,10 @@ impl TryFrom<SourceForm> for HousingSource {
             mesh: form.mesh.ok_or_else(|| missing("mesh"))?,
             length_unit: form.length_unit.ok_or_else(|| missing("length_unit"))?,
             plane: form.plane,
-            integration: form.integration.unwrap_or_default(),
-            linear: form.linear.unwrap_or_default(),
+            formulation: Formulation {
+                integration: form.integration.unwrap_or_default(),
+                linear: form.linear.unwrap_or_default(),
+            },
             parts: form.parts.ok_or_else(|| missing("parts"))?,
             supports: form.supports.unwrap_or_default(),
             masses: form.masses.unwrap_or_default(),
@@ -177,8 +180,8 @@ impl From<HousingSource> for SourceForm {
                 form.mesh = Some(housing.mesh);
                 form.length_unit = Some(housing.length_unit);
                 form.plane = housing.plane;
-                form.integration = Some(housing.integration);
-                form.linear = Some(housing.linear);
+                form.integration = Some(housing.formulation.integration);
+                form.linear = Some(housing.formulation.linear);
                 form.parts = Some(housing.parts);
                 form.supports = Some(housing.supports);
                 form.masses = Some(housing.masses);

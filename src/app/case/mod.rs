@@ -59,35 +59,28 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use bearing::{
-    BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial, Wave,
-};
+pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Wave};
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
-pub use defect::{
-    Defect, DefectCurvature, DentDefect, DentProfile, FlatDefect, MeasuredDefect, RaceName,
-};
+pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect};
 pub use document::Source;
 pub use envelope_band::EnvelopeBand;
 pub use error::{CaseError, Place};
 pub use frf::{Frf, Push};
-pub use housing::{Axis, Hold, Housing, Part, Plane, PointMass, Support};
-pub use housing::{Integration, LinearElements, PlaneAssumption};
+pub use housing::{Axis, Hold, Housing, Part, Support};
 pub use housing_source::HousingSource;
-pub use link::{Joint, Link};
 pub use load::{Purpose, VariantCase};
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
 pub use mode_checks::{ComparedModes, ConvergenceMeshes};
-pub use modes::{Expected, Linearise, ModeExtent, Modes, Variant};
-pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed, SpeedPoint};
+pub(crate) use modes::DEFAULT_COUNT;
+pub use modes::{Expected, Linearise, Modes, Variant};
+pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
 pub use nearest::Choices;
-pub use ring::{
-    Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
-};
+pub use ring::{Bond, Ring, RingSupport, Section, Tie};
 pub use sensor::{Sensor, SensorSpot};
 pub use set::{SetProblem, replaced_argument, split_argument};
-pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
-pub use spring::{PerNodeOrGroup, Spring};
+pub use slip::Slip;
+pub use spring::Spring;
 pub use transient::{
     Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient, Window,
 };
@@ -166,14 +159,12 @@ impl Case {
     pub fn ball_mass(&self) -> Option<f64> {
         let bearing = self.bearing.as_ref()?;
         let volume = 4.0 / 3.0 * std::f64::consts::PI * bearing.ball_radius.powi(3);
-        match bearing.ball_inertia() {
-            BallInertia::Mass(mass) => Some(mass),
-            BallInertia::Density(density) => Some(density * volume),
-            BallInertia::Material => {
-                let material = self.material(&bearing.ball_material)?;
-                Some(material.density() * volume)
-            }
+        if bearing.ball_mass.is_some() {
+            return bearing.ball_mass;
         }
+        let of_material = || Some(self.material(&bearing.ball_material)?.density());
+        let density = bearing.density.or_else(of_material)?;
+        Some(density * volume)
     }
 
     /// Returns the frequencies of interest in Hz, lowest first: those of `[accuracy]`, else from 0 to half the sampling

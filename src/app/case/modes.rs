@@ -7,12 +7,13 @@ use serde_json::json;
 use super::mode_checks::{ComparedModes, ConvergenceMeshes};
 use super::schema::together;
 use super::union::{Mismatch, written_as};
+use crate::fe::modal::ModeRange;
 
 /// What the `modes` command computes and checks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// How many modes.
-    pub extent: ModeExtent,
+    pub extent: ModeRange,
     /// Frequencies to be found among them; may be empty.
     pub expected: Vec<Expected>,
     /// Whether the bearing's contacts act.
@@ -27,24 +28,13 @@ pub struct Modes {
     pub ball_pass: bool,
 }
 
-/// How many modes are computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ModeExtent {
-    /// The lowest so many, at least 1.
-    Count(usize),
-    /// All below this frequency in Hz, > 0.
-    UpToHz(f64),
-    /// All between two frequencies in Hz, 0 <= low < high.
-    BandHz([f64; 2]),
-}
-
-/// Modes computed where the case says nothing.
-const DEFAULT_COUNT: usize = 20;
+/// Modes computed where the case says nothing, or all of a model that has fewer.
+pub(crate) const DEFAULT_COUNT: usize = 20;
 
 impl Default for Modes {
     fn default() -> Self {
         Self {
-            extent: ModeExtent::Count(DEFAULT_COUNT),
+            extent: ModeRange::Count(DEFAULT_COUNT),
             expected: Vec::new(),
             linearise: Linearise::None,
             variants: Vec::new(),
@@ -129,25 +119,14 @@ struct ModesForm {
 
 written_as!(Modes, ModesForm);
 
-impl ModeExtent {
-    /// The same for a model with so many degrees of freedom: fewer modes than the default if it has fewer. What was
-    /// asked for by name stays.
-    pub fn of_model(self, free_dof: usize) -> Self {
-        match self {
-            Self::Count(DEFAULT_COUNT) => Self::Count(DEFAULT_COUNT.min(free_dof).max(1)),
-            asked => asked,
-        }
-    }
-}
-
 impl TryFrom<ModesForm> for Modes {
     type Error = Mismatch;
 
     fn try_from(form: ModesForm) -> Result<Self, Mismatch> {
         let extent = match (form.count, form.up_to_hz, form.band_hz) {
-            (Some(count), None, None) => ModeExtent::Count(count),
-            (None, Some(limit), None) => ModeExtent::UpToHz(limit),
-            (None, None, Some(band)) => ModeExtent::BandHz(band),
+            (Some(count), None, None) => ModeRange::Count(count),
+            (None, Some(limit), None) => ModeRange::UpToHz(limit),
+            (None, None, Some(band)) => ModeRange::BandHz(band),
             (None, None, None) => Self::default().extent,
             _ => {
                 let expected = "one of `count`, `up_to_hz`, `band_hz`";
@@ -169,9 +148,9 @@ impl TryFrom<ModesForm> for Modes {
 impl From<Modes> for ModesForm {
     fn from(modes: Modes) -> Self {
         let (count, up_to_hz, band_hz) = match modes.extent {
-            ModeExtent::Count(count) => (Some(count), None, None),
-            ModeExtent::UpToHz(limit) => (None, Some(limit), None),
-            ModeExtent::BandHz(band) => (None, None, Some(band)),
+            ModeRange::Count(count) => (Some(count), None, None),
+            ModeRange::UpToHz(limit) => (None, Some(limit), None),
+            ModeRange::BandHz(band) => (None, None, Some(band)),
         };
         Self {
             count,

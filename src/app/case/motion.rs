@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::schema::one_of;
 use super::union::{Mismatch, written_as};
+use crate::bearing::SpeedKnot;
 
 /// The rigid shaft with the inner ring. x to the right, y up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -178,15 +179,5 @@ impl From<Damping> for DampingForm {
 #[serde(deny_unknown_fields)]
 pub struct Speed {
     /// At least one point, times increasing.
-    pub profile: Vec<SpeedPoint>,
-}
-
-/// Speed at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpeedPoint {
-    /// In s.
-    pub time: f64,
-    /// Revolutions per second, positive from +x towards +y.
-    pub hz: f64,
+    pub profile: Vec<SpeedKnot>,
 }

@@ -2,7 +2,7 @@
 
 use super::import::ImportError;
 use super::unfinished::UnfinishedError;
-use crate::app::case::{CaseError, ModeExtent};
+use crate::app::case::CaseError;
 use crate::bearing::defect::DefectError;
 use crate::bearing::{
     CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError,
@@ -11,6 +11,7 @@ use crate::fe::element::ElementError;
 use crate::fe::material::{MaterialError, SectionError};
 use crate::fe::mesh::MeshError;
 use crate::fe::modal::ModalError;
+use crate::fe::modal::ModeRange;
 use crate::fe::model::{HousingModel, ModelError, NodeInterface, RingError};
 use crate::fe::reduction::ReductionError;
 use crate::fe::reduction::frf::FrfError;
@@ -345,7 +346,7 @@ pub enum ComputeError {
     )]
     NoModes {
         /// What was asked for.
-        extent: ModeExtent,
+        extent: ModeRange,
     },
     /// A superelement that cannot take the housing's place.
     #[error("housing.superelement: {}: {source}", path.display())]
@@ -484,10 +485,10 @@ impl ComputeError {
 }
 
 /// Where modes were asked for, in words.
-fn within(extent: &ModeExtent) -> String {
+fn within(extent: &ModeRange) -> String {
     match extent {
-        ModeExtent::Count(count) => format!("among the lowest {count} (count)"),
-        ModeExtent::UpToHz(hz) => format!("up to {hz} Hz (up_to_hz)"),
-        ModeExtent::BandHz([low, high]) => format!("from {low} to {high} Hz (band_hz)"),
+        ModeRange::Count(count) => format!("among the lowest {count} (count)"),
+        ModeRange::UpToHz(hz) => format!("up to {hz} Hz (up_to_hz)"),
+        ModeRange::BandHz([low, high]) => format!("from {low} to {high} Hz (band_hz)"),
     }
 }

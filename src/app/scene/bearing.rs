@@ -7,7 +7,7 @@ use crate::app::error::ComputeError;
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
 };
-use crate::system::{BallsInertia, BearingSetup, Formulation};
+use crate::system::BearingSetup;
 
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
 ///
@@ -36,15 +36,9 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> 
         geometry,
         stiffness,
         contact_damping: asked.contact_damping,
-        formulation: match asked.formulation {
-            case::Formulation::Consistent => Formulation::Consistent,
-            case::Formulation::Printed => Formulation::Printed,
-        },
-        balls_inertia: match asked.balls_inertia {
-            Some(case::BallsInertia::QuasiStatic) => BallsInertia::QuasiStatic,
-            // what is left to the program is chosen for a run, with the rest of its model
-            Some(case::BallsInertia::Dynamic) | None => BallsInertia::Dynamic,
-        },
+        formulation: asked.formulation,
+        // what is left to the program is chosen for a run, with the rest of its model
+        balls_inertia: asked.balls_inertia.unwrap_or_default(),
         waves: waves(&asked.waviness, &geometry)?,
         oversizes: asked.ball_radius_differences.clone(),
         race_defects,

@@ -2,15 +2,14 @@
 
 use super::mesh_digest::read_mesh;
 use super::watch::Watch;
-use crate::app::case::{self, Case, Hold, Joint, PerNodeOrGroup};
+use crate::app::case::{self, Case, Hold};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
-    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
-    PlaneModel, PointMass, RingFrame, SpringStiffness, SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame,
+    SupportShare,
 };
 use crate::numerics::linalg::LinalgError;
 
@@ -80,40 +79,14 @@ pub(crate) fn description(
     });
     Ok(HousingDescription {
         parts: parts.collect::<Result<_, ComputeError>>()?,
-        plane: housing.plane.map(|plane| PlaneModel {
-            assumption: match plane.assumption {
-                case::PlaneAssumption::Stress => PlaneAssumption::Stress,
-                case::PlaneAssumption::Strain => PlaneAssumption::Strain,
-            },
-            thickness: plane.thickness,
-        }),
-        formulation: formulation(housing),
+        plane: housing.plane,
+        formulation: housing.formulation,
         supports: housing.supports.iter().map(support).collect(),
-        masses: housing
-            .masses
-            .iter()
-            .map(|mass| PointMass {
-                group: mass.group.clone(),
-                mass: mass.mass,
-            })
-            .collect(),
-        links: housing.links.iter().map(link).collect(),
+        masses: housing.masses.clone(),
+        links: housing.links.clone(),
         overlap: housing.overlap,
         frame: frame(case)?,
     })
-}
-
-fn formulation(housing: &case::Housing) -> Formulation {
-    Formulation {
-        integration: match housing.integration {
-            case::Integration::Full => Integration::Full,
-            case::Integration::FourPoint => Integration::FourPoint,
-        },
-        linear: match housing.linear {
-            case::LinearElements::Incompatible => LinearFormulation::Incompatible,
-            case::LinearElements::Plain => LinearFormulation::Plain,
-        },
-    }
 }
 
 /// Where the ring sits; the mesh's own frame without one.
@@ -171,17 +144,6 @@ fn named(name: &str, source: MaterialError) -> ComputeError {
     ComputeError::Material { name, source }
 }
 
-fn share(per: PerNodeOrGroup) -> SupportShare {
-    match per {
-        PerNodeOrGroup::Node => SupportShare::PerNode,
-        PerNodeOrGroup::Group => SupportShare::PerGroup,
-    }
-}
-
-fn along_axes(spring: case::Spring) -> SpringStiffness {
-    SpringStiffness::Global([spring.x, spring.y, spring.z])
-}
-
 fn support(support: &case::Support) -> HousingSupport {
     let (constraint, share) = match &support.hold {
         Hold::Fixed(axes) => {
@@ -189,29 +151,11 @@ fn support(support: &case::Support) -> HousingSupport {
                 [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
             (Constraint::Fixed(fixed), SupportShare::PerNode)
         }
-        Hold::Spring { spring, per } => (Constraint::Spring(along_axes(*spring)), share(*per)),
-        Hold::Radial { stiffness, per } => (
-            Constraint::Spring(SpringStiffness::Radial(*stiffness)),
-            share(*per),
-        ),
+        Hold::Spring(stiffness, share) => (Constraint::Spring(*stiffness), *share),
     };
     HousingSupport {
         group: support.group.clone(),
         constraint,
         share,
-    }
-}
-
-fn link(link: &case::Link) -> Link {
-    let connection = match link.joint {
-        Joint::Spring { spring, per } => Connection::Spring(along_axes(spring), share(per)),
-        Joint::Radial { stiffness, per } => {
-            Connection::Spring(SpringStiffness::Radial(stiffness), share(per))
-        }
-        Joint::Tie => Connection::Tie,
-    };
-    Link {
-        between: link.between.clone(),
-        connection,
     }
 }

@@ -4,7 +4,7 @@ use super::housing::AssembledHousing;
 use super::mode_set::{OwnModes, RingShapes};
 use super::ring::ring_and_tie;
 use super::watch::Watch;
-use crate::app::case::{Case, ModeExtent};
+use crate::app::case::{Case, DEFAULT_COUNT};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions};
 use crate::fe::mesh::Mesh;
@@ -95,7 +95,7 @@ impl FullModes {
     /// [`ComputeError::Linalg`], [`ComputeError::NoModes`].
     pub fn of(
         matrices: CoupledMatrices,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let solve = |problem: &EigenProblem, range, _: &CoupledMotions, _: &[usize], _| {
@@ -108,7 +108,7 @@ impl FullModes {
     /// number of all.
     fn by(
         matrices: CoupledMatrices,
-        extent: ModeExtent,
+        extent: ModeRange,
         solve: impl FnOnce(
             &EigenProblem,
             ModeRange,
@@ -148,7 +148,7 @@ impl FullModes {
     /// [`ComputeError::Linalg`], and what `products` reports.
     pub fn analysed(
         matrices: CoupledMatrices,
-        extent: ModeExtent,
+        extent: ModeRange,
         rigid: &DenseMatrix,
         products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ComputeError>,
         watch: &impl Watch,
@@ -176,7 +176,7 @@ impl FullModes {
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let count = count.min(matrices.free_dofs.len()).max(1);
-        Self::of(matrices, ModeExtent::Count(count), watch)
+        Self::of(matrices, ModeRange::Count(count), watch)
     }
 
     /// Computes the modes near zero again by the energies of elements: `products` as above.
@@ -207,10 +207,10 @@ impl FullModes {
     }
 }
 
-fn range(extent: ModeExtent, free_dof: usize) -> ModeRange {
-    match extent.of_model(free_dof) {
-        ModeExtent::Count(count) => ModeRange::Count(count),
-        ModeExtent::UpToHz(hz) => ModeRange::UpToHz(hz),
-        ModeExtent::BandHz(band) => ModeRange::BandHz(band),
+/// The modes of a model with so many degrees of freedom: fewer than the case's default if it has fewer. What was asked for by name stays.
+fn range(extent: ModeRange, free_dof: usize) -> ModeRange {
+    match extent {
+        ModeRange::Count(DEFAULT_COUNT) => ModeRange::Count(DEFAULT_COUNT.min(free_dof).max(1)),
+        asked => asked,
     }
 }

@@ -11,7 +11,7 @@ use crate::app::case::{self, Case, Interface, ModesKept};
 use crate::app::error::ComputeError;
 use crate::fe::model::{RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
-use crate::system::{Sensor, Structure, StructureModes};
+use crate::system::{Formulation, Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
 
 /// Modes of a ring of many nodes where a part of them is enough: as many as a ring of 72 nodes in a solid housing has of its own.
@@ -193,11 +193,10 @@ impl CoupledStructure {
 
 /// How many modes a case asks for: the printed equations and the source's method take all.
 fn needed_modes(case: &Case) -> usize {
-    let printed = case::Formulation::Printed;
     let bearing = case.bearing.as_ref();
     let transient = case.transient.as_ref();
     let source = transient.is_some_and(|asked| asked.method == case::Method::NewmarkExplicit);
-    if source || bearing.is_some_and(|bearing| bearing.formulation == printed) {
+    if source || bearing.is_some_and(|bearing| bearing.formulation == Formulation::Printed) {
         return usize::MAX;
     }
     match transient.map(|asked| asked.modes) {

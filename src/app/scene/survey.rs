@@ -6,10 +6,10 @@ use super::modal_system::FullModes;
 use super::mode_set::{OwnModes, RingShapes};
 use super::structure::CoupledStructure;
 use super::watch::{Unwatched, Watch};
-use crate::app::case::ModeExtent;
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
+use crate::fe::modal::ModeRange;
 use crate::fe::modal::{
     EnergyShares, MassProperties, Mechanisms, ModalBasis, Participation, rigid_motions,
     ring_motions, strain_products,
@@ -51,7 +51,7 @@ impl ModalSurvey {
         mesh: &Mesh,
         model: &HousingModel,
         matrices: SystemMatrices,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let mass = MassProperties::of_housing(&matrices, model)?;
@@ -105,7 +105,7 @@ impl ModalSurvey {
     /// [`ComputeError`] of eigenvalue computation and analysis.
     pub fn of_structure(
         stage: &CoupledStructure,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let ring = stage.structure.ring();
@@ -119,7 +119,7 @@ impl ModalSurvey {
     /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
     fn of_imported(
         stage: &CoupledStructure,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let ring = stage.structure.ring();
@@ -142,7 +142,7 @@ impl ModalSurvey {
         housing: &AssembledHousing,
         tie: &RingTie,
         ring: &Ring,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let AssembledHousing { mesh, model, .. } = housing;
@@ -188,7 +188,7 @@ impl ModalSurvey {
         })
     }
 
-    fn of_ring(ring: &Ring, extent: ModeExtent, watch: &impl Watch) -> Result<Self, ComputeError> {
+    fn of_ring(ring: &Ring, extent: ModeRange, watch: &impl Watch) -> Result<Self, ComputeError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
         let matrices = CoupledMatrices::of_ring(ring);
@@ -228,7 +228,7 @@ fn centroid(mass: &MassProperties) -> [f64; 3] {
 /// [`ComputeError`] of eigenvalue computation.
 pub(crate) fn unloaded_modes(
     stage: &CoupledStructure,
-    extent: ModeExtent,
+    extent: ModeRange,
 ) -> Result<UnloadedModes, ComputeError> {
     let basis = FullModes::of(matrices_of(stage), extent, &Unwatched)?.basis;
     Ok(UnloadedModes {

@@ -17,9 +17,9 @@ const NEAR_ZERO: f64 = 1e4;
 pub enum ModeRange {
     /// The lowest so many, at least 1.
     Count(usize),
-    /// All below a frequency, Hz.
+    /// All below a frequency in Hz, > 0.
     UpToHz(f64),
-    /// All between two frequencies, Hz.
+    /// All between two frequencies in Hz, 0 <= low < high.
     BandHz([f64; 2]),
 }
 

@@ -20,18 +20,22 @@
 use super::{HousingModel, HousingPartition, ModelError, Ring};
 use crate::fe::mesh::Mesh;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Deviation of a bore node from the ring's outer radius, and of the ring's plane from the bore, that a tie accepts,
 /// relative to that radius. Chords of a
 /// coarse first-order mesh keep their nodes on the circle; a wrong unit or centre does not.
 const RADIUS_TOLERANCE: f64 = 0.01;
 
-/// Whether the bore sticks to the ring.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What the bore follows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Fit {
-    /// All displacement components follow the ring.
+    /// The ring's section in all directions.
+    #[default]
     Bonded,
-    /// The radial one follows, the others are free.
+    /// The ring's radial displacement only; the ring may turn in the bore and, in a solid housing, move along it.
     Sliding,
 }
 

@@ -1,6 +1,6 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
 
-use crate::app::case::{Case, InterfaceModes, ModeExtent};
+use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::app::scene::ReducedInterface;
@@ -9,6 +9,7 @@ use crate::app::scene::modal_system::FullModes;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, Watch, doubts};
+use crate::fe::modal::ModeRange;
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
     size_study,
@@ -170,7 +171,7 @@ fn compare(
     estimate: &ErrorEstimate,
     watch: &impl Watch,
 ) -> Result<FullComparison, ComputeError> {
-    let extent = ModeExtent::Count(estimate.modes.len().max(1));
+    let extent = ModeRange::Count(estimate.modes.len().max(1));
     let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
     let rigid = modes.basis.rigid_modes;
     let full = &modes.basis.frequencies_hz;

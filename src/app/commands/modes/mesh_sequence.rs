@@ -1,11 +1,12 @@
 //! The other meshes of a case: what they are, and the modes on each.
 
-use crate::app::case::{Case, HousingSource, ModeExtent};
+use crate::app::case::{Case, HousingSource};
 use crate::app::commands::inspect::{elements_of, size};
 use crate::app::error::ComputeError;
 use crate::app::scene::Unwatched;
 use crate::app::scene::modal_system::{Bodies, FullModes};
 use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::modal::ModeRange;
 use crate::fe::modal::{MeshLevels, ModeSet};
 use crate::report::significant;
 use std::path::PathBuf;
@@ -190,11 +191,11 @@ impl ModesOnMesh {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model and eigenvalues.
-    pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, ComputeError> {
+    pub fn compute(case: &Case, path: PathBuf, extent: ModeRange) -> Result<Self, ComputeError> {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
         let modes = match extent {
             // a coarse mesh may have fewer
-            ModeExtent::Count(count) => FullModes::lowest(matrices, count, &Unwatched),
+            ModeRange::Count(count) => FullModes::lowest(matrices, count, &Unwatched),
             other => FullModes::of(matrices, other, &Unwatched),
         }?;
         let free_dof = modes.free_dof();

@@ -5,6 +5,8 @@ mod layer;
 pub use layer::RingLayer;
 
 use layer::check;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// How the rings of a section hold together.
@@ -16,13 +18,14 @@ pub enum Bond {
     Composite,
 }
 
-/// On which radius a ring of a slipping section bends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// On which radius sections that slip bend.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum RadiusRule {
     /// Each on its own: EI / R^3 and rho A R are summed ring by ring.
+    #[default]
     Own,
-    /// All on the EA-weighted centroid radius: EI and rho A are summed. Slip does not justify it,
-    /// but it reproduces the source paper's 36 kHz.
+    /// All on the centroid weighted by EA: EI and rho A are summed. Slip does not justify it, the source paper's frequencies need it.
     CommonCentroid,
 }
 

@@ -3,7 +3,7 @@
 use super::loaded_errors::LoadedErrors;
 use super::model_choice::ChosenPart;
 use super::quantities::{ball_frequency, hertz};
-use crate::app::case::{self, Case};
+use crate::app::case::Case;
 use crate::app::scene::Scene;
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation};
@@ -67,8 +67,7 @@ pub(crate) fn chosen(
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
     let (inertia, why) = match given {
-        Some(case::BallsInertia::Dynamic) => (BallsInertia::Dynamic, "given".to_owned()),
-        Some(case::BallsInertia::QuasiStatic) => (BallsInertia::QuasiStatic, "given".to_owned()),
+        Some(given) => (given, "given".to_owned()),
         None if !pressed => (
             BallsInertia::Dynamic,
             "not all balls are held between both races: they move on their own".to_owned(),

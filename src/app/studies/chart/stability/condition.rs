@@ -1,9 +1,9 @@
 //! What is varied, one at a time, and the scene that it gives.
 
 use super::super::{ChartError, Effort};
-use crate::app::case::{self, Case, Defect, Load, SpeedPoint};
+use crate::app::case::{self, Case, Defect, Load};
 use crate::app::scene::{RunModel, Scene, bearing_setup};
-use crate::bearing::ContactStiffness;
+use crate::bearing::{ContactStiffness, SpeedKnot};
 use crate::report::significant;
 use crate::system::{
     BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
@@ -178,7 +178,10 @@ impl Condition {
                 }
             }
             Self::Speed(hz) => {
-                let profile = vec![SpeedPoint { time: 0.0, hz }];
+                let profile = vec![SpeedKnot {
+                    time: 0.0,
+                    frequency_hz: hz,
+                }];
                 case.speed = Some(case::Speed { profile });
             }
             _ => {}
