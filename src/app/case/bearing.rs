@@ -149,7 +149,9 @@ impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
                 outer: name,
             }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
-            other => Err(other.mismatch("a material's name, or { inner = NAME, outer = NAME }")),
+            other => {
+                Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }"))
+            }
         }
     }
 }
@@ -190,12 +192,11 @@ impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
     fn try_from(form: Loose<InnerAndOuter<f64>>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["hertz"],
-            }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),
-            other => Err(other.mismatch("\"hertz\", or { inner = NUMBER, outer = NUMBER }")),
+            other => Err(other.mismatch(
+                &["hertz"],
+                "\"hertz\", or { inner = NUMBER, outer = NUMBER }",
+            )),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::tests::{FULL, near, read, refusal};
 use super::{Defect, DentProfile, Load, Slip};
 use crate::bearing::Race;
+use crate::system::BallsInertia;
 
 #[test]
 fn slip_is_a_number_or_a_table_over_time_or_speed() {
@@ -214,7 +215,7 @@ fn balls_without_inertia_have_no_contact_damping_and_no_printed_equations() {
         read(FULL, &[quasi_static, undamped, other]).map(|case| case.bearing.unwrap().balls_inertia)
     };
     let taken = set("bearing.formulation=consistent").unwrap();
-    assert_eq!(taken, Some(super::BallsInertia::QuasiStatic));
+    assert_eq!(taken, Some(BallsInertia::QuasiStatic));
     for (other, message) in [
         (
             "bearing.contact_damping=1",

@@ -71,10 +71,6 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
         const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
         match form {
             Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["ring"],
-            }),
             Loose::Table(InterfaceForm {
                 group: Some(group),
                 nodes: None,
@@ -87,7 +83,7 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
                 Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
             }
             Loose::Table(_) => Err(Mismatch::form("several", "one of `group`, `nodes`")),
-            other => Err(other.mismatch(FORMS)),
+            other => Err(other.mismatch(&["ring"], FORMS)),
         }
     }
 }
@@ -132,13 +128,12 @@ impl TryFrom<Loose<UpToForm>> for InterfaceModes {
     fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "none" => Ok(Self::None),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["none"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch("\"none\", a whole number or { up_to_hz = NUMBER }")),
+            other => Err(other.mismatch(
+                &["none"],
+                "\"none\", a whole number or { up_to_hz = NUMBER }",
+            )),
         }
     }
 }
@@ -184,13 +179,12 @@ impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
     fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch("\"auto\", a whole number or { up_to_hz = NUMBER }")),
+            other => Err(other.mismatch(
+                &["auto"],
+                "\"auto\", a whole number or { up_to_hz = NUMBER }",
+            )),
         }
     }
 }

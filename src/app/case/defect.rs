@@ -131,12 +131,11 @@ impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
         match form {
             Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
             Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &[IN_PLANE, SURFACE],
-            }),
             Loose::Table(file) => Ok(Self::File(file.csv)),
-            other => Err(other.mismatch("\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
+            other => Err(other.mismatch(
+                &[IN_PLANE, SURFACE],
+                "\"in-plane\", \"surface\", or { csv = \"FILE\" }",
+            )),
         }
     }
 }

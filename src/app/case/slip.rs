@@ -68,9 +68,10 @@ impl TryFrom<Loose<SlipForm>> for Slip {
             Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
             Loose::Table(form) => form,
             other => {
-                return Err(
-                    other.mismatch("a number, or { profile = [{ time or hz, slip }, ...] }")
-                );
+                return Err(other.mismatch(
+                    &[],
+                    "a number, or { profile = [{ time or hz, slip }, ...] }",
+                ));
             }
         };
         let points = form.profile.iter();

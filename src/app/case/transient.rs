@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::EnvelopeBand;
 use super::schema::{any_of, number, together, whole, words};
 use super::union::{Loose, Mismatch, NoTable, written_as};
+use crate::numerics::series::TimeWindow;
 
 /// What the signals must be good for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -143,14 +144,10 @@ impl TryFrom<Loose<NoTable>> for StepLength {
     fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto"],
-            }),
             Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
             // Steps of whole seconds are far below 2^53.
             Loose::Whole(seconds) => Ok(Self::Seconds(seconds as f64)),
-            other => Err(other.mismatch("\"auto\" or a number")),
+            other => Err(other.mismatch(&["auto"], "\"auto\" or a number")),
         }
     }
 }
@@ -188,12 +185,8 @@ impl TryFrom<Loose<NoTable>> for ModesKept {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Word(word) if word == "all" => Ok(Self::All),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto", "all"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
-            other => Err(other.mismatch("\"auto\", \"all\" or a whole number")),
+            other => Err(other.mismatch(&["auto", "all"], "\"auto\", \"all\" or a whole number")),
         }
     }
 }
@@ -225,7 +218,7 @@ pub struct Analysis {
     pub whiten: bool,
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
-    pub envelope: Vec<Window>,
+    pub envelope: Vec<TimeWindow>,
     /// Scalogram of every sensor; `None`: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scalogram: Option<ScalogramWindow>,
@@ -252,14 +245,4 @@ pub struct ScalogramWindow {
 
 fn usual_cycles() -> f64 {
     6.0
-}
-
-/// A stretch of time within the simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Window {
-    /// In s.
-    pub from: f64,
-    /// In s, after `from`.
-    pub to: f64,
 }

@@ -93,14 +93,19 @@ pub(super) enum Loose<T> {
 }
 
 impl<T> Loose<T> {
-    /// The error for a form that the key does not take.
-    pub(super) fn mismatch(&self, expected: &'static str) -> Mismatch {
+    /// The error for a form that the key does not take; it takes these words.
+    pub(super) fn mismatch(
+        self,
+        valid: &'static [&'static str],
+        expected: &'static str,
+    ) -> Mismatch {
         let found = match self {
+            Self::Word(found) if !valid.is_empty() => return Mismatch::Word { found, valid },
             Self::Word(word) => format!("\"{word}\""),
             Self::Whole(number) => number.to_string(),
             Self::Number(number) => number.to_string(),
             Self::Table(_) => "a table".to_owned(),
-            Self::Other(kind) => kind.clone(),
+            Self::Other(kind) => kind,
         };
         Mismatch::form(found, expected)
     }

@@ -23,7 +23,8 @@ fn a_map_has_its_files_and_limits() {
     let case = small();
     let out = std::env::temp_dir().join(format!("plummer-{}-stability", std::process::id()));
     fs::create_dir_all(&out).unwrap();
-    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let run = case.for_chart().unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
     let asked = vec![
         Condition::AsGiven,
         Condition::ContactDamping(0.0),
@@ -31,7 +32,7 @@ fn a_map_has_its_files_and_limits() {
         // more than a tenth of the ball's radius
         Condition::RadialPlay(2e-4),
     ];
-    let map = compute_stability(&case, &scene, asked, Effort::Quick, &Unwatched).unwrap();
+    let map = compute_stability(run, &scene, asked, Effort::Quick, &Unwatched).unwrap();
     let (json, _) = write_stability(&OutputFolder::at(&out), Map::new(), &map).unwrap();
     let conditions = json["conditions"].as_array().unwrap();
     let of = |condition: usize, name: &str| -> Value {

@@ -2,7 +2,7 @@
 
 use super::mesh_digest::read_mesh;
 use super::watch::Watch;
-use crate::app::case::{self, Case, Hold};
+use crate::app::case::{self, Case, Hold, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
@@ -11,7 +11,6 @@ use crate::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame,
     SupportShare,
 };
-use crate::numerics::linalg::LinalgError;
 
 /// A housing, assembled.
 #[derive(Debug, Clone)]
@@ -54,12 +53,8 @@ impl AssembledHousing {
     /// # Errors
     /// As [`AssembledHousing::build`].
     pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        // a case with neither ring nor housing was refused before
-        let nothing = LinalgError::TooManyModes {
-            asked: 1,
-            available: 0,
-        };
-        Self::build(case, watch)?.ok_or_else(|| nothing.into())
+        let nothing = || case.broken(Rule::NothingToModel.at("housing"));
+        Self::build(case, watch)?.ok_or_else(|| nothing().into())
     }
 }
 
@@ -102,19 +97,18 @@ fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
 /// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`ComputeError::Material`] for values out of range; a missing name or an orthotropic material was refused with
-/// the case.
-pub(crate) fn material(case: &Case, name: &str) -> Result<Material, ComputeError> {
-    let given = case.material(name).and_then(case::Material::isotropic);
-    let (young, poisson, density) = given.map_or((f64::NAN, f64::NAN, f64::NAN), |given| {
-        (given.young, given.poisson, given.density)
-    });
-    Material::new(young, poisson, density).map_err(|source| named(name, source))
+/// [`ComputeError::Material`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
+pub(crate) fn material(case: &Case, key: &str, name: &str) -> Result<Material, ComputeError> {
+    checked(name, case.isotropic(key, name)?)
+}
+
+fn checked(name: &str, given: &IsotropicMaterial) -> Result<Material, ComputeError> {
+    Material::new(given.young, given.poisson, given.density).map_err(|source| named(name, source))
 }
 
 fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
-    match case.material(name) {
-        Some(case::Material::Orthotropic(given)) => {
+    match case.known_material("housing.parts", name)? {
+        case::Material::Orthotropic(given) => {
             let case::OrthotropicMaterial {
                 young,
                 poisson,
@@ -129,13 +123,10 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeE
                 .map(ElasticMaterial::Orthotropic)
                 .map_err(|source| named(name, source))
         }
-        given => {
-            let loss_factor = given.map_or(0.0, case::Material::loss_factor);
-            material(case, name)?
-                .with_loss_factor(loss_factor)
-                .map(ElasticMaterial::from)
-                .map_err(|source| named(name, source))
-        }
+        case::Material::Isotropic(given) => checked(name, given)?
+            .with_loss_factor(given.loss_factor)
+            .map(ElasticMaterial::from)
+            .map_err(|source| named(name, source)),
     }
 }
 

@@ -20,8 +20,7 @@ pub(crate) fn ring_and_tie(
     let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
         return Ok((ring, None));
     };
-    // a tie without an outer radius was refused with the case
-    let outer = asked.outer_radius.unwrap_or(f64::NAN);
+    let outer = asked.outer_radius;
     let AssembledHousing { mesh, model, .. } = housing;
     let tie = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
     Ok((ring, Some(tie)))
@@ -33,7 +32,7 @@ pub(crate) fn ring_and_tie(
 /// [`ComputeError::Material`].
 pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, ComputeError> {
     Ok(RingLayer {
-        material: material(case, &section.material)?,
+        material: material(case, "ring.sections", &section.material)?,
         area: section.area,
         inertia: section.inertia,
         axial_inertia: section.axial_inertia,

@@ -50,7 +50,7 @@ pub struct RingTie {
 }
 
 impl RingTie {
-    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m).
+    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m); where it is not known, the nodes may be anywhere.
     ///
     /// # Errors
     /// [`ModelError::TieRadius`] or [`ModelError::TieAxial`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
@@ -61,7 +61,7 @@ impl RingTie {
         housing: &HousingModel,
         group: &str,
         ring: &Ring,
-        outer_radius: f64,
+        outer_radius: impl Into<Option<f64>>,
         fit: Fit,
     ) -> Result<Self, ModelError> {
         if ring.is_in_space() != (housing.dimension == 3) {
@@ -72,8 +72,10 @@ impl RingTie {
         let bore = housing.group_on_housing(mesh, group, "the tie")?;
         let on_housing = |node: &usize| housing.used[*node];
         let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
-        check_radius(housing, group, &nodes, outer_radius)?;
-        check_axial(housing, group, &nodes, outer_radius)?;
+        if let Some(outer_radius) = outer_radius.into() {
+            check_radius(housing, group, &nodes, outer_radius)?;
+            check_axial(housing, group, &nodes, outer_radius)?;
+        }
         check_free(housing, group, &nodes)?;
         let d = housing.dimension;
         let components = match fit {

@@ -112,7 +112,8 @@ fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
         let other = "bearing.density";
         return Err(Rule::Beside { other }.at("bearing.ball_mass"));
     }
-    known_isotropic(case, "bearing.ball_material", &bearing.ball_material)
+    known_isotropic(case, "bearing.ball_material", &bearing.ball_material)?;
+    Ok(())
 }
 
 fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {

@@ -12,6 +12,7 @@ mod time;
 #[cfg(test)]
 mod window_tests;
 
+pub(super) use range::{known_isotropic, known_material};
 pub use rule::{BrokenRule, Rule};
 
 use super::{Case, Interface, SensorSpot};
