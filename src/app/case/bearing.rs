@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::defect::Defect;
 use super::schema::{any_of, table, text, together, words};
 use super::slip::Slip;
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, Mismatch, read_as, written_as};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
@@ -168,12 +168,14 @@ impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
 }
 
 /// Contact stiffness k of F = k delta^1.5.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ContactStiffness {
     /// From the geometry and the materials.
     #[default]
     Hertz,
     /// Given, in N/m^1.5, each > 0.
+    #[serde(untagged)]
     Given {
         /// Between ball and inner race.
         inner: f64,
@@ -182,7 +184,7 @@ pub enum ContactStiffness {
     },
 }
 
-written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
+read_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
     any_of(&[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)])
 });
 
@@ -197,15 +199,6 @@ impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
                 &["hertz"],
                 "\"hertz\", or { inner = NUMBER, outer = NUMBER }",
             )),
-        }
-    }
-}
-
-impl From<ContactStiffness> for Loose<InnerAndOuter<f64>> {
-    fn from(stiffness: ContactStiffness) -> Self {
-        match stiffness {
-            ContactStiffness::Hertz => Self::Word("hertz".to_owned()),
-            ContactStiffness::Given { inner, outer } => Self::Table(InnerAndOuter { inner, outer }),
         }
     }
 }

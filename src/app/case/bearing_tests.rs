@@ -92,7 +92,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     }
     let measured = defects("{on='outer',angle_deg=10,profile={csv='scan.csv'}}").unwrap();
     assert!(matches!(&measured[0], Defect::Measured(measured)
-        if measured.csv == Path::new("folder/scan.csv")));
+        if measured.profile.csv == Path::new("folder/scan.csv")));
     let flat = defects("{on='ball',ball=5,flat_radius=2e-3,depth=1e-5}").unwrap();
     assert!(
         matches!(&flat[0], Defect::Flat(flat) if flat.ball == 5 && flat.angle_deg.abs() < 1e-300)

@@ -7,12 +7,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::{any_of, one_of, table, words};
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, Mismatch, read_as};
 use crate::bearing::Race;
 use crate::bearing::defect::CurvatureReading;
 
 /// Damage in the plane of the bearing. Lengths in m.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Defect {
     /// Elliptic dent in a race.
     Dent(DentDefect),
@@ -23,7 +24,7 @@ pub enum Defect {
 }
 
 /// Elliptic dent in a race; lengths > 0.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DentDefect {
     /// The race that carries it.
     pub on: Race,
@@ -32,6 +33,7 @@ pub struct DentDefect {
     /// Extent along the rolling direction, below the race's circumference.
     pub length: f64,
     /// Extent across the rolling direction; not felt in the plane, and there with [`DentProfile::Surface`].
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Greatest depth below the undeformed race, below the ball's radius.
     pub depth: f64,
@@ -44,18 +46,19 @@ pub struct DentDefect {
 }
 
 /// Measured profile of a race.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredDefect {
     /// The race that carries it.
     pub on: Race,
     /// Angle of its middle in degrees, counted like a dent's.
     pub angle_deg: f64,
-    /// Table of arc length and depth.
-    pub csv: PathBuf,
+    /// The file of its shape.
+    pub profile: ProfileFile,
 }
 
 /// Flat on a ball; lengths > 0.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "on", rename = "ball")]
 pub struct FlatDefect {
     /// The ball, from 0.
     pub ball: usize,
@@ -72,7 +75,8 @@ pub struct FlatDefect {
 }
 
 /// What of a dent's shape a ball feels.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum DentProfile {
     /// Its section in the plane of the bearing, as if it were as wide as the groove.
     #[default]
@@ -85,13 +89,13 @@ impl Defect {
     /// The file that it names.
     pub(super) fn path_mut(&mut self) -> Option<&mut PathBuf> {
         match self {
-            Self::Measured(measured) => Some(&mut measured.csv),
+            Self::Measured(measured) => Some(&mut measured.profile.csv),
             Self::Dent(_) | Self::Flat(_) => None,
         }
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Place {
     /// The inner race: turns with the shaft.
@@ -102,36 +106,37 @@ enum Place {
     Ball,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// The file of a measured profile.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ProfileFile<T> {
+pub struct ProfileFile {
     /// Table of arc length and depth, with the header `arc_length_m,depth_m`.
-    csv: T,
+    pub csv: PathBuf,
 }
 
 /// `"in-plane"`, `"surface"`, or a file.
 #[derive(Clone, PartialEq)]
 enum Profile {
     Dent(DentProfile),
-    File(PathBuf),
+    File(ProfileFile),
 }
 
 const IN_PLANE: &str = "in-plane";
 const SURFACE: &str = "surface";
 
-written_as!(Profile, Loose<ProfileFile<PathBuf>>, |generator| any_of(&[
+read_as!(Profile, Loose<ProfileFile>, |generator| any_of(&[
     words(&[IN_PLANE, SURFACE]),
-    table::<ProfileFile<PathBuf>>(generator),
+    table::<ProfileFile>(generator),
 ]));
 
-impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
+impl TryFrom<Loose<ProfileFile>> for Profile {
     type Error = Mismatch;
 
-    fn try_from(form: Loose<ProfileFile<PathBuf>>) -> Result<Self, Mismatch> {
+    fn try_from(form: Loose<ProfileFile>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
             Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
-            Loose::Table(file) => Ok(Self::File(file.csv)),
+            Loose::Table(file) => Ok(Self::File(file)),
             other => Err(other.mismatch(
                 &[IN_PLANE, SURFACE],
                 "\"in-plane\", \"surface\", or { csv = \"FILE\" }",
@@ -140,17 +145,7 @@ impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
     }
 }
 
-impl From<Profile> for Loose<ProfileFile<PathBuf>> {
-    fn from(profile: Profile) -> Self {
-        match profile {
-            Profile::Dent(DentProfile::InPlane) => Self::Word(IN_PLANE.to_owned()),
-            Profile::Dent(DentProfile::Surface) => Self::Word(SURFACE.to_owned()),
-            Profile::File(csv) => Self::Table(ProfileFile { csv }),
-        }
-    }
-}
-
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = kinds()))]
 /// Damage: a dent in a race, a measured profile of a race, or a flat on a ball. Lengths in m.
@@ -159,35 +154,26 @@ struct DefectForm {
     on: Place,
     /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero; of a flat from
     /// the ball's outward radius vector, 0 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     angle_deg: Option<f64>,
     /// Of a dent: extent along the rolling direction, > 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     length: Option<f64>,
     /// Of a dent: extent across the rolling direction, > 0; needed by `profile = "surface"`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
     /// Greatest depth, > 0 and below the ball's radius.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
     /// What of a dent is felt, or the file of a measured profile.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     profile: Option<Profile>,
     /// Radius by which the edge is rounded; 0.05e-3 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     rim_radius: Option<f64>,
     /// Curvature of the contact on it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     curvature: Option<CurvatureReading>,
     /// Of a flat: the ball, from 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     ball: Option<usize>,
     /// Of a flat: its radius in the rolling direction, above the ball's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     flat_radius: Option<f64>,
 }
 
-written_as!(Defect, DefectForm);
+read_as!(Defect, DefectForm);
 
 /// Dent, measured profile or flat, each with its keys.
 fn kinds() -> Value {
@@ -250,10 +236,13 @@ impl TryFrom<DefectForm> for Defect {
         let profile = match &form.profile {
             None => DentProfile::default(),
             Some(Profile::Dent(profile)) => *profile,
-            Some(Profile::File(csv)) => {
+            Some(Profile::File(file)) => {
                 only_file(&form)?;
-                let csv = csv.clone();
-                return Ok(Self::Measured(MeasuredDefect { on, angle_deg, csv }));
+                return Ok(Self::Measured(MeasuredDefect {
+                    on,
+                    angle_deg,
+                    profile: file.clone(),
+                }));
             }
         };
         const WIDTH: &str =
@@ -305,54 +294,4 @@ fn flat(form: DefectForm) -> Result<FlatDefect, Mismatch> {
         rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
         curvature: form.curvature.unwrap_or_default(),
     })
-}
-
-impl From<Defect> for DefectForm {
-    fn from(defect: Defect) -> Self {
-        let empty = Self {
-            on: Place::Outer,
-            angle_deg: None,
-            length: None,
-            width: None,
-            depth: None,
-            profile: None,
-            rim_radius: None,
-            curvature: None,
-            ball: None,
-            flat_radius: None,
-        };
-        let race = |on| match on {
-            Race::Inner => Place::Inner,
-            Race::Outer => Place::Outer,
-        };
-        match defect {
-            Defect::Dent(dent) => Self {
-                on: race(dent.on),
-                angle_deg: Some(dent.angle_deg),
-                length: Some(dent.length),
-                width: dent.width,
-                depth: Some(dent.depth),
-                profile: Some(Profile::Dent(dent.profile)),
-                rim_radius: Some(dent.rim_radius),
-                curvature: Some(dent.curvature),
-                ..empty
-            },
-            Defect::Measured(measured) => Self {
-                on: race(measured.on),
-                angle_deg: Some(measured.angle_deg),
-                profile: Some(Profile::File(measured.csv)),
-                ..empty
-            },
-            Defect::Flat(flat) => Self {
-                on: Place::Ball,
-                angle_deg: Some(flat.angle_deg),
-                depth: Some(flat.depth),
-                rim_radius: Some(flat.rim_radius),
-                curvature: Some(flat.curvature),
-                ball: Some(flat.ball),
-                flat_radius: Some(flat.flat_radius),
-                ..empty
-            },
-        }
-    }
 }

@@ -14,15 +14,17 @@ use super::spring::{Spring, SpringKeys};
 use super::union::{Mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Housing {
     /// Mesh file. Relative paths in a case file are relative to that file; here they are resolved.
     pub mesh: PathBuf,
     /// Unit of the mesh's coordinates.
     pub length_unit: LengthUnit,
     /// How a plane mesh stands for a solid; `None` for a mesh of solids.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub plane: Option<PlaneModel>,
     /// Stiffness of ten-noded tetrahedra (`integration`), four-noded quadrilaterals and eight-noded hexahedra (`linear`).
+    #[serde(flatten)]
     pub formulation: Formulation,
     /// Which group is made of what; at least one.
     pub parts: Vec<Part>,
@@ -31,9 +33,15 @@ pub struct Housing {
     /// Masses without size, each spread over a group; may be empty.
     pub masses: Vec<PointMass>,
     /// Connections between its groups; may be empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<Link>,
     /// Whether bodies may lie in one another.
+    #[serde(skip_serializing_if = "is_refused")]
     pub overlap: OverlapRule,
+}
+
+fn is_refused(rule: &OverlapRule) -> bool {
+    *rule == OverlapRule::Refuse
 }
 
 /// A group of elements and its material.

@@ -6,20 +6,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
 use super::{Case, Housing, Part, Support};
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass};
 use crate::numerics::units::LengthUnit;
 
 /// Where the housing comes from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum HousingSource {
-    /// A mesh with materials and supports.
-    Mesh(Box<Housing>),
     /// A file of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's
     /// OUTPUT4 (`.op4`). Relative paths in a case file are relative to that file; here they are resolved.
     Superelement(PathBuf),
+    /// A mesh with materials and supports.
+    #[serde(untagged)]
+    Mesh(Box<Housing>),
 }
 
 impl HousingSource {
@@ -60,7 +62,7 @@ impl Case {
     }
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = json!([
     { "required": ["superelement"], "maxProperties": 1 },
@@ -70,37 +72,26 @@ impl Case {
 struct SourceForm {
     /// File of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's OUTPUT4
     /// (`.op4`), relative to the case file; without any other key.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     superelement: Option<PathBuf>,
     /// Mesh file (gmsh MSH 4.1 or 2.2), relative to the case file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     mesh: Option<PathBuf>,
     /// Unit of the mesh's coordinates.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     length_unit: Option<LengthUnit>,
     /// How a plane mesh stands for a solid; plane meshes only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     plane: Option<PlaneModel>,
     /// Integration of the stiffness of ten-noded tetrahedra.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     integration: Option<Integration>,
     /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     linear: Option<LinearFormulation>,
     /// Which group is made of what; at least one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     parts: Option<Vec<Part>>,
     /// What holds the housing; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     supports: Option<Vec<Support>>,
     /// Masses without size, each spread over a group; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     masses: Option<Vec<PointMass>>,
     /// Connections between its groups; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     links: Option<Vec<Link>>,
     /// Whether bodies may lie in one another; refused unless "allow".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     overlap: Option<OverlapRule>,
 }
 
@@ -123,7 +114,7 @@ impl SourceForm {
     }
 }
 
-written_as!(HousingSource, SourceForm);
+read_as!(HousingSource, SourceForm);
 
 impl TryFrom<SourceForm> for HousingSource {
     type Error = Mismatch;
@@ -155,41 +146,6 @@ impl TryFrom<SourceForm> for HousingSource {
             links: form.links.unwrap_or_default(),
             overlap: form.overlap.unwrap_or_default(),
         })))
-    }
-}
-
-impl From<HousingSource> for SourceForm {
-    fn from(source: HousingSource) -> Self {
-        let mut form = Self {
-            superelement: None,
-            mesh: None,
-            length_unit: None,
-            plane: None,
-            integration: None,
-            linear: None,
-            parts: None,
-            supports: None,
-            masses: None,
-            links: None,
-            overlap: None,
-        };
-        match source {
-            HousingSource::Superelement(path) => form.superelement = Some(path),
-            HousingSource::Mesh(housing) => {
-                let housing = *housing;
-                form.mesh = Some(housing.mesh);
-                form.length_unit = Some(housing.length_unit);
-                form.plane = housing.plane;
-                form.integration = Some(housing.formulation.integration);
-                form.linear = Some(housing.formulation.linear);
-                form.parts = Some(housing.parts);
-                form.supports = Some(housing.supports);
-                form.masses = Some(housing.masses);
-                form.links = Some(housing.links).filter(|links| !links.is_empty());
-                form.overlap = Some(housing.overlap).filter(|&rule| rule != OverlapRule::Refuse);
-            }
-        }
-        form
     }
 }
 

@@ -63,7 +63,7 @@ use serde::{Deserialize, Serialize};
 pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Wave};
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
-pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect};
+pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, ProfileFile};
 pub use document::Source;
 pub use envelope_band::EnvelopeBand;
 pub use error::{CaseError, Place};

@@ -6,13 +6,14 @@ use serde_json::json;
 
 use super::mode_checks::{ComparedModes, ConvergenceMeshes};
 use super::schema::together;
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
 use crate::fe::modal::ModeRange;
 
 /// What the `modes` command computes and checks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Modes {
     /// How many modes.
+    #[serde(flatten)]
     pub extent: ModeRange,
     /// Frequencies to be found among them; may be empty.
     pub expected: Vec<Expected>,
@@ -21,8 +22,10 @@ pub struct Modes {
     /// The same case with other keys set, shown beside; may be empty.
     pub variants: Vec<Variant>,
     /// Modes from elsewhere that these are compared with; may be empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub convergence: Option<ConvergenceMeshes>,
     /// Whether loaded modes are followed over a ball pass and over the load.
     pub ball_pass: bool,
@@ -79,7 +82,7 @@ pub struct Variant {
     pub set: Vec<String>,
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("not" = json!({ "anyOf": [
     together(&["count", "up_to_hz"]),
@@ -89,13 +92,10 @@ pub struct Variant {
 /// What `plummer modes` computes and checks: `count` modes (20 unless given), those below `up_to_hz` or those in `band_hz`.
 struct ModesForm {
     /// The lowest so many, at least 1; 20 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     count: Option<usize>,
     /// All below this frequency in Hz, > 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     up_to_hz: Option<f64>,
     /// All between two frequencies in Hz, 0 <= low < high.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     band_hz: Option<[f64; 2]>,
     /// Frequencies to be found among them; may be empty.
     #[serde(default)]
@@ -107,17 +107,16 @@ struct ModesForm {
     #[serde(default)]
     variants: Vec<Variant>,
     /// Modes from elsewhere that these are compared with; may be empty.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     convergence: Option<ConvergenceMeshes>,
     /// Whether loaded modes are followed over a ball pass and over the load; with `linearise = "static"`.
     #[serde(default)]
     ball_pass: bool,
 }
 
-written_as!(Modes, ModesForm);
+read_as!(Modes, ModesForm);
 
 impl TryFrom<ModesForm> for Modes {
     type Error = Mismatch;
@@ -142,26 +141,5 @@ impl TryFrom<ModesForm> for Modes {
             convergence: form.convergence,
             ball_pass: form.ball_pass,
         })
-    }
-}
-
-impl From<Modes> for ModesForm {
-    fn from(modes: Modes) -> Self {
-        let (count, up_to_hz, band_hz) = match modes.extent {
-            ModeRange::Count(count) => (Some(count), None, None),
-            ModeRange::UpToHz(limit) => (None, Some(limit), None),
-            ModeRange::BandHz(band) => (None, None, Some(band)),
-        };
-        Self {
-            count,
-            up_to_hz,
-            band_hz,
-            expected: modes.expected,
-            linearise: modes.linearise,
-            variants: modes.variants,
-            compare: modes.compare,
-            convergence: modes.convergence,
-            ball_pass: modes.ball_pass,
-        }
     }
 }

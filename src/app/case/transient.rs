@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::EnvelopeBand;
 use super::schema::{any_of, number, together, whole, words};
-use super::union::{Loose, Mismatch, NoTable, written_as};
+use super::union::{Loose, Mismatch, NoTable, read_as};
 use crate::numerics::series::TimeWindow;
 
 /// What the signals must be good for.
@@ -124,16 +124,18 @@ pub enum Method {
 }
 
 /// Length of a time step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StepLength {
     /// The program's choice.
     #[default]
     Auto,
     /// In s, > 0.
+    #[serde(untagged)]
     Seconds(f64),
 }
 
-written_as!(StepLength, Loose<NoTable>, |_| any_of(&[
+read_as!(StepLength, Loose<NoTable>, |_| any_of(&[
     words(&["auto"]),
     number()
 ]));
@@ -152,17 +154,9 @@ impl TryFrom<Loose<NoTable>> for StepLength {
     }
 }
 
-impl From<StepLength> for Loose<NoTable> {
-    fn from(step: StepLength) -> Self {
-        match step {
-            StepLength::Auto => Self::Word("auto".to_owned()),
-            StepLength::Seconds(seconds) => Self::Number(seconds),
-        }
-    }
-}
-
 /// Which coupled modes of ring and housing are kept in the simulation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ModesKept {
     /// As many as the accuracy asked for needs.
     #[default]
@@ -170,10 +164,11 @@ pub enum ModesKept {
     /// All of them.
     All,
     /// The lowest so many, at least 1.
+    #[serde(untagged)]
     Count(usize),
 }
 
-written_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
+read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
     words(&["auto", "all"]),
     whole()
 ]));
@@ -187,16 +182,6 @@ impl TryFrom<Loose<NoTable>> for ModesKept {
             Loose::Word(word) if word == "all" => Ok(Self::All),
             Loose::Whole(count) => Ok(Self::Count(count)),
             other => Err(other.mismatch(&["auto", "all"], "\"auto\", \"all\" or a whole number")),
-        }
-    }
-}
-
-impl From<ModesKept> for Loose<NoTable> {
-    fn from(modes: ModesKept) -> Self {
-        match modes {
-            ModesKept::Auto => Self::Word("auto".to_owned()),
-            ModesKept::All => Self::Word("all".to_owned()),
-            ModesKept::Count(count) => Self::Whole(count),
         }
     }
 }

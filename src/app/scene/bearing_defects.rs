@@ -48,7 +48,7 @@ pub(crate) fn defects(
                 race_defects.push((index, dent.map_err(refused)?));
             }
             Defect::Measured(measured) => {
-                let samples = read_profile(index, &measured.csv)?;
+                let samples = read_profile(index, &measured.profile.csv)?;
                 let profile = MeasuredProfile::new(
                     geometry,
                     measured.on,

@@ -13,7 +13,8 @@ const ZERO: f64 = 4.0;
 const NEAR_ZERO: f64 = 1e4;
 
 /// Which modes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ModeRange {
     /// The lowest so many, at least 1.
     Count(usize),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The choices that an element's stiffness leaves open; the default is [`Integration::Full`] with
 /// [`LinearFormulation::Incompatible`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 pub struct Formulation {
     /// Stiffness of Tet10.
     pub integration: Integration,

@@ -1,6 +1,7 @@
 //! Materials: constants that make one, and where which kind may stand.
 
 use super::{breaks, full, holds};
+use crate::app::case::check::range::direction;
 use crate::app::case::tests::{FULL, read};
 
 #[test]
@@ -125,10 +126,7 @@ fn materials_and_directions_beyond_all_numbers() {
         );
     }
     for length in ["1e-200", "1e200"] {
-        let broken = crate::app::case::check::range::direction(
-            "direction",
-            [length.parse().unwrap(), 0.0, 0.0],
-        );
+        let broken = direction("direction", [length.parse().unwrap(), 0.0, 0.0]);
         assert!(broken.is_err(), "{length}");
     }
 }
