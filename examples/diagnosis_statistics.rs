@@ -212,9 +212,10 @@ fn simulate(
         set.push(format!("bearing.slip={{profile=[{}]}}", knots.join(",")));
     }
     let case = Case::load(path, &set)?;
-    let mut scene = Scene::around(structure.clone(), &case)?;
-    let asked = case.transient.as_ref().ok_or("the case has no transient")?;
-    let choice = ModelChoice::of_case(&case, asked, &scene)?;
+    let run = case.for_run()?;
+    let asked = run.transient;
+    let mut scene = Scene::around(structure.clone(), run)?;
+    let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
     let span = Span {
         duration: asked.end - asked.start,

@@ -26,14 +26,14 @@ fn stepping_four_times_as_long_takes_the_same_memory() {
         "transient.method=newmark".to_owned(),
     ];
     let case = Case::load(&path, &set).unwrap();
-    let asked = case.transient.as_ref().unwrap();
-    let scene = Scene::build(&case, &Unwatched).unwrap();
-    let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
+    let run = case.for_run().unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
+    let model = ModelChoice::of_case(run, &scene).unwrap().model;
     let folder = tempfile::tempdir().unwrap();
     let taken = [0.02, 0.08].map(|duration| {
         let span = Span {
             duration,
-            output_hz: asked.output_hz,
+            output_hz: run.transient.output_hz,
         };
         let identity = RunIdentity::of(&case).unwrap();
         let mut unfinished = UnfinishedRun::begin(&folder.path().join("partial"), identity);

@@ -1,5 +1,7 @@
 //! Contact stiffness of the two races: from materials and geometry (Hertz), or given.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::geometry::BearingGeometry;
@@ -14,12 +16,13 @@ pub struct ContactMaterial {
     pub poisson: f64,
 }
 
-/// Which race a ball touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+/// A race.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Race {
-    /// Inner race, turning with the shaft.
+    /// The inner race: turns with the shaft.
     Inner,
-    /// Outer race, fixed in the housing.
+    /// The outer race: fixed in the housing.
     Outer,
 }
 

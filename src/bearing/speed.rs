@@ -11,6 +11,8 @@
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::rotation::{Rotation, RotationCursor, RotationState, SpeedPiece};
@@ -45,12 +47,14 @@ pub enum SpeedError {
     },
 }
 
-/// One row of the table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Shaft speed at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct SpeedKnot {
-    /// Time, s.
+    /// In s.
     pub time: f64,
-    /// Shaft frequency at that time, Hz; negative turns clockwise.
+    /// Revolutions per second, positive from +x towards +y; negative turns clockwise.
+    #[serde(rename = "hz")]
     pub frequency_hz: f64,
 }
 

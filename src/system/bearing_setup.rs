@@ -3,11 +3,14 @@
 use super::load::LoadProfile;
 use crate::bearing::defect::{BallFlat, RaceDefect};
 use crate::bearing::{BearingGeometry, Cage, ContactStiffness, Wave};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// Which reading of the ball position the equations follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Which equations of motion: they differ by the reading of the ball position.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Formulation {
-    /// Ball position from the fixed bearing centre: symmetric, energy-conserving.
+    /// Ball positions from the fixed bearing centre: symmetric, keeps energy.
     #[default]
     Consistent,
     /// The source's equations (3)-(16): ball position from the ring's mean centre, total ring
@@ -17,7 +20,8 @@ pub enum Formulation {
 }
 
 /// How balls follow their radial motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum BallsInertia {
     /// With their mass: a coordinate each.
     #[default]

@@ -43,9 +43,9 @@ impl Stretch {
             .chain(set)
             .map(|key| (*key).to_owned());
         let case = Case::load(&path, &set.chain(times).collect::<Vec<_>>()).unwrap();
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let asked = case.transient.as_ref().unwrap();
-        let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let model = ModelChoice::of_case(run, &scene).unwrap().model;
         let span = Span {
             duration: self.seconds,
             output_hz: 100e3,

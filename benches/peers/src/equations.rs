@@ -31,9 +31,9 @@ impl Equations {
     /// Of a case file with overrides (`key=value`), in the model that the case asks for.
     pub fn of_case(path: &str, set: &[String]) -> Result<Self, Box<dyn Error>> {
         let case = Case::load(path, set)?;
-        let scene = Scene::build(&case, &Unwatched)?;
-        let asked = case.transient.as_ref().ok_or("no [transient]")?;
-        let chosen = ModelChoice::of_case(&case, asked, &scene)?.model;
+        let run = case.for_run()?;
+        let scene = Scene::build(run, &Unwatched)?;
+        let chosen = ModelChoice::of_case(run, &scene)?.model;
         let system = scene.system(&chosen)?;
         let rest = scene.at_rest(&system);
         let dof = rest.y.len();

@@ -3,10 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::defect::{Defect, RaceName};
+use super::defect::Defect;
 use super::schema::{any_of, table, text, together, words};
 use super::slip::Slip;
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, Mismatch, read_as, written_as};
+use crate::bearing::Race;
+use crate::system::{BallsInertia, Formulation};
 
 /// A deep-groove ball bearing, its outer ring fixed to the housing. Lengths in m.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,10 +19,10 @@ pub struct Bearing {
     pub balls: usize,
     /// Ball radius, > 0.
     pub ball_radius: f64,
-    /// Mass of one ball in kg, > 0; excludes `density`. See [`Bearing::ball_inertia`].
+    /// Mass of one ball in kg, > 0; excludes `density`. Without both: that of a full sphere of `ball_material`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ball_mass: Option<f64>,
-    /// Density of the balls in kg/m^3, > 0; excludes `ball_mass`. See [`Bearing::ball_inertia`].
+    /// Density of the balls in kg/m^3, > 0; excludes `ball_mass`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
     /// Name of the balls' material, for the contact stiffness and, by default, for their mass.
@@ -74,7 +76,7 @@ pub struct Bearing {
 #[serde(deny_unknown_fields)]
 pub struct Wave {
     /// The race that carries it.
-    pub on: RaceName,
+    pub on: Race,
     /// Waves in one turn, at least 1.
     pub order: u32,
     /// In m, >= 0.
@@ -92,28 +94,7 @@ fn under_the_load() -> f64 {
     270.0
 }
 
-/// Where a ball's mass comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BallInertia {
-    /// Given: mass of one ball in kg.
-    Mass(f64),
-    /// A full sphere of this density in kg/m^3.
-    Density(f64),
-    /// A full sphere of the ball material's density.
-    Material,
-}
-
 impl Bearing {
-    /// Returns where a ball's mass comes from.
-    #[must_use]
-    pub fn ball_inertia(&self) -> BallInertia {
-        match (self.ball_mass, self.density) {
-            (Some(mass), _) => BallInertia::Mass(mass),
-            (None, Some(density)) => BallInertia::Density(density),
-            (None, None) => BallInertia::Material,
-        }
-    }
-
     /// Returns the radial play in m: the given one, else R - r - 2 rho_b from the radii.
     #[must_use]
     pub fn play(&self) -> f64 {
@@ -125,27 +106,6 @@ impl Bearing {
     pub fn play_from_radii(&self) -> f64 {
         self.outer_race_radius - self.inner_race_radius - 2.0 * self.ball_radius
     }
-}
-
-/// How balls follow their radial motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BallsInertia {
-    /// With their mass.
-    Dynamic,
-    /// Each where its forces balance: for motions far slower than a ball between its contacts.
-    QuasiStatic,
-}
-
-/// Which equations of motion.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Formulation {
-    /// Ball positions from the fixed centre: symmetric, keeps energy.
-    #[default]
-    Consistent,
-    /// The source paper's, its misprints corrected; counts a rigid motion of the ring twice. For reproduction only.
-    Printed,
 }
 
 /// The races' materials, by name.
@@ -189,7 +149,9 @@ impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
                 outer: name,
             }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
-            other => Err(other.mismatch("a material's name, or { inner = NAME, outer = NAME }")),
+            other => {
+                Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }"))
+            }
         }
     }
 }
@@ -206,12 +168,14 @@ impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
 }
 
 /// Contact stiffness k of F = k delta^1.5.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ContactStiffness {
     /// From the geometry and the materials.
     #[default]
     Hertz,
     /// Given, in N/m^1.5, each > 0.
+    #[serde(untagged)]
     Given {
         /// Between ball and inner race.
         inner: f64,
@@ -220,7 +184,7 @@ pub enum ContactStiffness {
     },
 }
 
-written_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
+read_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
     any_of(&[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)])
 });
 
@@ -230,21 +194,11 @@ impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
     fn try_from(form: Loose<InnerAndOuter<f64>>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["hertz"],
-            }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),
-            other => Err(other.mismatch("\"hertz\", or { inner = NUMBER, outer = NUMBER }")),
-        }
-    }
-}
-
-impl From<ContactStiffness> for Loose<InnerAndOuter<f64>> {
-    fn from(stiffness: ContactStiffness) -> Self {
-        match stiffness {
-            ContactStiffness::Hertz => Self::Word("hertz".to_owned()),
-            ContactStiffness::Given { inner, outer } => Self::Table(InnerAndOuter { inner, outer }),
+            other => Err(other.mismatch(
+                &["hertz"],
+                "\"hertz\", or { inner = NUMBER, outer = NUMBER }",
+            )),
         }
     }
 }

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use super::tests::{FULL, near, read, refusal};
-use super::{Defect, DentProfile, Load, RaceName, Slip};
+use super::{Defect, DentProfile, Load, Slip};
+use crate::bearing::Race;
+use crate::system::BallsInertia;
 
 #[test]
 fn slip_is_a_number_or_a_table_over_time_or_speed() {
@@ -12,9 +14,9 @@ fn slip_is_a_number_or_a_table_over_time_or_speed() {
     };
     assert!(matches!(slip("0.5").unwrap(), Slip::Constant(slip) if near(slip, 0.5)));
     let over = slip("{profile=[{time=0,slip=0.1},{time=1,slip=0}]}").unwrap();
-    assert!(matches!(over, Slip::OverTime(points) if near(points[1].time, 1.0)));
+    assert!(matches!(over, Slip::OverTime(points) if near(points[1].0, 1.0)));
     let over = slip("{profile=[{hz=0,slip=0.1},{hz=20,slip=0}]}").unwrap();
-    assert!(matches!(over, Slip::OverSpeed(points) if near(points[1].hz, 20.0)));
+    assert!(matches!(over, Slip::OverSpeed(points) if near(points[1].0, 20.0)));
     for (set, message) in [
         (
             "{profile=[{hz=0,slip=0.1},{time=20,slip=0}]}",
@@ -73,7 +75,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     };
     let dent = defects("{on='inner',angle_deg=10,length=0.8e-3,depth=15e-6}").unwrap();
     assert!(matches!(&dent[0], Defect::Dent(dent)
-        if dent.on == RaceName::Inner && near(dent.rim_radius, 0.05e-3)));
+        if dent.on == Race::Inner && near(dent.rim_radius, 0.05e-3)));
     assert!(
         matches!(&dent[0], Defect::Dent(dent) if dent.profile == DentProfile::InPlane && dent.width.is_none())
     );
@@ -90,7 +92,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     }
     let measured = defects("{on='outer',angle_deg=10,profile={csv='scan.csv'}}").unwrap();
     assert!(matches!(&measured[0], Defect::Measured(measured)
-        if measured.csv == Path::new("folder/scan.csv")));
+        if measured.profile.csv == Path::new("folder/scan.csv")));
     let flat = defects("{on='ball',ball=5,flat_radius=2e-3,depth=1e-5}").unwrap();
     assert!(
         matches!(&flat[0], Defect::Flat(flat) if flat.ball == 5 && flat.angle_deg.abs() < 1e-300)
@@ -158,7 +160,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
 fn waves_and_ball_sizes_are_checked() {
     let bearing = |set: &str| read(FULL, &[set]).map(|case| case.bearing.unwrap());
     let wavy = bearing("bearing.waviness=[{on='inner',order=9,amplitude=1e-7}]").unwrap();
-    assert!(wavy.waviness[0].on == RaceName::Inner && wavy.waviness[0].order == 9);
+    assert!(wavy.waviness[0].on == Race::Inner && wavy.waviness[0].order == 9);
     for (set, message) in [
         (
             "bearing.waviness=[{on='inner',order=0,amplitude=1e-7}]",
@@ -213,7 +215,7 @@ fn balls_without_inertia_have_no_contact_damping_and_no_printed_equations() {
         read(FULL, &[quasi_static, undamped, other]).map(|case| case.bearing.unwrap().balls_inertia)
     };
     let taken = set("bearing.formulation=consistent").unwrap();
-    assert_eq!(taken, Some(super::BallsInertia::QuasiStatic));
+    assert_eq!(taken, Some(BallsInertia::QuasiStatic));
     for (other, message) in [
         (
             "bearing.contact_damping=1",

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{any_of, one_of, table, whole, words};
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, Mismatch, read_as};
 
 /// How the housing is condensed onto the ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,7 +36,8 @@ impl Default for Condense {
 }
 
 /// What a condensed housing is attached by.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Interface {
     /// The ring's degrees of freedom.
     #[default]
@@ -47,19 +48,17 @@ pub enum Interface {
     Nodes(Vec<u64>),
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = one_of(&["group", "nodes"])))]
 struct InterfaceForm {
     /// The nodes of this physical group of the mesh, each with its displacements.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     nodes: Option<Vec<u64>>,
 }
 
-written_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[
+read_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[
     words(&["ring"]),
     table::<InterfaceForm>(generator),
 ]));
@@ -71,10 +70,6 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
         const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
         match form {
             Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["ring"],
-            }),
             Loose::Table(InterfaceForm {
                 group: Some(group),
                 nodes: None,
@@ -87,40 +82,26 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
                 Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
             }
             Loose::Table(_) => Err(Mismatch::form("several", "one of `group`, `nodes`")),
-            other => Err(other.mismatch(FORMS)),
-        }
-    }
-}
-
-impl From<Interface> for Loose<InterfaceForm> {
-    fn from(interface: Interface) -> Self {
-        match interface {
-            Interface::Ring => Self::Word("ring".to_owned()),
-            Interface::Group(group) => Self::Table(InterfaceForm {
-                group: Some(group),
-                nodes: None,
-            }),
-            Interface::Nodes(nodes) => Self::Table(InterfaceForm {
-                group: None,
-                nodes: Some(nodes),
-            }),
+            other => Err(other.mismatch(&["ring"], FORMS)),
         }
     }
 }
 
 /// How many characteristic constraint modes replace the coordinates of an interface.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum InterfaceModes {
     /// None: the interface keeps its coordinates.
     #[default]
     None,
-    /// So many, > 0.
-    Count(usize),
     /// All up to this frequency in Hz, > 0.
     UpToHz(f64),
+    /// So many, > 0.
+    #[serde(untagged)]
+    Count(usize),
 }
 
-written_as!(InterfaceModes, Loose<UpToForm>, |generator| any_of(&[
+read_as!(InterfaceModes, Loose<UpToForm>, |generator| any_of(&[
     words(&["none"]),
     whole(),
     table::<UpToForm>(generator),
@@ -132,47 +113,38 @@ impl TryFrom<Loose<UpToForm>> for InterfaceModes {
     fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "none" => Ok(Self::None),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["none"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch("\"none\", a whole number or { up_to_hz = NUMBER }")),
-        }
-    }
-}
-
-impl From<InterfaceModes> for Loose<UpToForm> {
-    fn from(modes: InterfaceModes) -> Self {
-        match modes {
-            InterfaceModes::None => Self::Word("none".to_owned()),
-            InterfaceModes::Count(count) => Self::Whole(count),
-            InterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
+            other => Err(other.mismatch(
+                &["none"],
+                "\"none\", a whole number or { up_to_hz = NUMBER }",
+            )),
         }
     }
 }
 
 /// How many fixed-interface modes are kept.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FixedInterfaceModes {
     /// As many as the accuracy asked for needs.
     #[default]
     Auto,
-    /// So many, from 0.
-    Count(usize),
     /// All below this frequency in Hz, > 0.
     UpToHz(f64),
+    /// So many, from 0.
+    #[serde(untagged)]
+    Count(usize),
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct UpToForm {
     /// All up to this frequency in Hz, > 0.
     up_to_hz: f64,
 }
 
-written_as!(FixedInterfaceModes, Loose<UpToForm>, |generator| any_of(&[
+read_as!(FixedInterfaceModes, Loose<UpToForm>, |generator| any_of(&[
     words(&["auto"]),
     whole(),
     table::<UpToForm>(generator),
@@ -184,23 +156,12 @@ impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
     fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch("\"auto\", a whole number or { up_to_hz = NUMBER }")),
-        }
-    }
-}
-
-impl From<FixedInterfaceModes> for Loose<UpToForm> {
-    fn from(modes: FixedInterfaceModes) -> Self {
-        match modes {
-            FixedInterfaceModes::Auto => Self::Word("auto".to_owned()),
-            FixedInterfaceModes::Count(count) => Self::Whole(count),
-            FixedInterfaceModes::UpToHz(up_to_hz) => Self::Table(UpToForm { up_to_hz }),
+            other => Err(other.mismatch(
+                &["auto"],
+                "\"auto\", a whole number or { up_to_hz = NUMBER }",
+            )),
         }
     }
 }

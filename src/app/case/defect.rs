@@ -7,10 +7,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::{any_of, one_of, table, words};
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, Mismatch, read_as};
+use crate::bearing::Race;
+use crate::bearing::defect::CurvatureReading;
 
 /// Damage in the plane of the bearing. Lengths in m.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Defect {
     /// Elliptic dent in a race.
     Dent(DentDefect),
@@ -21,15 +24,16 @@ pub enum Defect {
 }
 
 /// Elliptic dent in a race; lengths > 0.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DentDefect {
     /// The race that carries it.
-    pub on: RaceName,
+    pub on: Race,
     /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero.
     pub angle_deg: f64,
     /// Extent along the rolling direction, below the race's circumference.
     pub length: f64,
     /// Extent across the rolling direction; not felt in the plane, and there with [`DentProfile::Surface`].
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Greatest depth below the undeformed race, below the ball's radius.
     pub depth: f64,
@@ -38,22 +42,23 @@ pub struct DentDefect {
     /// Radius by which the edge is rounded, below half the length.
     pub rim_radius: f64,
     /// Curvature of the contact at its bottom.
-    pub curvature: DefectCurvature,
+    pub curvature: CurvatureReading,
 }
 
 /// Measured profile of a race.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredDefect {
     /// The race that carries it.
-    pub on: RaceName,
+    pub on: Race,
     /// Angle of its middle in degrees, counted like a dent's.
     pub angle_deg: f64,
-    /// Table of arc length and depth.
-    pub csv: PathBuf,
+    /// The file of its shape.
+    pub profile: ProfileFile,
 }
 
 /// Flat on a ball; lengths > 0.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "on", rename = "ball")]
 pub struct FlatDefect {
     /// The ball, from 0.
     pub ball: usize,
@@ -66,11 +71,12 @@ pub struct FlatDefect {
     /// Radius by which its ends are rounded.
     pub rim_radius: f64,
     /// Curvature of the contact on it.
-    pub curvature: DefectCurvature,
+    pub curvature: CurvatureReading,
 }
 
 /// What of a dent's shape a ball feels.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum DentProfile {
     /// Its section in the plane of the bearing, as if it were as wide as the groove.
     #[default]
@@ -79,38 +85,17 @@ pub enum DentProfile {
     Surface,
 }
 
-/// A race.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RaceName {
-    /// The inner race: turns with the shaft.
-    Inner,
-    /// The outer race: fixed in space.
-    Outer,
-}
-
-/// Curvature that enters the stiffness of the contact on a defect.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DefectCurvature {
-    /// That of the profile as it is.
-    #[default]
-    Profile,
-    /// As the source paper prints it: of the dent alone, or of the ball for its flat.
-    Paper,
-}
-
 impl Defect {
     /// The file that it names.
     pub(super) fn path_mut(&mut self) -> Option<&mut PathBuf> {
         match self {
-            Self::Measured(measured) => Some(&mut measured.csv),
+            Self::Measured(measured) => Some(&mut measured.profile.csv),
             Self::Dent(_) | Self::Flat(_) => None,
         }
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Place {
     /// The inner race: turns with the shaft.
@@ -121,56 +106,46 @@ enum Place {
     Ball,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// The file of a measured profile.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ProfileFile<T> {
+pub struct ProfileFile {
     /// Table of arc length and depth, with the header `arc_length_m,depth_m`.
-    csv: T,
+    pub csv: PathBuf,
 }
 
 /// `"in-plane"`, `"surface"`, or a file.
 #[derive(Clone, PartialEq)]
 enum Profile {
     Dent(DentProfile),
-    File(PathBuf),
+    File(ProfileFile),
 }
 
 const IN_PLANE: &str = "in-plane";
 const SURFACE: &str = "surface";
 
-written_as!(Profile, Loose<ProfileFile<PathBuf>>, |generator| any_of(&[
+read_as!(Profile, Loose<ProfileFile>, |generator| any_of(&[
     words(&[IN_PLANE, SURFACE]),
-    table::<ProfileFile<PathBuf>>(generator),
+    table::<ProfileFile>(generator),
 ]));
 
-impl TryFrom<Loose<ProfileFile<PathBuf>>> for Profile {
+impl TryFrom<Loose<ProfileFile>> for Profile {
     type Error = Mismatch;
 
-    fn try_from(form: Loose<ProfileFile<PathBuf>>) -> Result<Self, Mismatch> {
+    fn try_from(form: Loose<ProfileFile>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
             Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &[IN_PLANE, SURFACE],
-            }),
-            Loose::Table(file) => Ok(Self::File(file.csv)),
-            other => Err(other.mismatch("\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
+            Loose::Table(file) => Ok(Self::File(file)),
+            other => Err(other.mismatch(
+                &[IN_PLANE, SURFACE],
+                "\"in-plane\", \"surface\", or { csv = \"FILE\" }",
+            )),
         }
     }
 }
 
-impl From<Profile> for Loose<ProfileFile<PathBuf>> {
-    fn from(profile: Profile) -> Self {
-        match profile {
-            Profile::Dent(DentProfile::InPlane) => Self::Word(IN_PLANE.to_owned()),
-            Profile::Dent(DentProfile::Surface) => Self::Word(SURFACE.to_owned()),
-            Profile::File(csv) => Self::Table(ProfileFile { csv }),
-        }
-    }
-}
-
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = kinds()))]
 /// Damage: a dent in a race, a measured profile of a race, or a flat on a ball. Lengths in m.
@@ -179,35 +154,26 @@ struct DefectForm {
     on: Place,
     /// Angle of its middle in degrees, counted like the ring's; on the inner race when the shaft's angle is zero; of a flat from
     /// the ball's outward radius vector, 0 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     angle_deg: Option<f64>,
     /// Of a dent: extent along the rolling direction, > 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     length: Option<f64>,
     /// Of a dent: extent across the rolling direction, > 0; needed by `profile = "surface"`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
     /// Greatest depth, > 0 and below the ball's radius.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
     /// What of a dent is felt, or the file of a measured profile.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     profile: Option<Profile>,
     /// Radius by which the edge is rounded; 0.05e-3 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     rim_radius: Option<f64>,
     /// Curvature of the contact on it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    curvature: Option<DefectCurvature>,
+    curvature: Option<CurvatureReading>,
     /// Of a flat: the ball, from 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     ball: Option<usize>,
     /// Of a flat: its radius in the rolling direction, above the ball's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     flat_radius: Option<f64>,
 }
 
-written_as!(Defect, DefectForm);
+read_as!(Defect, DefectForm);
 
 /// Dent, measured profile or flat, each with its keys.
 fn kinds() -> Value {
@@ -255,8 +221,8 @@ impl TryFrom<DefectForm> for Defect {
 
     fn try_from(form: DefectForm) -> Result<Self, Mismatch> {
         let on = match form.on {
-            Place::Inner => RaceName::Inner,
-            Place::Outer => RaceName::Outer,
+            Place::Inner => Race::Inner,
+            Place::Outer => Race::Outer,
             Place::Ball => return flat(form).map(Self::Flat),
         };
         const RACE: &str = "keys of a race's defect";
@@ -270,10 +236,13 @@ impl TryFrom<DefectForm> for Defect {
         let profile = match &form.profile {
             None => DentProfile::default(),
             Some(Profile::Dent(profile)) => *profile,
-            Some(Profile::File(csv)) => {
+            Some(Profile::File(file)) => {
                 only_file(&form)?;
-                let csv = csv.clone();
-                return Ok(Self::Measured(MeasuredDefect { on, angle_deg, csv }));
+                return Ok(Self::Measured(MeasuredDefect {
+                    on,
+                    angle_deg,
+                    profile: file.clone(),
+                }));
             }
         };
         const WIDTH: &str =
@@ -325,54 +294,4 @@ fn flat(form: DefectForm) -> Result<FlatDefect, Mismatch> {
         rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
         curvature: form.curvature.unwrap_or_default(),
     })
-}
-
-impl From<Defect> for DefectForm {
-    fn from(defect: Defect) -> Self {
-        let empty = Self {
-            on: Place::Outer,
-            angle_deg: None,
-            length: None,
-            width: None,
-            depth: None,
-            profile: None,
-            rim_radius: None,
-            curvature: None,
-            ball: None,
-            flat_radius: None,
-        };
-        let race = |on| match on {
-            RaceName::Inner => Place::Inner,
-            RaceName::Outer => Place::Outer,
-        };
-        match defect {
-            Defect::Dent(dent) => Self {
-                on: race(dent.on),
-                angle_deg: Some(dent.angle_deg),
-                length: Some(dent.length),
-                width: dent.width,
-                depth: Some(dent.depth),
-                profile: Some(Profile::Dent(dent.profile)),
-                rim_radius: Some(dent.rim_radius),
-                curvature: Some(dent.curvature),
-                ..empty
-            },
-            Defect::Measured(measured) => Self {
-                on: race(measured.on),
-                angle_deg: Some(measured.angle_deg),
-                profile: Some(Profile::File(measured.csv)),
-                ..empty
-            },
-            Defect::Flat(flat) => Self {
-                on: Place::Ball,
-                angle_deg: Some(flat.angle_deg),
-                depth: Some(flat.depth),
-                rim_radius: Some(flat.rim_radius),
-                curvature: Some(flat.curvature),
-                ball: Some(flat.ball),
-                flat_radius: Some(flat.flat_radius),
-                ..empty
-            },
-        }
-    }
 }

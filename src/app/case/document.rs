@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::check::BrokenRule;
 use super::error::{CaseError, Place};
 use super::fault::{Fault, FaultKind};
 use super::nearest::Choices;
@@ -54,6 +55,12 @@ impl<'a> Document<'a> {
     pub(super) fn place(&self, key: &str) -> Place {
         let steps = parse_path(key).unwrap_or_default();
         self.marked(self.root.nearest_mark(&steps))
+    }
+
+    /// Says where the case breaks a rule.
+    pub(super) fn broken(&self, BrokenRule { key, rule }: BrokenRule) -> CaseError {
+        let place = self.place(&key);
+        CaseError::Rule { place, key, rule }
     }
 
     pub(super) fn marked(&self, mark: Option<Mark>) -> Place {

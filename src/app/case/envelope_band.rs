@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
-use serde::ser::{Serialize, Serializer};
 
 use super::schema::{any_of, words};
 use super::union::Mismatch;
@@ -12,26 +12,19 @@ use super::union::Mismatch;
 const KURTOGRAM: &str = "kurtogram";
 
 /// The band of a signal whose envelope is taken: `[from, to]` or `"kurtogram"`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum EnvelopeBand {
-    /// From here to there, Hz; 0 < from < to, below half the sampling rate.
-    Between([f64; 2]),
     /// The most impulsive band of each window.
     Kurtogram,
+    /// From here to there, Hz; 0 < from < to, below half the sampling rate.
+    #[serde(untagged)]
+    Between([f64; 2]),
 }
 
 impl<'de> Deserialize<'de> for EnvelopeBand {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(BandVisitor)
-    }
-}
-
-impl Serialize for EnvelopeBand {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Between(edges) => edges.serialize(to),
-            Self::Kurtogram => to.serialize_str(KURTOGRAM),
-        }
     }
 }
 

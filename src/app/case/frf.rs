@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::modes::Variant;
 use super::schema::one_of;
 use super::sensor::{SensorSpot, SpotKeys};
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
 
 /// Transfer paths: from every force to every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,41 +30,37 @@ pub struct Frf {
 }
 
 /// A unit force.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Push {
     /// Its name in results.
     pub name: String,
     /// Where it acts; on a group it is shared evenly by the nodes.
+    #[serde(flatten)]
     pub spot: SensorSpot,
     /// Direction in the mesh's frame, any length but zero.
     pub direction: [f64; 3],
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = one_of(&["group", "ring_deg", "node", "point"])))]
 /// A unit force at exactly one of `group`, `ring_deg`, `node`, `point`.
 struct PushForm {
     /// Its name in results.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     /// Shared evenly by the nodes of this physical group of the mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
     /// On the ring, at an angle in degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     ring_deg: Option<f64>,
     /// A node of the mesh, by gmsh's tag.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     node: Option<u64>,
     /// The mesh's node nearest to this point, in m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
     /// Direction in the mesh's frame, any length but zero.
     direction: [f64; 3],
 }
 
-written_as!(Push, PushForm);
+read_as!(Push, PushForm);
 
 impl TryFrom<PushForm> for Push {
     type Error = Mismatch;
@@ -91,20 +87,5 @@ impl TryFrom<PushForm> for Push {
             spot,
             direction: form.direction,
         })
-    }
-}
-
-impl From<Push> for PushForm {
-    fn from(push: Push) -> Self {
-        // a force acts on a place, never on a row of a file: no form makes one
-        let keys = SpotKeys::from(push.spot);
-        Self {
-            name: Some(push.name),
-            group: keys.group,
-            ring_deg: keys.ring_deg,
-            node: keys.node,
-            point: keys.point,
-            direction: push.direction,
-        }
     }
 }

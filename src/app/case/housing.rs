@@ -5,27 +5,27 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fe::model::OverlapRule;
+use crate::fe::element::continuum::Formulation;
+use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass, SpringStiffness, SupportShare};
 use crate::numerics::units::LengthUnit;
 
-use super::link::Link;
 use super::schema::{one_of, together};
-use super::spring::{PerNodeOrGroup, Spring};
+use super::spring::{Spring, SpringKeys};
 use super::union::{Mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Housing {
     /// Mesh file. Relative paths in a case file are relative to that file; here they are resolved.
     pub mesh: PathBuf,
     /// Unit of the mesh's coordinates.
     pub length_unit: LengthUnit,
     /// How a plane mesh stands for a solid; `None` for a mesh of solids.
-    pub plane: Option<Plane>,
-    /// Integration of the stiffness of ten-noded tetrahedra.
-    pub integration: Integration,
-    /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
-    pub linear: LinearElements,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane: Option<PlaneModel>,
+    /// Stiffness of ten-noded tetrahedra (`integration`), four-noded quadrilaterals and eight-noded hexahedra (`linear`).
+    #[serde(flatten)]
+    pub formulation: Formulation,
     /// Which group is made of what; at least one.
     pub parts: Vec<Part>,
     /// What holds the housing; may be empty.
@@ -33,52 +33,15 @@ pub struct Housing {
     /// Masses without size, each spread over a group; may be empty.
     pub masses: Vec<PointMass>,
     /// Connections between its groups; may be empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<Link>,
     /// Whether bodies may lie in one another.
+    #[serde(skip_serializing_if = "is_refused")]
     pub overlap: OverlapRule,
 }
 
-/// What a plane mesh assumes across its plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Plane {
-    /// Which stress or strain vanishes.
-    pub assumption: PlaneAssumption,
-    /// Thickness in m, > 0.
-    pub thickness: f64,
-}
-
-/// What vanishes across a plane model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PlaneAssumption {
-    /// Stress across the plane is zero: a sheet.
-    Stress,
-    /// Strain across the plane is zero: a slice of something long.
-    Strain,
-}
-
-/// How the stiffness of ten-noded tetrahedra is integrated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Integration {
-    /// With enough points for curved edges.
-    #[default]
-    Full,
-    /// With four points: exact for straight edges only.
-    #[serde(rename = "4-point")]
-    FourPoint,
-}
-
-/// How four-noded quadrilaterals and eight-noded hexahedra are formulated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LinearElements {
-    /// With incompatible modes: no locking in bending.
-    #[default]
-    Incompatible,
-    /// Plain: much too stiff in bending.
-    Plain,
+fn is_refused(rule: &OverlapRule) -> bool {
+    *rule == OverlapRule::Refuse
 }
 
 /// A group of elements and its material.
@@ -119,21 +82,8 @@ pub struct Support {
 pub enum Hold {
     /// These displacements are zero.
     Fixed(Vec<Axis>),
-    /// Springs to the ground along the axes.
-    Spring {
-        /// Stiffness along each axis.
-        spring: Spring,
-        /// What the stiffness belongs to.
-        per: PerNodeOrGroup,
-    },
-    /// Springs to the ground along the radius from the bearing's axis. Alone they leave a round housing free to turn and
-    /// to slide along the axis.
-    Radial {
-        /// Stiffness in N/m, > 0.
-        stiffness: f64,
-        /// What the stiffness belongs to.
-        per: PerNodeOrGroup,
-    },
+    /// By springs to the ground. Radial ones alone leave a round housing free to turn and to slide along the axis.
+    Spring(SpringStiffness, SupportShare),
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -154,7 +104,7 @@ struct SupportForm {
     radial: Option<f64>,
     /// What the stiffness belongs to; not beside `fixed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    per: Option<PerNodeOrGroup>,
+    per: Option<SupportShare>,
 }
 
 written_as!(Support, SupportForm);
@@ -173,8 +123,8 @@ impl TryFrom<SupportForm> for Support {
                 ));
             }
             (Some(axes), None, None) => Hold::Fixed(axes),
-            (None, Some(spring), None) => Hold::Spring { spring, per },
-            (None, None, Some(stiffness)) => Hold::Radial { stiffness, per },
+            (None, Some(spring), None) => Hold::Spring(spring.into(), per),
+            (None, None, Some(radial)) => Hold::Spring(SpringStiffness::Radial(radial), per),
             (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
@@ -187,32 +137,16 @@ impl TryFrom<SupportForm> for Support {
 
 impl From<Support> for SupportForm {
     fn from(support: Support) -> Self {
-        let mut form = Self {
-            group: support.group,
-            fixed: None,
-            spring: None,
-            radial: None,
-            per: None,
+        let (fixed, keys) = match support.hold {
+            Hold::Fixed(axes) => (Some(axes), SpringKeys::default()),
+            Hold::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
-        match support.hold {
-            Hold::Fixed(axes) => form.fixed = Some(axes),
-            Hold::Spring { spring, per } => {
-                (form.spring, form.per) = (Some(spring), Some(per));
-            }
-            Hold::Radial { stiffness, per } => {
-                (form.radial, form.per) = (Some(stiffness), Some(per));
-            }
+        Self {
+            group: support.group,
+            fixed,
+            spring: keys.spring,
+            radial: keys.radial,
+            per: keys.per,
         }
-        form
     }
-}
-
-/// A mass without size, spread over the nodes of a group.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PointMass {
-    /// Name of a physical group of the mesh.
-    pub group: String,
-    /// Mass of the whole group in kg, > 0.
-    pub mass: f64,
 }

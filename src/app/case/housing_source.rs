@@ -6,19 +6,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::union::{Mismatch, written_as};
-use super::{Case, Housing, Integration, LinearElements, Link, Part, Plane, PointMass, Support};
-use crate::fe::model::OverlapRule;
+use super::union::{Mismatch, read_as};
+use super::{Case, Housing, Part, Support};
+use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
+use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass};
 use crate::numerics::units::LengthUnit;
 
 /// Where the housing comes from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum HousingSource {
-    /// A mesh with materials and supports.
-    Mesh(Box<Housing>),
     /// A file of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's
     /// OUTPUT4 (`.op4`). Relative paths in a case file are relative to that file; here they are resolved.
     Superelement(PathBuf),
+    /// A mesh with materials and supports.
+    #[serde(untagged)]
+    Mesh(Box<Housing>),
 }
 
 impl HousingSource {
@@ -59,7 +62,7 @@ impl Case {
     }
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = json!([
     { "required": ["superelement"], "maxProperties": 1 },
@@ -69,37 +72,26 @@ impl Case {
 struct SourceForm {
     /// File of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's OUTPUT4
     /// (`.op4`), relative to the case file; without any other key.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     superelement: Option<PathBuf>,
     /// Mesh file (gmsh MSH 4.1 or 2.2), relative to the case file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     mesh: Option<PathBuf>,
     /// Unit of the mesh's coordinates.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     length_unit: Option<LengthUnit>,
     /// How a plane mesh stands for a solid; plane meshes only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    plane: Option<Plane>,
+    plane: Option<PlaneModel>,
     /// Integration of the stiffness of ten-noded tetrahedra.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     integration: Option<Integration>,
     /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    linear: Option<LinearElements>,
+    linear: Option<LinearFormulation>,
     /// Which group is made of what; at least one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     parts: Option<Vec<Part>>,
     /// What holds the housing; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     supports: Option<Vec<Support>>,
     /// Masses without size, each spread over a group; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     masses: Option<Vec<PointMass>>,
     /// Connections between its groups; may be empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     links: Option<Vec<Link>>,
     /// Whether bodies may lie in one another; refused unless "allow".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     overlap: Option<OverlapRule>,
 }
 
@@ -122,7 +114,7 @@ impl SourceForm {
     }
 }
 
-written_as!(HousingSource, SourceForm);
+read_as!(HousingSource, SourceForm);
 
 impl TryFrom<SourceForm> for HousingSource {
     type Error = Mismatch;
@@ -144,49 +136,16 @@ impl TryFrom<SourceForm> for HousingSource {
             mesh: form.mesh.ok_or_else(|| missing("mesh"))?,
             length_unit: form.length_unit.ok_or_else(|| missing("length_unit"))?,
             plane: form.plane,
-            integration: form.integration.unwrap_or_default(),
-            linear: form.linear.unwrap_or_default(),
+            formulation: Formulation {
+                integration: form.integration.unwrap_or_default(),
+                linear: form.linear.unwrap_or_default(),
+            },
             parts: form.parts.ok_or_else(|| missing("parts"))?,
             supports: form.supports.unwrap_or_default(),
             masses: form.masses.unwrap_or_default(),
             links: form.links.unwrap_or_default(),
             overlap: form.overlap.unwrap_or_default(),
         })))
-    }
-}
-
-impl From<HousingSource> for SourceForm {
-    fn from(source: HousingSource) -> Self {
-        let mut form = Self {
-            superelement: None,
-            mesh: None,
-            length_unit: None,
-            plane: None,
-            integration: None,
-            linear: None,
-            parts: None,
-            supports: None,
-            masses: None,
-            links: None,
-            overlap: None,
-        };
-        match source {
-            HousingSource::Superelement(path) => form.superelement = Some(path),
-            HousingSource::Mesh(housing) => {
-                let housing = *housing;
-                form.mesh = Some(housing.mesh);
-                form.length_unit = Some(housing.length_unit);
-                form.plane = housing.plane;
-                form.integration = Some(housing.integration);
-                form.linear = Some(housing.linear);
-                form.parts = Some(housing.parts);
-                form.supports = Some(housing.supports);
-                form.masses = Some(housing.masses);
-                form.links = Some(housing.links).filter(|links| !links.is_empty());
-                form.overlap = Some(housing.overlap).filter(|&rule| rule != OverlapRule::Refuse);
-            }
-        }
-        form
     }
 }
 

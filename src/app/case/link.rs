@@ -4,39 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::spring::{PerNodeOrGroup, Spring};
+use super::spring::{Spring, SpringKeys};
 use super::union::{Mismatch, written_as};
-
-/// A connection between two groups. Nodes of one are connected to the nearest points of the other, so the meshes of
-/// two parts need not match: those of the first group by springs, those of the finer surface by a tie.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Link {
-    /// Names of two physical groups of the mesh.
-    pub between: [String; 2],
-    /// How they are connected.
-    pub joint: Joint,
-}
-
-/// How two groups are connected.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Joint {
-    /// By springs along the axes.
-    Spring {
-        /// Stiffness along each axis.
-        spring: Spring,
-        /// What the stiffness belongs to, in the first group.
-        per: PerNodeOrGroup,
-    },
-    /// By springs along the radius from the bearing's axis.
-    Radial {
-        /// Stiffness in N/m, > 0.
-        stiffness: f64,
-        /// What the stiffness belongs to, in the first group.
-        per: PerNodeOrGroup,
-    },
-    /// Rigidly: two surfaces (curves in a plane housing) move as one.
-    Tie,
-}
+use crate::fe::model::{Connection, Link, SpringStiffness, SupportShare};
 
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -57,7 +27,7 @@ struct LinkForm {
     tie: Option<bool>,
     /// What the stiffness belongs to, in the first group; not beside `tie`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    per: Option<PerNodeOrGroup>,
+    per: Option<SupportShare>,
 }
 
 written_as!(Link, LinkForm);
@@ -68,43 +38,39 @@ impl TryFrom<LinkForm> for Link {
     fn try_from(form: LinkForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `spring`, `radial`, `tie = true`";
         let per = form.per.unwrap_or_default();
-        let joint = match (form.spring, form.radial, form.tie) {
+        let connection = match (form.spring, form.radial, form.tie) {
             (None, None, Some(true)) if form.per.is_some() => {
                 return Err(Mismatch::form(
                     "`per` beside `tie`",
                     "`per` beside `spring` or `radial` only",
                 ));
             }
-            (None, None, Some(true)) => Joint::Tie,
-            (Some(spring), None, None) => Joint::Spring { spring, per },
-            (None, Some(stiffness), None) => Joint::Radial { stiffness, per },
+            (None, None, Some(true)) => Connection::Tie,
+            (Some(spring), None, None) => Connection::Spring(spring.into(), per),
+            (None, Some(radial), None) => Connection::Spring(SpringStiffness::Radial(radial), per),
             (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
             (None, None, Some(false)) => return Err(Mismatch::form("`tie = false`", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
         Ok(Self {
             between: form.between,
-            joint,
+            connection,
         })
     }
 }
 
 impl From<Link> for LinkForm {
     fn from(link: Link) -> Self {
-        let mut form = Self {
-            between: link.between,
-            spring: None,
-            radial: None,
-            tie: None,
-            per: None,
+        let (tie, keys) = match link.connection {
+            Connection::Tie => (Some(true), SpringKeys::default()),
+            Connection::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
-        match link.joint {
-            Joint::Spring { spring, per } => (form.spring, form.per) = (Some(spring), Some(per)),
-            Joint::Radial { stiffness, per } => {
-                (form.radial, form.per) = (Some(stiffness), Some(per));
-            }
-            Joint::Tie => form.tie = Some(true),
+        Self {
+            between: link.between,
+            spring: keys.spring,
+            radial: keys.radial,
+            tie,
+            per: keys.per,
         }
-        form
     }
 }

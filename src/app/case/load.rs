@@ -1,29 +1,14 @@
-//! Reading a case in stages, and what a command needs of it.
+//! Reading a case in stages.
 
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::check::{BrokenRule, groups_of};
+use super::check::{BrokenRule, groups_of, known_isotropic, known_material};
 use super::document::{Document, Source};
 use super::error::{CaseError, Place};
 use super::nearest::Choices;
-use super::{Case, Defect, HousingSource, Interface, Linearise, material};
-
-/// What a case is to be used for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
-    /// Eigenfrequencies.
-    Modes,
-    /// A condensed housing.
-    Condense,
-    /// Transfer paths.
-    Frf,
-    /// The simulation in time.
-    Run,
-    /// Speed against accuracy of the simulation.
-    Chart,
-}
+use super::{Case, Defect, HousingSource, IsotropicMaterial, Material, material};
 
 /// A variant of a case, read.
 #[derive(Debug, Clone)]
@@ -75,12 +60,7 @@ impl Case {
                 *path = folder.join(&path);
             }
         }
-        case.validate()
-            .map_err(|BrokenRule { key, rule }| CaseError::Rule {
-                place: document.place(&key),
-                key,
-                rule,
-            })?;
+        case.validate().map_err(|broken| document.broken(broken))?;
         case.source = source;
         if case.title.is_empty() {
             case.title = case.name();
@@ -161,101 +141,26 @@ impl Case {
         }
     }
 
-    /// Checks that the case has the tables that a purpose needs.
-    ///
-    /// # Errors
-    /// [`CaseError::MissingTable`] with the first table that it lacks.
-    pub fn ready_for(&self, purpose: Purpose) -> Result<(), CaseError> {
-        let bearing_and_shaft = [
-            ("[ring]", self.ring.is_some()),
-            ("[bearing]", self.bearing.is_some()),
-            ("[shaft]", self.shaft.is_some()),
-        ];
-        let held = self
-            .ring
-            .as_ref()
-            .is_some_and(|ring| !ring.supports.is_empty())
-            || (self.meshed_housing()).is_some_and(|housing| !housing.supports.is_empty())
-            // what holds it is in its stiffness
-            || self.superelement().is_some();
-        let equilibrium = ("a support in [housing] or [ring]", held);
-        let tied = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
-        let (needed_by, needed) = match purpose {
-            Purpose::Frf => (
-                "`frf`",
-                vec![
-                    ("[housing]", self.housing.is_some()),
-                    ("[frf]", self.frf.is_some()),
-                    ("[[sensors]]", !self.sensors.is_empty()),
-                    (
-                        "[damping], or loss_factor of a material",
-                        self.damping.is_some() || self.has_loss_factor(),
-                    ),
-                    (
-                        "ring.tie, or condense.interface = { nodes = [TAGS] }",
-                        tied || self.superelement().is_some()
-                            || self.condense.interface != Interface::Ring,
-                    ),
-                ],
-            ),
-            Purpose::Condense => (
-                "`condense`",
-                vec![
-                    ("[housing]", self.housing.is_some()),
-                    (
-                        "ring.tie, or condense.interface = { group = \"NAME\" }",
-                        tied || self.superelement().is_some()
-                            || self.condense.interface != Interface::Ring,
-                    ),
-                ],
-            ),
-            Purpose::Modes => match self.modes.linearise {
-                Linearise::None => return Ok(()),
-                Linearise::Static => (
-                    "`modes.linearise = \"static\"`",
-                    [&bearing_and_shaft[..], &[equilibrium]].concat(),
-                ),
-            },
-            Purpose::Run | Purpose::Chart => (
-                if purpose == Purpose::Run {
-                    "`run`"
-                } else {
-                    "`chart`"
-                },
-                [
-                    &bearing_and_shaft[..],
-                    &[
-                        equilibrium,
-                        ("[speed]", self.speed.is_some()),
-                        ("[transient]", self.transient.is_some()),
-                        ("[[sensors]]", !self.sensors.is_empty()),
-                    ],
-                ]
-                .concat(),
-            ),
-        };
-        match needed.iter().find(|(_, present)| !present) {
-            None => Ok(()),
-            Some(&(table, _)) => Err(CaseError::MissingTable {
-                place: Place::File {
-                    path: self.source.path.clone(),
-                },
-                table,
-                needed_by,
-            }),
-        }
+    /// Says where the case breaks a rule.
+    pub(crate) fn broken(&self, BrokenRule { key, rule }: BrokenRule) -> CaseError {
+        let place = self.place(&key);
+        CaseError::Rule { place, key, rule }
     }
 
-    /// Whether a part of the housing is of a material with a loss factor.
-    fn has_loss_factor(&self) -> bool {
-        let mut parts = self
-            .meshed_housing()
-            .into_iter()
-            .flat_map(|housing| &housing.parts);
-        parts.any(|part| {
-            let material = self.material(&part.material);
-            material.is_some_and(|material| material.loss_factor() > 0.0)
-        })
+    /// Returns the material that a key names.
+    ///
+    /// # Errors
+    /// [`CaseError::Rule`] for a name that no material has, of a case that was changed after it was checked.
+    pub(crate) fn known_material(&self, key: &str, name: &str) -> Result<&Material, CaseError> {
+        known_material(self, key, name).map_err(|broken| self.broken(broken))
+    }
+
+    /// Returns the material of a ring or a contact that a key names.
+    ///
+    /// # Errors
+    /// As [`Case::known_material`], and for a material that is not isotropic or has a loss factor.
+    pub(crate) fn isotropic(&self, key: &str, name: &str) -> Result<&IsotropicMaterial, CaseError> {
+        known_isotropic(self, key, name).map_err(|broken| self.broken(broken))
     }
 
     /// Checks that the mesh has every physical group that the case names.

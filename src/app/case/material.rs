@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::one_of;
-use super::union::{Mismatch, OneOrThree, written_as};
+use super::union::{Mismatch, OneOrThree, read_as};
 
 /// An elastic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Material {
     /// The same in every direction.
     Isotropic(IsotropicMaterial),
@@ -19,7 +20,7 @@ pub enum Material {
 }
 
 /// An isotropic elastic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IsotropicMaterial {
     /// Young's modulus E in Pa, > 0.
     pub young: f64,
@@ -29,11 +30,12 @@ pub struct IsotropicMaterial {
     pub density: f64,
     /// Structural loss factor, >= 0 and < 2 (0 unless given): stress leads strain by it, `sigma = E (1 + i eta) eps`. For
     /// frequency responses; undamped modes do not depend on it.
+    #[serde(skip_serializing_if = "is_zero")]
     pub loss_factor: f64,
 }
 
 /// An orthotropic elastic material: printed, rolled, laminated, wooden.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct OrthotropicMaterial {
     /// Young's moduli along the material's x, y, z in Pa, each > 0.
     pub young: [f64; 3],
@@ -44,11 +46,16 @@ pub struct OrthotropicMaterial {
     /// Density in kg/m^3, > 0.
     pub density: f64,
     /// Structural loss factor of all its stiffness, >= 0 and < 2 (0 unless given), as of an isotropic material.
+    #[serde(skip_serializing_if = "is_zero")]
     pub loss_factor: f64,
     /// The material's x in the mesh's axes.
     pub x_axis: [f64; 3],
     /// A direction in the material's x-y plane, in the mesh's axes.
     pub y_axis: [f64; 3],
+}
+
+fn is_zero(loss_factor: &f64) -> bool {
+    *loss_factor == 0.0
 }
 
 impl Material {
@@ -89,7 +96,7 @@ impl Material {
     }
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = either()))]
 /// An elastic material: isotropic with one number each for `young` and `poisson`, orthotropic with three each and `shear`.
@@ -101,20 +108,16 @@ struct MaterialForm {
     /// Density in kg/m^3, > 0.
     density: f64,
     /// Structural loss factor, >= 0 and < 2; 0 unless given. For frequency responses.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     loss_factor: Option<f64>,
     /// Shear moduli xy, yz, xz in Pa, each > 0; orthotropic materials only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     shear: Option<[f64; 3]>,
     /// The material's x in the mesh's axes; orthotropic materials only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     x_axis: Option<[f64; 3]>,
     /// A direction in the material's x-y plane, in the mesh's axes; orthotropic materials only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     y_axis: Option<[f64; 3]>,
 }
 
-written_as!(Material, MaterialForm);
+read_as!(Material, MaterialForm);
 
 /// Isotropic or orthotropic, never half of each.
 fn either() -> Value {
@@ -167,32 +170,6 @@ impl TryFrom<MaterialForm> for Material {
                 Err(Mismatch::form("no `shear`", FORMS))
             }
             _ => Err(Mismatch::form("one number and three", FORMS)),
-        }
-    }
-}
-
-impl From<Material> for MaterialForm {
-    fn from(material: Material) -> Self {
-        let loss_factor = Some(material.loss_factor()).filter(|&factor| factor != 0.0);
-        match material {
-            Material::Isotropic(given) => Self {
-                young: OneOrThree::One(given.young),
-                poisson: OneOrThree::One(given.poisson),
-                density: given.density,
-                loss_factor,
-                shear: None,
-                x_axis: None,
-                y_axis: None,
-            },
-            Material::Orthotropic(given) => Self {
-                young: OneOrThree::Three(given.young),
-                poisson: OneOrThree::Three(given.poisson),
-                density: given.density,
-                loss_factor,
-                shear: Some(given.shear),
-                x_axis: Some(given.x_axis),
-                y_axis: Some(given.y_axis),
-            },
         }
     }
 }

@@ -9,7 +9,7 @@
 //! 4. [`Case::validate`]: ranges, and values that contradict each other;
 //! 5. the same for each of [`Case::variants`].
 //!
-//! What a command needs is checked by [`Case::ready_for`], what the mesh must have by [`Case::check_groups`].
+//! What a command needs is checked by [`Case::ready_for`] (of a run, its parts are in a [`RunCase`]), what the mesh must have by [`Case::check_groups`].
 //! Everything is in SI units unless a name says otherwise (`_deg`, `_hz`); x points right, y up.
 //!
 //! A [`Case`] serialises to the form of the file, all defaults filled in: the echo that results carry.
@@ -40,6 +40,7 @@ mod modes;
 mod motion;
 mod nearest;
 mod path;
+mod purpose;
 mod ring;
 #[cfg(test)]
 mod samples;
@@ -59,38 +60,31 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use bearing::{
-    BallInertia, BallsInertia, Bearing, ContactStiffness, Formulation, RaceMaterial, Wave,
-};
+pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Wave};
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
-pub use defect::{
-    Defect, DefectCurvature, DentDefect, DentProfile, FlatDefect, MeasuredDefect, RaceName,
-};
+pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, ProfileFile};
 pub use document::Source;
 pub use envelope_band::EnvelopeBand;
 pub use error::{CaseError, Place};
 pub use frf::{Frf, Push};
-pub use housing::{Axis, Hold, Housing, Part, Plane, PointMass, Support};
-pub use housing::{Integration, LinearElements, PlaneAssumption};
+pub use housing::{Axis, Hold, Housing, Part, Support};
 pub use housing_source::HousingSource;
-pub use link::{Joint, Link};
-pub use load::{Purpose, VariantCase};
+pub use load::VariantCase;
 pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
 pub use mode_checks::{ComparedModes, ConvergenceMeshes};
-pub use modes::{Expected, Linearise, ModeExtent, Modes, Variant};
-pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed, SpeedPoint};
+pub use modes::{Expected, Linearise, Modes, Variant};
+pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
 pub use nearest::Choices;
-pub use ring::{
-    Bond, Fit, PerNodeOrTotal, RadiusRule, Ring, RingElement, RingSupport, Section, Tie,
-};
+pub use purpose::{Purpose, RunCase};
+pub use ring::{Bond, Ring, RingSupport, Section, Tie};
 pub(in crate::app) use schema::in_words;
 pub use sensor::{Sensor, SensorSpot};
 pub use set::{SetProblem, replaced_argument, split_argument};
-pub use slip::{Slip, SlipAtSpeed, SlipAtTime};
-pub use spring::{PerNodeOrGroup, Spring};
+pub use slip::Slip;
+pub use spring::Spring;
 pub use transient::{
-    Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient, Window,
+    Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient,
 };
 
 /// One case: everything that a command computes from, but the mesh.
@@ -165,16 +159,21 @@ impl Case {
     /// `None` without a bearing, or when its ball material is none of the case's (which [`Case::validate`] refuses).
     #[must_use]
     pub fn ball_mass(&self) -> Option<f64> {
-        let bearing = self.bearing.as_ref()?;
+        self.mass_of_ball(self.bearing.as_ref()?).ok()
+    }
+
+    /// The same of a bearing.
+    pub(crate) fn mass_of_ball(&self, bearing: &Bearing) -> Result<f64, CaseError> {
         let volume = 4.0 / 3.0 * std::f64::consts::PI * bearing.ball_radius.powi(3);
-        match bearing.ball_inertia() {
-            BallInertia::Mass(mass) => Some(mass),
-            BallInertia::Density(density) => Some(density * volume),
-            BallInertia::Material => {
-                let material = self.material(&bearing.ball_material)?;
-                Some(material.density() * volume)
+        Ok(match (bearing.ball_mass, bearing.density) {
+            (Some(mass), _) => mass,
+            (None, Some(density)) => density * volume,
+            (None, None) => {
+                let material =
+                    self.known_material("bearing.ball_material", &bearing.ball_material)?;
+                material.density() * volume
             }
-        }
+        })
     }
 
     /// Returns the frequencies of interest in Hz, lowest first: those of `[accuracy]`, else from 0 to half the sampling

@@ -1,19 +1,20 @@
 //! `[modes]`: which eigenfrequencies.
 
-use crate::fe::modal::ModeRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::mode_checks::{ComparedModes, ConvergenceMeshes};
 use super::schema::together;
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
+use crate::fe::modal::ModeRange;
 
 /// What the `modes` command computes and checks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Modes {
     /// How many modes.
-    pub extent: ModeExtent,
+    #[serde(flatten)]
+    pub extent: ModeRange,
     /// Frequencies to be found among them; may be empty.
     pub expected: Vec<Expected>,
     /// Whether the bearing's contacts act.
@@ -21,31 +22,22 @@ pub struct Modes {
     /// The same case with other keys set, shown beside; may be empty.
     pub variants: Vec<Variant>,
     /// Modes from elsewhere that these are compared with; may be empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub convergence: Option<ConvergenceMeshes>,
     /// Whether loaded modes are followed over a ball pass and over the load.
     pub ball_pass: bool,
 }
 
-/// How many modes are computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ModeExtent {
-    /// The lowest so many, at least 1.
-    Count(usize),
-    /// All below this frequency in Hz, > 0.
-    UpToHz(f64),
-    /// All between two frequencies in Hz, 0 <= low < high.
-    BandHz([f64; 2]),
-}
-
-/// Modes computed where the case says nothing.
+/// Modes computed where the case says nothing, or all of a model that has fewer.
 const DEFAULT_COUNT: usize = 20;
 
 impl Default for Modes {
     fn default() -> Self {
         Self {
-            extent: ModeExtent::Count(DEFAULT_COUNT),
+            extent: ModeRange::AtMost(DEFAULT_COUNT),
             expected: Vec::new(),
             linearise: Linearise::None,
             variants: Vec::new(),
@@ -90,7 +82,7 @@ pub struct Variant {
     pub set: Vec<String>,
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("not" = json!({ "anyOf": [
     together(&["count", "up_to_hz"]),
@@ -100,13 +92,10 @@ pub struct Variant {
 /// What `plummer modes` computes and checks: `count` modes (20 unless given), those below `up_to_hz` or those in `band_hz`.
 struct ModesForm {
     /// The lowest so many, at least 1; 20 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     count: Option<usize>,
     /// All below this frequency in Hz, > 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     up_to_hz: Option<f64>,
     /// All between two frequencies in Hz, 0 <= low < high.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     band_hz: Option<[f64; 2]>,
     /// Frequencies to be found among them; may be empty.
     #[serde(default)]
@@ -118,38 +107,27 @@ struct ModesForm {
     #[serde(default)]
     variants: Vec<Variant>,
     /// Modes from elsewhere that these are compared with; may be empty.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     convergence: Option<ConvergenceMeshes>,
     /// Whether loaded modes are followed over a ball pass and over the load; with `linearise = "static"`.
     #[serde(default)]
     ball_pass: bool,
 }
 
-written_as!(Modes, ModesForm);
-
-impl ModeExtent {
-    /// The same as a range: fewer modes than the default where a model has fewer. What was asked for by name stays.
-    pub fn range(self) -> ModeRange {
-        match self {
-            Self::Count(DEFAULT_COUNT) => ModeRange::AtMost(DEFAULT_COUNT),
-            Self::Count(count) => ModeRange::Count(count),
-            Self::UpToHz(hz) => ModeRange::UpToHz(hz),
-            Self::BandHz(band) => ModeRange::BandHz(band),
-        }
-    }
-}
+read_as!(Modes, ModesForm);
 
 impl TryFrom<ModesForm> for Modes {
     type Error = Mismatch;
 
     fn try_from(form: ModesForm) -> Result<Self, Mismatch> {
         let extent = match (form.count, form.up_to_hz, form.band_hz) {
-            (Some(count), None, None) => ModeExtent::Count(count),
-            (None, Some(limit), None) => ModeExtent::UpToHz(limit),
-            (None, None, Some(band)) => ModeExtent::BandHz(band),
+            // the default, written down, is the default
+            (Some(DEFAULT_COUNT), None, None) => ModeRange::AtMost(DEFAULT_COUNT),
+            (Some(count), None, None) => ModeRange::Count(count),
+            (None, Some(limit), None) => ModeRange::UpToHz(limit),
+            (None, None, Some(band)) => ModeRange::BandHz(band),
             (None, None, None) => Self::default().extent,
             _ => {
                 let expected = "one of `count`, `up_to_hz`, `band_hz`";
@@ -165,26 +143,5 @@ impl TryFrom<ModesForm> for Modes {
             convergence: form.convergence,
             ball_pass: form.ball_pass,
         })
-    }
-}
-
-impl From<Modes> for ModesForm {
-    fn from(modes: Modes) -> Self {
-        let (count, up_to_hz, band_hz) = match modes.extent {
-            ModeExtent::Count(count) => (Some(count), None, None),
-            ModeExtent::UpToHz(limit) => (None, Some(limit), None),
-            ModeExtent::BandHz(band) => (None, None, Some(band)),
-        };
-        Self {
-            count,
-            up_to_hz,
-            band_hz,
-            expected: modes.expected,
-            linearise: modes.linearise,
-            variants: modes.variants,
-            compare: modes.compare,
-            convergence: modes.convergence,
-            ball_pass: modes.ball_pass,
-        }
     }
 }

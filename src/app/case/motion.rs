@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::schema::one_of;
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
+use crate::bearing::SpeedKnot;
 
 /// The rigid shaft with the inner ring. x to the right, y up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,11 +30,13 @@ fn downwards() -> [f64; 2] {
 }
 
 /// A force.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub enum Load {
     /// Always the same, along x and y in N.
+    #[serde(rename = "force")]
     Constant([f64; 2]),
     /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
+    #[serde(rename = "profile")]
     Profile(Vec<LoadPoint>),
 }
 
@@ -47,20 +50,18 @@ pub struct LoadPoint {
     pub force: [f64; 2],
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = one_of(&["force", "profile"])))]
 /// A force on the shaft: constant, or over time.
 struct LoadForm {
     /// Always the same, along x and y in N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     force: Option<[f64; 2]>,
     /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     profile: Option<Vec<LoadPoint>>,
 }
 
-written_as!(Load, LoadForm);
+read_as!(Load, LoadForm);
 
 impl TryFrom<LoadForm> for Load {
     type Error = Mismatch;
@@ -76,30 +77,22 @@ impl TryFrom<LoadForm> for Load {
     }
 }
 
-impl From<Load> for LoadForm {
-    fn from(load: Load) -> Self {
-        let (force, profile) = match load {
-            Load::Constant(force) => (Some(force), None),
-            Load::Profile(points) => (None, Some(points)),
-        };
-        Self { force, profile }
-    }
-}
-
 /// Damping of housing and ring.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Damping {
     /// C = alpha M + beta K through two points of the damping ratio over frequency.
     Ratios([RatioAt; 2]),
+    /// The same damping ratio for every mode, >= 0 and < 1.
+    Modal(f64),
     /// C = alpha M + beta K.
+    #[serde(untagged)]
     Rayleigh {
         /// In 1/s, >= 0.
         alpha: f64,
         /// In s, >= 0.
         beta: f64,
     },
-    /// The same damping ratio for every mode, >= 0 and < 1.
-    Modal(f64),
 }
 
 /// A damping ratio at a frequency.
@@ -112,7 +105,7 @@ pub struct RatioAt {
     pub ratio: f64,
 }
 
-#[derive(Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "oneOf" = one_of(&["ratios", "alpha", "modal"]),
@@ -121,20 +114,16 @@ pub struct RatioAt {
 /// Damping of housing and ring: exactly one of `ratios`, `alpha` with `beta`, `modal`.
 struct DampingForm {
     /// Proportional damping through two points of the damping ratio over frequency.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     ratios: Option<[RatioAt; 2]>,
     /// Damping proportional to mass in 1/s, >= 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     alpha: Option<f64>,
     /// Damping proportional to stiffness in s, >= 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     beta: Option<f64>,
     /// The same damping ratio for every mode, >= 0 and < 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     modal: Option<f64>,
 }
 
-written_as!(Damping, DampingForm);
+read_as!(Damping, DampingForm);
 
 impl TryFrom<DampingForm> for Damping {
     type Error = Mismatch;
@@ -153,40 +142,10 @@ impl TryFrom<DampingForm> for Damping {
     }
 }
 
-impl From<Damping> for DampingForm {
-    fn from(damping: Damping) -> Self {
-        match damping {
-            Damping::Ratios(ratios) => Self {
-                ratios: Some(ratios),
-                ..Self::default()
-            },
-            Damping::Rayleigh { alpha, beta } => Self {
-                alpha: Some(alpha),
-                beta: Some(beta),
-                ..Self::default()
-            },
-            Damping::Modal(ratio) => Self {
-                modal: Some(ratio),
-                ..Self::default()
-            },
-        }
-    }
-}
-
 /// Shaft speed over time: straight lines between points, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Speed {
     /// At least one point, times increasing.
-    pub profile: Vec<SpeedPoint>,
-}
-
-/// Speed at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpeedPoint {
-    /// In s.
-    pub time: f64,
-    /// Revolutions per second, positive from +x towards +y.
-    pub hz: f64,
+    pub profile: Vec<SpeedKnot>,
 }

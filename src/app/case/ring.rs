@@ -4,6 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::spring::Spring;
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::material::RadiusRule;
+use crate::fe::model::{Fit, SpringShare};
 
 /// The ring. Angles are counted from +x towards +y, the ring's first node stands at 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,7 +25,7 @@ pub struct Ring {
     pub radius_rule: RadiusRule,
     /// The element's interpolation.
     #[serde(default)]
-    pub element: RingElement,
+    pub element: RingInterpolation,
     /// Whether shear deformation is included.
     #[serde(default = "super::yes")]
     pub shear: bool,
@@ -84,28 +87,6 @@ pub enum Bond {
     Composite,
 }
 
-/// On which radius sections that slip bend.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RadiusRule {
-    /// Each on its own.
-    #[default]
-    Own,
-    /// All on the centroid weighted by EA; slip does not justify it, the source paper's frequencies need it.
-    CommonCentroid,
-}
-
-/// The ring element's interpolation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RingElement {
-    /// Solves the unloaded circular arc exactly.
-    #[default]
-    ExactArc,
-    /// The source paper's (Raveendranath, Singh, Pradhan 1999): polynomials.
-    Raveendranath,
-}
-
 /// Springs at the ring's nodes from one angle to another.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -118,21 +99,10 @@ pub struct RingSupport {
     pub spring: Spring,
     /// What the stiffness belongs to.
     #[serde(default)]
-    pub per: PerNodeOrTotal,
+    pub per: SpringShare,
     /// Distance from the node outwards to where the spring attaches, in m; may be negative.
     #[serde(default)]
     pub offset: f64,
-}
-
-/// Whether a stiffness stands at each node or is shared by all.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PerNodeOrTotal {
-    /// Each node has a spring of this stiffness.
-    #[default]
-    Node,
-    /// The springs sum up to this stiffness.
-    Total,
 }
 
 /// The ring's connection to the housing's bore.
@@ -161,15 +131,4 @@ fn axis_z() -> [f64; 3] {
 
 fn axis_x() -> [f64; 3] {
     [1.0, 0.0, 0.0]
-}
-
-/// What the bore follows.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fit {
-    /// The ring's section in all directions.
-    #[default]
-    Bonded,
-    /// The ring's radial displacement only; the ring may turn in the bore and, in a solid housing, move along it.
-    Sliding,
 }

@@ -4,22 +4,30 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, read_as};
 
 /// An accelerometer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sensor {
     /// Name of its signal; unique.
     pub name: String,
     /// Where it stands.
+    #[serde(flatten)]
     pub spot: SensorSpot,
     /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero; zero for
     /// [`SensorSpot::Recovered`], whose row has a direction of its own.
+    #[serde(skip_serializing_if = "is_of_row")]
     pub direction: [f64; 3],
 }
 
+/// Whether a direction is that of a row.
+fn is_of_row(direction: &[f64; 3]) -> bool {
+    direction.iter().all(|&component| component == 0.0)
+}
+
 /// Where a sensor stands.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum SensorSpot {
     /// The mean over a physical group of the mesh.
     Group(String),
@@ -33,7 +41,7 @@ pub enum SensorSpot {
     Recovered(String),
 }
 
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "oneOf" = one_of(&["group", "ring_deg", "node", "point", "recovered"]),
@@ -45,26 +53,20 @@ struct SensorForm {
     /// Name of its signal; unique.
     name: String,
     /// The mean over this physical group of the mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     group: Option<String>,
     /// On the ring, at an angle in degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     ring_deg: Option<f64>,
     /// A node of the mesh, by gmsh's tag.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     node: Option<u64>,
     /// The mesh's node nearest to this point, in m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     point: Option<[f64; 3]>,
     /// What this row of the superelement's sensors gives; without `direction`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     recovered: Option<String>,
     /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     direction: Option<[f64; 3]>,
 }
 
-written_as!(Sensor, SensorForm);
+read_as!(Sensor, SensorForm);
 
 impl TryFrom<SensorForm> for Sensor {
     type Error = Mismatch;
@@ -98,27 +100,7 @@ impl TryFrom<SensorForm> for Sensor {
     }
 }
 
-impl From<Sensor> for SensorForm {
-    fn from(sensor: Sensor) -> Self {
-        let direction = match sensor.spot {
-            SensorSpot::Recovered(_) => None,
-            _ => Some(sensor.direction),
-        };
-        let keys = SpotKeys::from(sensor.spot);
-        Self {
-            name: sensor.name,
-            group: keys.group,
-            ring_deg: keys.ring_deg,
-            node: keys.node,
-            point: keys.point,
-            recovered: keys.recovered,
-            direction,
-        }
-    }
-}
-
 /// A place by the key that it is written with: one of them has a value.
-#[derive(Default)]
 pub(super) struct SpotKeys {
     pub group: Option<String>,
     pub ring_deg: Option<f64>,
@@ -143,19 +125,5 @@ impl SpotKeys {
             (None, _) => Err(Mismatch::form("none of them", expected)),
             _ => Err(Mismatch::form("several", expected)),
         }
-    }
-}
-
-impl From<SensorSpot> for SpotKeys {
-    fn from(spot: SensorSpot) -> Self {
-        let mut keys = Self::default();
-        match spot {
-            SensorSpot::Group(group) => keys.group = Some(group),
-            SensorSpot::RingDeg(angle) => keys.ring_deg = Some(angle),
-            SensorSpot::Node(tag) => keys.node = Some(tag),
-            SensorSpot::Point(point) => keys.point = Some(point),
-            SensorSpot::Recovered(row) => keys.recovered = Some(row),
-        }
-        keys
     }
 }

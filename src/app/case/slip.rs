@@ -12,36 +12,16 @@ use super::union::{Loose, Mismatch, written_as};
 pub enum Slip {
     /// Always the same.
     Constant(f64),
-    /// Over time, at least one point, times increasing.
-    OverTime(Vec<SlipAtTime>),
-    /// Over the magnitude of the shaft's speed, at least one point, speeds not below 0 and increasing.
-    OverSpeed(Vec<SlipAtSpeed>),
+    /// Time (s) and slip, at least one point, times increasing.
+    OverTime(Vec<(f64, f64)>),
+    /// Magnitude of the shaft's speed (Hz) and slip, at least one point, speeds not below 0 and increasing.
+    OverSpeed(Vec<(f64, f64)>),
 }
 
 impl Default for Slip {
     fn default() -> Self {
         Self::Constant(0.0)
     }
-}
-
-/// Slip at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SlipAtTime {
-    /// In s.
-    pub time: f64,
-    /// Share of the rolling speed that is lost.
-    pub slip: f64,
-}
-
-/// Slip at a speed of the shaft.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SlipAtSpeed {
-    /// Revolutions per second, either way.
-    pub hz: f64,
-    /// Share of the rolling speed that is lost.
-    pub slip: f64,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -88,34 +68,24 @@ impl TryFrom<Loose<SlipForm>> for Slip {
             Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
             Loose::Table(form) => form,
             other => {
-                return Err(
-                    other.mismatch("a number, or { profile = [{ time or hz, slip }, ...] }")
-                );
+                return Err(other.mismatch(
+                    &[],
+                    "a number, or { profile = [{ time or hz, slip }, ...] }",
+                ));
             }
         };
-        let over_time = form
-            .profile
-            .iter()
-            .map(|point| match (point.time, point.hz) {
-                (Some(time), None) => Some(SlipAtTime {
-                    time,
-                    slip: point.slip,
-                }),
-                _ => None,
-            });
+        let points = form.profile.iter();
+        let over_time = points.clone().map(|point| match (point.time, point.hz) {
+            (Some(time), None) => Some((time, point.slip)),
+            _ => None,
+        });
         if let Some(points) = over_time.collect() {
             return Ok(Self::OverTime(points));
         }
-        let over_speed = form
-            .profile
-            .iter()
-            .map(|point| match (point.time, point.hz) {
-                (None, Some(hz)) => Some(SlipAtSpeed {
-                    hz,
-                    slip: point.slip,
-                }),
-                _ => None,
-            });
+        let over_speed = points.map(|point| match (point.time, point.hz) {
+            (None, Some(hz)) => Some((hz, point.slip)),
+            _ => None,
+        });
         if let Some(points) = over_speed.collect() {
             return Ok(Self::OverSpeed(points));
         }
@@ -132,18 +102,18 @@ impl From<Slip> for Loose<SlipForm> {
             Slip::Constant(slip) => return Self::Number(slip),
             Slip::OverTime(points) => points
                 .into_iter()
-                .map(|point| SlipPoint {
-                    time: Some(point.time),
+                .map(|(time, slip)| SlipPoint {
+                    time: Some(time),
                     hz: None,
-                    slip: point.slip,
+                    slip,
                 })
                 .collect(),
             Slip::OverSpeed(points) => points
                 .into_iter()
-                .map(|point| SlipPoint {
+                .map(|(hz, slip)| SlipPoint {
                     time: None,
-                    hz: Some(point.hz),
-                    slip: point.slip,
+                    hz: Some(hz),
+                    slip,
                 })
                 .collect(),
         };

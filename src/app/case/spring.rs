@@ -3,16 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Whether a stiffness stands at each node of a group or is shared by all of them.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PerNodeOrGroup {
-    /// Each node has a spring of this stiffness, so the sum grows with the mesh.
-    #[default]
-    Node,
-    /// The springs of the group sum up to this stiffness, spread evenly over its length, area or volume.
-    Group,
-}
+use crate::fe::model::{SpringStiffness, SupportShare};
 
 /// Spring stiffnesses along the axes in N/m, each >= 0 and at least one > 0.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -27,4 +18,32 @@ pub struct Spring {
     /// Along z; solid models only.
     #[serde(default)]
     pub z: f64,
+}
+
+impl From<Spring> for SpringStiffness {
+    fn from(Spring { x, y, z }: Spring) -> Self {
+        Self::Global([x, y, z])
+    }
+}
+
+/// The keys that springs of a support or a link are written with.
+#[derive(Default)]
+pub(super) struct SpringKeys {
+    pub spring: Option<Spring>,
+    pub radial: Option<f64>,
+    pub per: Option<SupportShare>,
+}
+
+impl SpringKeys {
+    pub(super) fn of(stiffness: SpringStiffness, share: SupportShare) -> Self {
+        let (spring, radial) = match stiffness {
+            SpringStiffness::Global([x, y, z]) => (Some(Spring { x, y, z }), None),
+            SpringStiffness::Radial(radial) => (None, Some(radial)),
+        };
+        Self {
+            spring,
+            radial,
+            per: Some(share),
+        }
+    }
 }

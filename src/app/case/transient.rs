@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::EnvelopeBand;
 use super::schema::{any_of, number, together, whole, words};
-use super::union::{Loose, Mismatch, NoTable, written_as};
+use super::union::{Loose, Mismatch, NoTable, read_as};
+use crate::numerics::series::TimeWindow;
 
 /// What the signals must be good for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -123,16 +124,18 @@ pub enum Method {
 }
 
 /// Length of a time step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StepLength {
     /// The program's choice.
     #[default]
     Auto,
     /// In s, > 0.
+    #[serde(untagged)]
     Seconds(f64),
 }
 
-written_as!(StepLength, Loose<NoTable>, |_| any_of(&[
+read_as!(StepLength, Loose<NoTable>, |_| any_of(&[
     words(&["auto"]),
     number()
 ]));
@@ -143,29 +146,17 @@ impl TryFrom<Loose<NoTable>> for StepLength {
     fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto"],
-            }),
             Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
             // Steps of whole seconds are far below 2^53.
             Loose::Whole(seconds) => Ok(Self::Seconds(seconds as f64)),
-            other => Err(other.mismatch("\"auto\" or a number")),
-        }
-    }
-}
-
-impl From<StepLength> for Loose<NoTable> {
-    fn from(step: StepLength) -> Self {
-        match step {
-            StepLength::Auto => Self::Word("auto".to_owned()),
-            StepLength::Seconds(seconds) => Self::Number(seconds),
+            other => Err(other.mismatch(&["auto"], "\"auto\" or a number")),
         }
     }
 }
 
 /// Which coupled modes of ring and housing are kept in the simulation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ModesKept {
     /// As many as the accuracy asked for needs.
     #[default]
@@ -173,10 +164,11 @@ pub enum ModesKept {
     /// All of them.
     All,
     /// The lowest so many, at least 1.
+    #[serde(untagged)]
     Count(usize),
 }
 
-written_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
+read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
     words(&["auto", "all"]),
     whole()
 ]));
@@ -188,22 +180,8 @@ impl TryFrom<Loose<NoTable>> for ModesKept {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Word(word) if word == "all" => Ok(Self::All),
-            Loose::Word(found) => Err(Mismatch::Word {
-                found,
-                valid: &["auto", "all"],
-            }),
             Loose::Whole(count) => Ok(Self::Count(count)),
-            other => Err(other.mismatch("\"auto\", \"all\" or a whole number")),
-        }
-    }
-}
-
-impl From<ModesKept> for Loose<NoTable> {
-    fn from(modes: ModesKept) -> Self {
-        match modes {
-            ModesKept::Auto => Self::Word("auto".to_owned()),
-            ModesKept::All => Self::Word("all".to_owned()),
-            ModesKept::Count(count) => Self::Whole(count),
+            other => Err(other.mismatch(&["auto", "all"], "\"auto\", \"all\" or a whole number")),
         }
     }
 }
@@ -225,7 +203,7 @@ pub struct Analysis {
     pub whiten: bool,
     /// Windows whose envelope spectra are computed; may be empty.
     #[serde(default)]
-    pub envelope: Vec<Window>,
+    pub envelope: Vec<TimeWindow>,
     /// Scalogram of every sensor; `None`: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scalogram: Option<ScalogramWindow>,
@@ -252,14 +230,4 @@ pub struct ScalogramWindow {
 
 fn usual_cycles() -> f64 {
     6.0
-}
-
-/// A stretch of time within the simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Window {
-    /// In s.
-    pub from: f64,
-    /// In s, after `from`.
-    pub to: f64,
 }

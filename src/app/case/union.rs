@@ -43,16 +43,12 @@ impl Mismatch {
     }
 }
 
-/// Reads and writes a type by way of the type that mirrors its form in the file
-/// (`TryFrom<Form, Error = Mismatch>` and `From<Type>`). Its schema is that of the form, or what the function returns for a form
-/// whose type does not say it.
-macro_rules! written_as {
+/// Reads a type by way of the type that mirrors its form in the file (`TryFrom<Form, Error = Mismatch>`): what serde derives for flattened and
+/// untagged types loses the place of an error, the path of its key and the names that are valid there. The type's schema is that of the form, or
+/// what the function returns for a form whose type does not say it.
+macro_rules! read_as {
     ($type:ty, $form:ty) => {
-        crate::app::case::union::written_as!(
-            $type,
-            $form,
-            crate::app::case::schema::table::<$form>
-        );
+        crate::app::case::union::read_as!($type, $form, crate::app::case::schema::table::<$form>);
     };
     ($type:ty, $form:ty, $schema:expr) => {
         impl schemars::JsonSchema for $type {
@@ -71,6 +67,14 @@ macro_rules! written_as {
                 <$type>::try_from(form).map_err(crate::app::case::union::Mismatch::raise)
             }
         }
+    };
+}
+pub(super) use read_as;
+
+/// Reads and writes a type by way of its form: as [`read_as`], and `From<Type>`.
+macro_rules! written_as {
+    ($type:ty, $form:ty $(, $schema:expr)?) => {
+        crate::app::case::union::read_as!($type, $form $(, $schema)?);
 
         impl serde::Serialize for $type {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -93,14 +97,19 @@ pub(super) enum Loose<T> {
 }
 
 impl<T> Loose<T> {
-    /// The error for a form that the key does not take.
-    pub(super) fn mismatch(&self, expected: &'static str) -> Mismatch {
+    /// The error for a form that the key does not take; it takes these words.
+    pub(super) fn mismatch(
+        self,
+        valid: &'static [&'static str],
+        expected: &'static str,
+    ) -> Mismatch {
         let found = match self {
+            Self::Word(found) if !valid.is_empty() => return Mismatch::Word { found, valid },
             Self::Word(word) => format!("\"{word}\""),
             Self::Whole(number) => number.to_string(),
             Self::Number(number) => number.to_string(),
             Self::Table(_) => "a table".to_owned(),
-            Self::Other(kind) => kind.clone(),
+            Self::Other(kind) => kind,
         };
         Mismatch::form(found, expected)
     }
@@ -164,7 +173,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for LooseVisitor<T> {
 }
 
 /// The table of a [`Loose`] value that takes none: whatever is in it, the value is refused as a table.
-#[derive(Debug, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, serde::Deserialize)]
 pub(super) struct NoTable {}
 
 /// A number, or three for the directions.
@@ -177,15 +186,6 @@ pub(super) enum OneOrThree {
 impl<'de> Deserialize<'de> for OneOrThree {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(OneOrThreeVisitor)
-    }
-}
-
-impl Serialize for OneOrThree {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::One(number) => to.serialize_f64(*number),
-            Self::Three(numbers) => numbers.serialize(to),
-        }
     }
 }
 

@@ -38,11 +38,12 @@ pub(super) fn chart(
         return alone(case, wanted.effort, &command, options, progress);
     }
     let effort = wanted.effort;
-    let result = compute_chart(case, effort, progress)?;
+    let run = case.for_chart().map_err(ComputeError::from)?;
+    let result = compute_chart(run, effort, progress)?;
     let stability = match wanted.only {
         None => {
             let conditions = Condition::all(case, effort);
-            let map = compute_stability(case, &result.scene, conditions, effort, progress)?;
+            let map = compute_stability(run, &result.scene, conditions, effort, progress)?;
             Some(map)
         }
         Some(_) => None,

@@ -27,9 +27,10 @@ pub(super) fn alone(
     progress: &Progress,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let scene = Scene::with_all_modes(case, progress)?;
+    let run = case.for_chart().map_err(ComputeError::from)?;
+    let scene = Scene::with_all_modes(run, progress)?;
     let conditions = Condition::all(case, effort);
-    let stability = compute_stability(case, &scene, conditions, effort, progress)?;
+    let stability = compute_stability(run, &scene, conditions, effort, progress)?;
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let report = stability_report(case, &stability, command);

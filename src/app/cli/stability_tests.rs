@@ -2,10 +2,12 @@
 
 use std::fs;
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::{Effort, OutputFolder, compute_stability, stability_lines, write_stability};
 use crate::app::case::Case;
+use crate::app::cli::results::{result_head, result_of_case};
+use crate::app::cli::{Progress, Visibility};
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{Condition, stability_report};
 use crate::numerics::Unwatched;
@@ -24,7 +26,8 @@ fn a_map_has_its_files_and_limits() {
     let case = small();
     let out = std::env::temp_dir().join(format!("plummer-{}-stability", std::process::id()));
     fs::create_dir_all(&out).unwrap();
-    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let run = case.for_chart().unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
     let asked = vec![
         Condition::AsGiven,
         Condition::ContactDamping(0.0),
@@ -32,8 +35,11 @@ fn a_map_has_its_files_and_limits() {
         // more than a tenth of the ball's radius
         Condition::RadialPlay(2e-4),
     ];
-    let map = compute_stability(&case, &scene, asked, Effort::Quick, &Unwatched).unwrap();
-    let (json, _) = write_stability(&OutputFolder::at(&out), Map::new(), &map).unwrap();
+    let map = compute_stability(run, &scene, asked, Effort::Quick, &Unwatched).unwrap();
+    let head = result_head("chart", &Progress::new(Visibility::Hidden), 0.0, None);
+    let record = result_of_case(head, &case, &[], map.summary());
+    write_stability(&OutputFolder::at(&out), &map, &record).unwrap();
+    let json = serde_json::to_value(&record).unwrap();
     let conditions = json["conditions"].as_array().unwrap();
     let of = |condition: usize, name: &str| -> Value {
         let methods = conditions[condition]["methods"].as_array().unwrap().iter();

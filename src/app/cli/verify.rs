@@ -117,7 +117,6 @@ fn summary(sections: &[SectionResult]) -> String {
 mod tests {
     use super::*;
     use crate::app::cli::Visibility;
-    use crate::app::verification::FormulationRow;
     use crate::report::Section;
     use serde_json::Value;
 

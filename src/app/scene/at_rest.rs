@@ -1,19 +1,17 @@
 //! What is simulated: structure and bearing of a case, at rest where they start.
 
-use super::bearing::{bearing_setup, race_contacts};
+use super::bearing::{contacts_of, setup_of};
 use super::contact_limits::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
 use super::run_model::RunModel;
-use super::structure::CoupledStructure;
-use crate::app::case::Case;
+use super::structure::{CoupledStructure, needed_modes};
+use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
 use crate::bearing::{Race, RaceContacts};
 use crate::numerics::Watch;
 use crate::numerics::ode::State;
-use crate::system::{
-    BearingSetup, CoupledSystem, Equilibrium, ModeDamping, StaticCondition, SystemError,
-};
+use crate::system::{BearingSetup, CoupledSystem, Equilibrium, ModeDamping, StaticCondition};
 
 /// Structure and bearing of a case and the equilibrium that a simulation starts from.
 #[derive(Debug)]
@@ -39,30 +37,27 @@ impl Scene {
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        refuse_structural_damping(case)?;
-        Self::built(CoupledStructure::build(case, watch)?, case, watch)
+    pub fn build(run: RunCase<'_>, watch: &impl Watch) -> Result<Self, ComputeError> {
+        Self::with_modes(run, needed_modes(run.case), watch)
     }
 
     /// The scene of a case with all modes of its structure, however many.
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn with_all_modes(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        refuse_structural_damping(case)?;
-        let stage = CoupledStructure::with_modes(case, usize::MAX, watch)?;
-        Self::built(stage, case, watch)
+    pub fn with_all_modes(run: RunCase<'_>, watch: &impl Watch) -> Result<Self, ComputeError> {
+        Self::with_modes(run, usize::MAX, watch)
     }
 
-    fn built(
-        stage: Option<CoupledStructure>,
-        case: &Case,
+    fn with_modes(
+        run: RunCase<'_>,
+        count: usize,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
-        // a run without ring, bearing, shaft or transient was refused with the case
-        let stage = stage.ok_or(SystemError::NotSupported)?;
+        refuse_structural_damping(run.case)?;
+        let stage = CoupledStructure::around_ring(run.case, run.ring, count, watch)?;
         watch.stage("equilibrium");
-        Self::around(stage, case)
+        Self::around(stage, run)
     }
 
     /// The scene of a case around ring and housing that are built already, of a case that has the same: for several runs of one
@@ -70,16 +65,15 @@ impl Scene {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn around(stage: CoupledStructure, case: &Case) -> Result<Self, ComputeError> {
-        let bearing = (bearing_setup(case)?, race_contacts(case)?);
-        let ((Some(setup), Some(contacts)), Some(asked)) = (bearing, case.transient.as_ref())
-        else {
-            return Err(SystemError::NotSupported.into());
-        };
+    pub fn around(stage: CoupledStructure, run: RunCase<'_>) -> Result<Self, ComputeError> {
+        let RunCase { case, bearing, .. } = run;
+        let setup = setup_of(case, bearing, run.shaft)?;
+        let contacts = contacts_of(case, bearing)?;
+        let start = run.transient.start;
         if let Some(imported) = &stage.imported {
             imported.refuse_structural_damping()?;
         }
-        let condition = StaticCondition::at(&setup, asked.start);
+        let condition = StaticCondition::at(&setup, start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         accept_contacts(&setup, &contacts, &equilibrium)?;
         let housing = stage.housing.as_ref();
@@ -90,7 +84,7 @@ impl Scene {
             setup,
             contacts,
             damping: damping(case)?,
-            start: asked.start,
+            start,
             equilibrium,
         })
     }

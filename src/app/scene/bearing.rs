@@ -7,16 +7,28 @@ use crate::app::error::ComputeError;
 use crate::bearing::{
     BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
 };
-use crate::system::{BallsInertia, BearingSetup, Formulation};
+use crate::system::BearingSetup;
 
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
 ///
 /// # Errors
 /// [`ComputeError`] naming what is out of range.
 pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> {
-    let (Some(asked), Some(asked_shaft)) = (&case.bearing, &case.shaft) else {
-        return Ok(None);
-    };
+    let parts = case.bearing.as_ref().zip(case.shaft.as_ref());
+    parts
+        .map(|(asked, shaft)| setup_of(case, asked, shaft))
+        .transpose()
+}
+
+/// The bearing that is asked for, with its loads and motion.
+///
+/// # Errors
+/// [`ComputeError`] naming what is out of range.
+pub(crate) fn setup_of(
+    case: &Case,
+    asked: &case::Bearing,
+    asked_shaft: &case::Shaft,
+) -> Result<BearingSetup, ComputeError> {
     let geometry = geometry(case, asked)?;
     let stiffness = match asked.stiffness {
         case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
@@ -26,7 +38,7 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> 
         race_defects,
         flats,
     } = defects(&asked.defects, &geometry, stiffness)?;
-    Ok(Some(BearingSetup {
+    Ok(BearingSetup {
         cage: Cage::new(
             &geometry,
             speed(case)?,
@@ -36,22 +48,16 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> 
         geometry,
         stiffness,
         contact_damping: asked.contact_damping,
-        formulation: match asked.formulation {
-            case::Formulation::Consistent => Formulation::Consistent,
-            case::Formulation::Printed => Formulation::Printed,
-        },
-        balls_inertia: match asked.balls_inertia {
-            Some(case::BallsInertia::QuasiStatic) => BallsInertia::QuasiStatic,
-            // what is left to the program is chosen for a run, with the rest of its model
-            Some(case::BallsInertia::Dynamic) | None => BallsInertia::Dynamic,
-        },
+        formulation: asked.formulation,
+        // what is left to the program is chosen for a run, with the rest of its model
+        balls_inertia: asked.balls_inertia.unwrap_or_default(),
         waves: waves(&asked.waviness, &geometry)?,
         oversizes: asked.ball_radius_differences.clone(),
         race_defects,
         flats,
         gravity: asked_shaft.gravity,
         shaft: shaft(asked_shaft),
-    }))
+    })
 }
 
 /// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.
@@ -59,11 +65,19 @@ pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> 
 /// # Errors
 /// [`ComputeError`] naming what is out of range.
 pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, ComputeError> {
-    let Some(asked) = &case.bearing else {
-        return Ok(None);
-    };
-    let geometry = geometry(case, asked)?;
-    Ok(Some(hertz(case, asked, &geometry)?))
+    let asked = case.bearing.as_ref();
+    asked.map(|asked| contacts_of(case, asked)).transpose()
+}
+
+/// Hertz contacts of the bearing that is asked for.
+///
+/// # Errors
+/// [`ComputeError`] naming what is out of range.
+pub(crate) fn contacts_of(
+    case: &Case,
+    asked: &case::Bearing,
+) -> Result<RaceContacts, ComputeError> {
+    hertz(case, asked, &geometry(case, asked)?)
 }
 
 /// Geometry of a case's bearing; `None` without one.
@@ -79,8 +93,7 @@ fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, Compu
     let geometry = BearingGeometry::new(BearingDimensions {
         balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
         ball_radius: asked.ball_radius,
-        // a ball material that is missing was refused with the case
-        ball_mass: case.ball_mass().unwrap_or(f64::NAN),
+        ball_mass: case.mass_of_ball(asked)?,
         inner_race_radius: asked.inner_race_radius,
         outer_race_radius: asked.outer_race_radius,
         inner_groove_radius: asked.inner_groove_radius,
@@ -97,8 +110,8 @@ fn hertz(
     asked: &case::Bearing,
     geometry: &BearingGeometry,
 ) -> Result<RaceContacts, ComputeError> {
-    let contact = |name: &str| -> Result<ContactMaterial, ComputeError> {
-        let material = super::housing::material(case, name)?;
+    let contact = |key: &str, name: &str| -> Result<ContactMaterial, ComputeError> {
+        let material = super::housing::material(case, key, name)?;
         Ok(ContactMaterial {
             young: material.young,
             poisson: material.poisson,
@@ -106,8 +119,8 @@ fn hertz(
     };
     Ok(RaceContacts::new(
         geometry,
-        contact(&asked.ball_material)?,
-        contact(&asked.race_material.inner)?,
-        contact(&asked.race_material.outer)?,
+        contact("bearing.ball_material", &asked.ball_material)?,
+        contact("bearing.race_material", &asked.race_material.inner)?,
+        contact("bearing.race_material", &asked.race_material.outer)?,
     )?)
 }

@@ -1,12 +1,11 @@
 //! What of a case's bearing is not a perfect circle.
 
-use crate::app::case::{self, Defect, DefectCurvature, DentProfile, RaceName};
+use crate::app::case::{self, Defect, DentProfile};
 use crate::app::error::ComputeError;
 use crate::bearing::defect::{
-    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect,
-    SurfaceDent, reduced,
+    BallFlat, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect, SurfaceDent, reduced,
 };
-use crate::bearing::{BearingGeometry, ContactStiffness, Race, Wave};
+use crate::bearing::{BearingGeometry, ContactStiffness, Wave};
 use crate::system::FlatOnBall;
 use std::path::Path;
 
@@ -37,23 +36,22 @@ pub(crate) fn defects(
                     width: dent.width,
                     depth: dent.depth,
                     rim_radius: dent.rim_radius,
-                    curvature: reading(dent.curvature),
+                    curvature: dent.curvature,
                 };
-                let on = race(dent.on);
                 let dent = match dent.profile {
                     DentProfile::InPlane => {
-                        Dent::new(geometry, on, shape, stiffness).map(RaceDefect::Dent)
+                        Dent::new(geometry, dent.on, shape, stiffness).map(RaceDefect::Dent)
                     }
-                    DentProfile::Surface => SurfaceDent::new(geometry, on, shape, stiffness)
+                    DentProfile::Surface => SurfaceDent::new(geometry, dent.on, shape, stiffness)
                         .map(RaceDefect::SurfaceDent),
                 };
                 race_defects.push((index, dent.map_err(refused)?));
             }
             Defect::Measured(measured) => {
-                let samples = read_profile(index, &measured.csv)?;
+                let samples = read_profile(index, &measured.profile.csv)?;
                 let profile = MeasuredProfile::new(
                     geometry,
-                    race(measured.on),
+                    measured.on,
                     measured.angle_deg.to_radians(),
                     &samples,
                     stiffness,
@@ -66,7 +64,7 @@ pub(crate) fn defects(
                     radius: flat.flat_radius,
                     depth: flat.depth,
                     rim_radius: flat.rim_radius,
-                    curvature: reading(flat.curvature),
+                    curvature: flat.curvature,
                 };
                 flats.push(FlatOnBall {
                     ball: flat.ball,
@@ -93,7 +91,7 @@ pub(crate) fn waves(
 ) -> Result<Vec<Wave>, ComputeError> {
     let wave = |(index, wave): (usize, &case::Wave)| {
         let wave = Wave {
-            race: race(wave.on),
+            race: wave.on,
             order: wave.order,
             amplitude: wave.amplitude,
             phase: wave.phase_deg.to_radians(),
@@ -102,20 +100,6 @@ pub(crate) fn waves(
         checked.map_err(|source| ComputeError::Wave { index, source })
     };
     asked.iter().enumerate().map(wave).collect()
-}
-
-fn race(name: RaceName) -> Race {
-    match name {
-        RaceName::Inner => Race::Inner,
-        RaceName::Outer => Race::Outer,
-    }
-}
-
-fn reading(curvature: DefectCurvature) -> CurvatureReading {
-    match curvature {
-        DefectCurvature::Profile => CurvatureReading::Total,
-        DefectCurvature::Paper => CurvatureReading::Paper,
-    }
 }
 
 /// Two defects must not share a part of a race: a contact belongs to one of them.

@@ -2,7 +2,7 @@
 
 use crate::app::case::{self, Case, Load, Slip};
 use crate::app::error::ComputeError;
-use crate::bearing::{SlipProfile, SpeedKnot, SpeedProfile};
+use crate::bearing::{SlipProfile, SpeedProfile};
 use crate::system::{LoadProfile, Shaft};
 
 /// Shaft speed over time; at rest where the case says nothing.
@@ -13,11 +13,7 @@ pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
     let Some(speed) = &case.speed else {
         return Ok(SpeedProfile::constant(0.0)?);
     };
-    let knots = speed.profile.iter().map(|point| SpeedKnot {
-        time: point.time,
-        frequency_hz: point.hz,
-    });
-    Ok(SpeedProfile::new(&knots.collect::<Vec<_>>())?)
+    Ok(SpeedProfile::new(&speed.profile)?)
 }
 
 /// Slip of the cage.
@@ -27,14 +23,8 @@ pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
 pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
     Ok(match asked {
         Slip::Constant(slip) => SlipProfile::constant(*slip),
-        Slip::OverTime(points) => {
-            let points: Vec<_> = points.iter().map(|p| (p.time, p.slip)).collect();
-            SlipProfile::over_time(&points)
-        }
-        Slip::OverSpeed(points) => {
-            let points: Vec<_> = points.iter().map(|p| (p.hz, p.slip)).collect();
-            SlipProfile::over_speed(&points)
-        }
+        Slip::OverTime(points) => SlipProfile::over_time(points),
+        Slip::OverSpeed(points) => SlipProfile::over_speed(points),
     }?)
 }
 

@@ -1,18 +1,16 @@
 //! Mesh to matrices of a housing, as the case asks for them.
 
 use super::mesh_digest::read_mesh;
-use crate::app::case::{self, Case, Hold, Joint, PerNodeOrGroup};
+use crate::app::case::{self, Case, Hold, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
-    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
-    PlaneModel, PointMass, RingFrame, SpringStiffness, SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame,
+    SupportShare,
 };
 use crate::numerics::Watch;
-use crate::numerics::linalg::LinalgError;
 
 /// A housing, assembled.
 #[derive(Debug, Clone)]
@@ -55,12 +53,8 @@ impl AssembledHousing {
     /// # Errors
     /// As [`AssembledHousing::build`].
     pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        // a case with neither ring nor housing was refused before
-        let nothing = LinalgError::TooManyModes {
-            asked: 1,
-            available: 0,
-        };
-        Self::build(case, watch)?.ok_or_else(|| nothing.into())
+        let nothing = || case.broken(Rule::NothingToModel.at("housing"));
+        Self::build(case, watch)?.ok_or_else(|| nothing().into())
     }
 }
 
@@ -80,40 +74,14 @@ pub(crate) fn description(
     });
     Ok(HousingDescription {
         parts: parts.collect::<Result<_, ComputeError>>()?,
-        plane: housing.plane.map(|plane| PlaneModel {
-            assumption: match plane.assumption {
-                case::PlaneAssumption::Stress => PlaneAssumption::Stress,
-                case::PlaneAssumption::Strain => PlaneAssumption::Strain,
-            },
-            thickness: plane.thickness,
-        }),
-        formulation: formulation(housing),
+        plane: housing.plane,
+        formulation: housing.formulation,
         supports: housing.supports.iter().map(support).collect(),
-        masses: housing
-            .masses
-            .iter()
-            .map(|mass| PointMass {
-                group: mass.group.clone(),
-                mass: mass.mass,
-            })
-            .collect(),
-        links: housing.links.iter().map(link).collect(),
+        masses: housing.masses.clone(),
+        links: housing.links.clone(),
         overlap: housing.overlap,
         frame: frame(case)?,
     })
-}
-
-fn formulation(housing: &case::Housing) -> Formulation {
-    Formulation {
-        integration: match housing.integration {
-            case::Integration::Full => Integration::Full,
-            case::Integration::FourPoint => Integration::FourPoint,
-        },
-        linear: match housing.linear {
-            case::LinearElements::Incompatible => LinearFormulation::Incompatible,
-            case::LinearElements::Plain => LinearFormulation::Plain,
-        },
-    }
 }
 
 /// Where the ring sits; the mesh's own frame without one.
@@ -129,19 +97,18 @@ fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
 /// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`ComputeError::Material`] for values out of range; a missing name or an orthotropic material was refused with
-/// the case.
-pub(crate) fn material(case: &Case, name: &str) -> Result<Material, ComputeError> {
-    let given = case.material(name).and_then(case::Material::isotropic);
-    let (young, poisson, density) = given.map_or((f64::NAN, f64::NAN, f64::NAN), |given| {
-        (given.young, given.poisson, given.density)
-    });
-    Material::new(young, poisson, density).map_err(|source| named(name, source))
+/// [`ComputeError::Material`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
+pub(crate) fn material(case: &Case, key: &str, name: &str) -> Result<Material, ComputeError> {
+    checked(name, case.isotropic(key, name)?)
+}
+
+fn checked(name: &str, given: &IsotropicMaterial) -> Result<Material, ComputeError> {
+    Material::new(given.young, given.poisson, given.density).map_err(|source| named(name, source))
 }
 
 fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
-    match case.material(name) {
-        Some(case::Material::Orthotropic(given)) => {
+    match case.known_material("housing.parts", name)? {
+        case::Material::Orthotropic(given) => {
             let case::OrthotropicMaterial {
                 young,
                 poisson,
@@ -156,30 +123,16 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeE
                 .map(ElasticMaterial::Orthotropic)
                 .map_err(|source| named(name, source))
         }
-        given => {
-            let loss_factor = given.map_or(0.0, case::Material::loss_factor);
-            material(case, name)?
-                .with_loss_factor(loss_factor)
-                .map(ElasticMaterial::from)
-                .map_err(|source| named(name, source))
-        }
+        case::Material::Isotropic(given) => checked(name, given)?
+            .with_loss_factor(given.loss_factor)
+            .map(ElasticMaterial::from)
+            .map_err(|source| named(name, source)),
     }
 }
 
 fn named(name: &str, source: MaterialError) -> ComputeError {
     let name = name.to_owned();
     ComputeError::Material { name, source }
-}
-
-fn share(per: PerNodeOrGroup) -> SupportShare {
-    match per {
-        PerNodeOrGroup::Node => SupportShare::PerNode,
-        PerNodeOrGroup::Group => SupportShare::PerGroup,
-    }
-}
-
-fn along_axes(spring: case::Spring) -> SpringStiffness {
-    SpringStiffness::Global([spring.x, spring.y, spring.z])
 }
 
 fn support(support: &case::Support) -> HousingSupport {
@@ -189,29 +142,11 @@ fn support(support: &case::Support) -> HousingSupport {
                 [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
             (Constraint::Fixed(fixed), SupportShare::PerNode)
         }
-        Hold::Spring { spring, per } => (Constraint::Spring(along_axes(*spring)), share(*per)),
-        Hold::Radial { stiffness, per } => (
-            Constraint::Spring(SpringStiffness::Radial(*stiffness)),
-            share(*per),
-        ),
+        Hold::Spring(stiffness, share) => (Constraint::Spring(*stiffness), *share),
     };
     HousingSupport {
         group: support.group.clone(),
         constraint,
         share,
-    }
-}
-
-fn link(link: &case::Link) -> Link {
-    let connection = match link.joint {
-        Joint::Spring { spring, per } => Connection::Spring(along_axes(spring), share(per)),
-        Joint::Radial { stiffness, per } => {
-            Connection::Spring(SpringStiffness::Radial(stiffness), share(per))
-        }
-        Joint::Tie => Connection::Tie,
-    };
-    Link {
-        between: link.between.clone(),
-        connection,
     }
 }

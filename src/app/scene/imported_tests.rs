@@ -398,9 +398,9 @@ fn a_run_says_what_its_superelement_leaves_out() {
         let basis = format!("{ON_RING}[condense]\nfixed_interface_modes = {vectors}\n");
         write_superelement_npz(&path, &record_of(&original(PLANE, 24, &basis))).unwrap();
         let case = imported(&path, 24, REST, ON_RING);
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let asked = case.transient.as_ref().unwrap();
-        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let choice = ModelChoice::of_case(run, &scene).unwrap();
         let part = choice.parts.last().unwrap();
         let imported = scene.stage.imported.as_ref().unwrap();
         let complete = imported.record.complete_hz.unwrap();

@@ -3,9 +3,8 @@
 use super::housing::{AssembledHousing, material};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
-use crate::fe::element::curved_beam::RingInterpolation;
-use crate::fe::material::{BeamSection, Bond, RadiusRule, RingLayer};
-use crate::fe::model::{Fit, Ring, RingSupport, RingTie, SpringShare};
+use crate::fe::material::{BeamSection, Bond, RingLayer};
+use crate::fe::model::{Ring, RingSupport, RingTie};
 
 /// The ring of a case, and how it sits in its housing if it does.
 ///
@@ -21,13 +20,9 @@ pub(crate) fn ring_and_tie(
     let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
         return Ok((ring, None));
     };
-    let fit = match tie.fit {
-        case::Fit::Bonded => Fit::Bonded,
-        case::Fit::Sliding => Fit::Sliding,
-    };
-    // a tie without an outer radius was refused with the case
-    let outer = asked.outer_radius.unwrap_or(f64::NAN);
-    let tie = RingTie::new(&housing.mesh, &housing.model, &tie.group, &ring, outer, fit)?;
+    let outer = asked.outer_radius;
+    let AssembledHousing { mesh, model, .. } = housing;
+    let tie = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
     Ok((ring, Some(tie)))
 }
 
@@ -37,7 +32,7 @@ pub(crate) fn ring_and_tie(
 /// [`ComputeError::Material`].
 pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, ComputeError> {
     Ok(RingLayer {
-        material: material(case, &section.material)?,
+        material: material(case, "ring.sections", &section.material)?,
         area: section.area,
         inertia: section.inertia,
         axial_inertia: section.axial_inertia,
@@ -51,12 +46,9 @@ pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, C
 pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, ComputeError> {
     let layers = asked.sections.iter().map(|section| layer(case, section));
     let layers = layers.collect::<Result<Vec<_>, ComputeError>>()?;
-    let bond = match (asked.bond, asked.radius_rule) {
-        (case::Bond::Composite, _) => Bond::Composite,
-        (case::Bond::Slip, case::RadiusRule::Own) => Bond::Slip(RadiusRule::Own),
-        (case::Bond::Slip, case::RadiusRule::CommonCentroid) => {
-            Bond::Slip(RadiusRule::CommonCentroid)
-        }
+    let bond = match asked.bond {
+        case::Bond::Composite => Bond::Composite,
+        case::Bond::Slip => Bond::Slip(asked.radius_rule),
     };
     let mut section = BeamSection::combine(&layers, bond)?;
     if !asked.shear {
@@ -65,24 +57,17 @@ pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ri
     if !asked.rotary_inertia {
         section = section.without_rotary_inertia();
     }
-    let interpolation = match asked.element {
-        case::RingElement::ExactArc => RingInterpolation::ExactArc,
-        case::RingElement::Raveendranath => RingInterpolation::Raveendranath,
-    };
     let mut ring = if in_space {
-        Ring::in_space(asked.nodes, section, interpolation)?
+        Ring::in_space(asked.nodes, section, asked.element)?
     } else {
-        Ring::new(asked.nodes, section, interpolation)?
+        Ring::new(asked.nodes, section, asked.element)?
     };
     for support in &asked.supports {
         ring.add_support(&RingSupport {
             from: support.from_deg.to_radians(),
             to: support.to_deg.to_radians(),
             spring: [support.spring.x, support.spring.y, support.spring.z],
-            share: match support.per {
-                case::PerNodeOrTotal::Node => SpringShare::PerNode,
-                case::PerNodeOrTotal::Total => SpringShare::Total,
-            },
+            share: support.per,
             offset: support.offset,
         })?;
     }

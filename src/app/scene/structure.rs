@@ -11,7 +11,7 @@ use crate::app::error::ComputeError;
 use crate::fe::model::{RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
 use crate::numerics::Watch;
-use crate::system::{Sensor, Structure, StructureModes};
+use crate::system::{Formulation, Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
 
 /// Modes of a ring of many nodes where a part of them is enough: as many as a ring of 72 nodes in a solid housing has of its own.
@@ -74,9 +74,21 @@ impl CoupledStructure {
         count: usize,
         watch: &impl Watch,
     ) -> Result<Option<Self>, ComputeError> {
-        let Some(asked) = &case.ring else {
-            return Ok(None);
-        };
+        let ring = case.ring.as_ref();
+        ring.map(|asked| Self::around_ring(case, asked, count, watch))
+            .transpose()
+    }
+
+    /// The same around the ring that is asked for.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub(crate) fn around_ring(
+        case: &Case,
+        asked: &case::Ring,
+        count: usize,
+        watch: &impl Watch,
+    ) -> Result<Self, ComputeError> {
         let gravity = case
             .shaft
             .as_ref()
@@ -92,7 +104,7 @@ impl CoupledStructure {
             let rows = imported.sensor_rows(case, structure.ring())?;
             add_sensors(&mut structure, &case.sensors, rows)?;
             let around = Around::Imported(Box::new(imported));
-            return Self::solved(structure, around, count, watch).map(Some);
+            return Self::solved(structure, around, count, watch);
         }
         let asked_basis = basis_choice(case);
         let choice = BasisChoice {
@@ -122,7 +134,7 @@ impl CoupledStructure {
                 rows.push(place.on_ring(structure.dof()));
             }
             add_sensors(&mut structure, &case.sensors, rows)?;
-            return Self::solved(structure, Around::Nothing, count, watch).map(Some);
+            return Self::solved(structure, Around::Nothing, count, watch);
         };
         let mut rows = Vec::with_capacity(case.sensors.len());
         for sensor in &case.sensors {
@@ -143,10 +155,10 @@ impl CoupledStructure {
         add_sensors(&mut structure, &case.sensors, rows)?;
         let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
         let solved = Self::solved(structure, around, count, watch)?;
-        Ok(Some(Self {
+        Ok(Self {
             complete_hz,
             ..solved
-        }))
+        })
     }
 
     fn solved(
@@ -192,12 +204,11 @@ impl CoupledStructure {
 }
 
 /// How many modes a case asks for: the printed equations and the source's method take all.
-fn needed_modes(case: &Case) -> usize {
-    let printed = case::Formulation::Printed;
+pub(crate) fn needed_modes(case: &Case) -> usize {
     let bearing = case.bearing.as_ref();
     let transient = case.transient.as_ref();
     let source = transient.is_some_and(|asked| asked.method == case::Method::NewmarkExplicit);
-    if source || bearing.is_some_and(|bearing| bearing.formulation == printed) {
+    if source || bearing.is_some_and(|bearing| bearing.formulation == Formulation::Printed) {
         return usize::MAX;
     }
     match transient.map(|asked| asked.modes) {

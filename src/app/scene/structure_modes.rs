@@ -2,7 +2,6 @@
 
 use super::housing::AssembledHousing;
 use super::structure::CoupledStructure;
-use crate::app::case::ModeExtent;
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::modal::{FullModes, ModalSurvey, ModeRange, RingShapes};
@@ -15,11 +14,11 @@ impl CoupledStructure {
     /// [`ComputeError`] of eigenvalue computation and analysis.
     pub fn survey(
         &self,
-        extent: ModeExtent,
+        extent: ModeRange,
         watch: &impl Watch,
     ) -> Result<ModalSurvey, ComputeError> {
         let ring = self.structure.ring();
-        let range = extent.range();
+        let range = extent;
         Ok(match (&self.housing, &self.tie) {
             (
                 Some(AssembledHousing {
@@ -60,8 +59,8 @@ impl CoupledStructure {
     ///
     /// # Errors
     /// [`ComputeError`] of eigenvalue computation.
-    pub(crate) fn unloaded_modes(&self, extent: ModeExtent) -> Result<UnloadedModes, ComputeError> {
-        let basis = FullModes::of(self.full_matrices(), extent.range(), &Unwatched)?.basis;
+    pub(crate) fn unloaded_modes(&self, extent: ModeRange) -> Result<UnloadedModes, ComputeError> {
+        let basis = FullModes::of(self.full_matrices(), extent, &Unwatched)?.basis;
         Ok(UnloadedModes {
             frequencies_hz: basis.frequencies_hz,
             rigid: basis.rigid_modes,

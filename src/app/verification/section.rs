@@ -296,7 +296,7 @@ mod tests {
         assert!(check(-2.25, 0.125).ok() && check(-1.75, 0.125).ok());
         assert!(!check(-2.25, 0.12).ok() && !check(2.0, 0.5).ok());
         assert!(!check(f64::NAN, 1.0).ok());
-        let json = serde_json::to_value(check(-2.25, 0.1)).unwrap();
+        let json = serde_json::to_value(check(-2.25, 0.1).summary()).unwrap();
         assert_eq!(json["relative_error"], 0.125);
         assert_eq!(json["ok"], false);
     }

@@ -10,6 +10,8 @@ use super::floor::Floor;
 use super::race_profile::{PolarPosition, RaceProfile};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Rim radius when none is given, m: the order of the radius left by a hard particle's edge.
 pub const DEFAULT_RIM_RADIUS: f64 = 0.05e-3;
@@ -17,11 +19,13 @@ pub const DEFAULT_RIM_RADIUS: f64 = 0.05e-3;
 /// A dent may not be deeper than this fraction of its length: steeper is a hole, not an impression.
 const DEPTH_LIMIT: f64 = 0.25;
 
-/// Which in-plane curvature enters the Hertz stiffness on a floor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Curvature in the plane that enters the Hertz stiffness of the contact on a defect.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum CurvatureReading {
     /// That of the floor as it is: race and ellipse together, `±1/R − κ_D`, or the flat's own `1/R_2`.
     #[default]
+    #[serde(rename = "profile")]
     Total,
     /// As the source prints: on a dent the ellipse alone, `−κ_D` of (23), (24), depth measured from a flat;
     /// on a ball's flat the ball's own `1/ρ_b` of (31).

@@ -13,15 +13,17 @@ const ZERO: f64 = 4.0;
 const NEAR_ZERO: f64 = 1e4;
 
 /// Which modes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ModeRange {
     /// The lowest so many, at least 1.
     Count(usize),
     /// The lowest so many, at least 1, or all if there are fewer.
+    #[serde(rename = "count")]
     AtMost(usize),
-    /// All below a frequency, Hz.
+    /// All below a frequency in Hz, > 0.
     UpToHz(f64),
-    /// All between two frequencies, Hz.
+    /// All between two frequencies in Hz, 0 <= low < high.
     BandHz([f64; 2]),
 }
 

@@ -9,6 +9,8 @@ use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A group of elements and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,12 +21,13 @@ pub struct HousingPart {
     pub material: ElasticMaterial,
 }
 
-/// How a plane mesh stands for a solid.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a plane mesh assumes across its plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct PlaneModel {
-    /// What vanishes across it.
+    /// Which stress or strain vanishes.
     pub assumption: PlaneAssumption,
-    /// Thickness, m, > 0.
+    /// Thickness in m, > 0.
     pub thickness: f64,
 }
 

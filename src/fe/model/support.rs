@@ -1,5 +1,8 @@
 //! Supports, point masses and links of a housing, as they are asked for.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// What a support does to the nodes of its group.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Constraint {
@@ -18,12 +21,15 @@ pub enum SpringStiffness {
     Radial(f64),
 }
 
-/// Whether each node gets the stiffness, or the group shares it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Whether a stiffness stands at each node of a group or is shared by all of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum SupportShare {
-    /// Each node carries the given stiffness: depends on the mesh.
+    /// Each node has a spring of this stiffness, so the sum grows with the mesh.
+    #[default]
+    #[serde(rename = "node")]
     PerNode,
-    /// The group carries it, spread by volume, area or length, equally over points.
+    /// The springs of the group sum up to this stiffness, spread evenly over its volume, area or length, or equally over points.
+    #[serde(rename = "group")]
     PerGroup,
 }
 
@@ -38,20 +44,21 @@ pub struct HousingSupport {
     pub share: SupportShare,
 }
 
-/// A mass spread over a named group.
-#[derive(Debug, Clone, PartialEq)]
+/// A mass without size, spread over the nodes of a group.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct PointMass {
-    /// The group.
+    /// Name of a physical group of the mesh.
     pub group: String,
-    /// Its mass, kg, > 0.
+    /// Mass of the whole group in kg, > 0.
     pub mass: f64,
 }
 
-/// A connection between two groups of a housing. Nodes of one are connected to the nearest points of the other, so
-/// the meshes need not match.
+/// A connection between two groups of a housing. Nodes of one are connected to the nearest points of the other, so the meshes of two
+/// parts need not match: those of the first group by springs, those of the finer surface by a tie.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
-    /// Springs connect the nodes of the first to points of the second.
+    /// Names of two physical groups of the mesh.
     pub between: [String; 2],
     /// How.
     pub connection: Connection,

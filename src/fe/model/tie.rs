@@ -20,18 +20,22 @@
 use super::{HousingModel, HousingPartition, ModelError, Ring};
 use crate::fe::mesh::Mesh;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Deviation of a bore node from the ring's outer radius, and of the ring's plane from the bore, that a tie accepts,
 /// relative to that radius. Chords of a
 /// coarse first-order mesh keep their nodes on the circle; a wrong unit or centre does not.
 const RADIUS_TOLERANCE: f64 = 0.01;
 
-/// Whether the bore sticks to the ring.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What the bore follows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Fit {
-    /// All displacement components follow the ring.
+    /// The ring's section in all directions.
+    #[default]
     Bonded,
-    /// The radial one follows, the others are free.
+    /// The ring's radial displacement only; the ring may turn in the bore and, in a solid housing, move along it.
     Sliding,
 }
 
@@ -46,7 +50,7 @@ pub struct RingTie {
 }
 
 impl RingTie {
-    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m).
+    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m); where it is not known, the nodes may be anywhere.
     ///
     /// # Errors
     /// [`ModelError::TieRadius`] or [`ModelError::TieAxial`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
@@ -57,7 +61,7 @@ impl RingTie {
         housing: &HousingModel,
         group: &str,
         ring: &Ring,
-        outer_radius: f64,
+        outer_radius: impl Into<Option<f64>>,
         fit: Fit,
     ) -> Result<Self, ModelError> {
         if ring.is_in_space() != (housing.dimension == 3) {
@@ -68,8 +72,10 @@ impl RingTie {
         let bore = housing.group_on_housing(mesh, group, "the tie")?;
         let on_housing = |node: &usize| housing.used[*node];
         let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
-        check_radius(housing, group, &nodes, outer_radius)?;
-        check_axial(housing, group, &nodes, outer_radius)?;
+        if let Some(outer_radius) = outer_radius.into() {
+            check_radius(housing, group, &nodes, outer_radius)?;
+            check_axial(housing, group, &nodes, outer_radius)?;
+        }
         check_free(housing, group, &nodes)?;
         let d = housing.dimension;
         let components = match fit {

@@ -1,6 +1,7 @@
 //! `TimeSeries`: samples at equal steps, with the unit they are in.
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::SeriesError;
 
@@ -31,11 +32,12 @@ pub struct TimeSeries {
 }
 
 /// A stretch of time, from <= t < to, s.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct TimeWindow {
-    /// First instant, s.
+    /// First instant, in s.
     pub from: f64,
-    /// End, s; the instant itself is outside.
+    /// End, in s, after `from`; the instant itself is outside.
     pub to: f64,
 }
 

@@ -3,13 +3,15 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    BallsInertia, Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect,
-    Formulation, MeasuredDefect, RaceName, Section, Slip,
+    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect,
+    Section, Slip,
 };
 use super::range::{
     above, above_zero, below, degrees, known_isotropic, not_empty, ratio, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
+use crate::bearing::Race;
+use crate::system::{BallsInertia, Formulation};
 
 pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     let Some(bearing) = &case.bearing else {
@@ -78,10 +80,10 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
 }
 
 fn slip(slip: &Slip) -> Result<(), BrokenRule> {
-    let (name, points): (_, Vec<(f64, f64)>) = match slip {
+    let (name, points) = match slip {
         Slip::Constant(slip) => return ratio("bearing.slip", *slip),
-        Slip::OverTime(points) => ("time", points.iter().map(|p| (p.time, p.slip)).collect()),
-        Slip::OverSpeed(points) => ("hz", points.iter().map(|p| (p.hz, p.slip)).collect()),
+        Slip::OverTime(points) => ("time", points),
+        Slip::OverSpeed(points) => ("hz", points),
     };
     let key = "bearing.slip.profile";
     not_empty(key, points.len(), "at least one point")?;
@@ -110,7 +112,8 @@ fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
         let other = "bearing.density";
         return Err(Rule::Beside { other }.at("bearing.ball_mass"));
     }
-    known_isotropic(case, "bearing.ball_material", &bearing.ball_material)
+    known_isotropic(case, "bearing.ball_material", &bearing.ball_material)?;
+    Ok(())
 }
 
 fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
@@ -229,8 +232,8 @@ fn dent_rules(
         }
     }
     let radius = match dent.on {
-        RaceName::Inner => bearing.inner_race_radius,
-        RaceName::Outer => bearing.outer_race_radius,
+        Race::Inner => bearing.inner_race_radius,
+        Race::Outer => bearing.outer_race_radius,
     };
     below(
         at("length"),

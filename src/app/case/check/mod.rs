@@ -1,17 +1,14 @@
 //! The one place where values are checked against their ranges and against each other.
 
 mod contact;
-#[cfg(test)]
-mod name_tests;
 mod range;
 mod rule;
 mod structure;
 #[cfg(test)]
 mod tests;
 mod time;
-#[cfg(test)]
-mod window_tests;
 
+pub(super) use range::{known_isotropic, known_material};
 pub use rule::{BrokenRule, Rule};
 
 use super::{Case, Interface, SensorSpot};

@@ -1,7 +1,7 @@
 //! Ranges that many keys share.
 
 use super::super::nearest::Choices;
-use super::super::{Case, Material};
+use super::super::{Case, IsotropicMaterial, Material};
 use super::rule::{BrokenRule, Rule};
 
 fn within(
@@ -189,15 +189,19 @@ pub(super) fn each_once<'a>(
     Ok(())
 }
 
-pub(super) fn known_material(
-    case: &Case,
+/// The material of a name.
+pub(in crate::app::case) fn known_material<'c>(
+    case: &'c Case,
     key: impl Into<String>,
     name: &str,
-) -> Result<(), BrokenRule> {
-    if case.material(name).is_some() {
-        return Ok(());
-    }
-    unknown_material(case, key, name)
+) -> Result<&'c Material, BrokenRule> {
+    case.material(name).ok_or_else(|| {
+        Rule::UnknownMaterial {
+            found: name.to_owned(),
+            names: Box::new(Choices::new(name, case.materials.keys().cloned().collect())),
+        }
+        .at(key)
+    })
 }
 
 /// A name of one of the case's sensors.
@@ -219,29 +223,21 @@ pub(super) fn known_sensor(
 }
 
 /// A material that rings and contacts can be made of.
-pub(super) fn known_isotropic(
-    case: &Case,
+pub(in crate::app::case) fn known_isotropic<'c>(
+    case: &'c Case,
     key: impl Into<String>,
     name: &str,
-) -> Result<(), BrokenRule> {
-    match case.material(name) {
-        Some(Material::Isotropic(material)) if material.loss_factor > 0.0 => {
+) -> Result<&'c IsotropicMaterial, BrokenRule> {
+    let key = key.into();
+    match known_material(case, key.as_str(), name)? {
+        Material::Isotropic(material) if material.loss_factor > 0.0 => {
             let found = name.to_owned();
             Err(Rule::LossFactor { found }.at(key))
         }
-        Some(Material::Isotropic(_)) => Ok(()),
-        Some(Material::Orthotropic(_)) => {
+        Material::Isotropic(material) => Ok(material),
+        Material::Orthotropic(_) => {
             let found = name.to_owned();
             Err(Rule::NotIsotropic { found }.at(key))
         }
-        None => unknown_material(case, key, name),
     }
-}
-
-fn unknown_material(case: &Case, key: impl Into<String>, name: &str) -> Result<(), BrokenRule> {
-    Err(Rule::UnknownMaterial {
-        found: name.to_owned(),
-        names: Box::new(Choices::new(name, case.materials.keys().cloned().collect())),
-    }
-    .at(key))
 }

@@ -227,7 +227,7 @@ pub struct BrokenRule {
 
 impl Rule {
     /// Names the key that breaks it.
-    pub(super) fn at(self, key: impl Into<String>) -> BrokenRule {
+    pub(crate) fn at(self, key: impl Into<String>) -> BrokenRule {
         BrokenRule {
             key: key.into(),
             rule: self,

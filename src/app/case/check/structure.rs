@@ -2,15 +2,16 @@
 
 use super::super::path::quoted;
 use super::super::{
-    Axis, Bond, Case, Fit, Hold, Housing, HousingSource, Joint, Material, OrthotropicMaterial,
-    RadiusRule, Ring, RingSupport, Spring,
+    Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring,
+    RingSupport,
 };
 use super::range::{
     above, above_zero, below, degrees, density, direction, each_once, known_isotropic,
     known_material, loss_factor, modulus, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
-use crate::fe::material::MaterialError;
+use crate::fe::material::{MaterialError, RadiusRule};
+use crate::fe::model::{Connection, Fit, SpringStiffness};
 
 pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
     for (name, material) in &case.materials {
@@ -100,8 +101,7 @@ fn housing_supports(housing: &Housing) -> Result<(), BrokenRule> {
                     return Err(Rule::NoZ.at(at("fixed")));
                 }
             }
-            Hold::Spring { spring, .. } => springs(&at("spring"), *spring, plane)?,
-            Hold::Radial { stiffness, .. } => above_zero(at("radial"), *stiffness)?,
+            Hold::Spring(stiffness, _) => springs(at, *stiffness, plane)?,
         }
     }
     Ok(())
@@ -112,23 +112,31 @@ fn links(housing: &Housing) -> Result<(), BrokenRule> {
     for (index, link) in housing.links.iter().enumerate() {
         let at = |key: &str| format!("housing.links[{index}].{key}");
         each_once(link.between.iter().map(String::as_str), |_| at("between"))?;
-        match &link.joint {
-            Joint::Spring { spring, .. } => springs(&at("spring"), *spring, plane)?,
-            Joint::Radial { stiffness, .. } => above_zero(at("radial"), *stiffness)?,
-            Joint::Tie => {}
+        if let Connection::Spring(stiffness, _) = link.connection {
+            springs(at, stiffness, plane)?;
         }
     }
     Ok(())
 }
 
-fn springs(key: &str, spring: Spring, plane: bool) -> Result<(), BrokenRule> {
-    let parts = [("x", spring.x), ("y", spring.y), ("z", spring.z)];
+/// Springs of the table whose keys `at` names.
+fn springs(
+    at: impl Fn(&str) -> String,
+    stiffness: SpringStiffness,
+    plane: bool,
+) -> Result<(), BrokenRule> {
+    let [x, y, z] = match stiffness {
+        SpringStiffness::Radial(stiffness) => return above_zero(at("radial"), stiffness),
+        SpringStiffness::Global(along) => along,
+    };
+    let key = at("spring");
+    let parts = [("x", x), ("y", y), ("z", z)];
     for (name, stiffness) in parts {
         zero_or_more(format!("{key}.{name}"), stiffness)?;
     }
     let acting = parts.iter().filter(|(_, stiffness)| *stiffness > 0.0);
-    not_empty(key, acting.count(), "a stiffness above 0")?;
-    if plane && spring.z > 0.0 {
+    not_empty(key.as_str(), acting.count(), "a stiffness above 0")?;
+    if plane && z > 0.0 {
         return Err(Rule::NoZ.at(key));
     }
     Ok(())
@@ -205,7 +213,8 @@ fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), Bro
         }
         .at(to));
     }
-    springs(&format!("{key}.spring"), support.spring, plane)
+    let at = |name: &str| format!("{key}.{name}");
+    springs(at, support.spring.into(), plane)
 }
 
 fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {

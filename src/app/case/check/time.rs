@@ -2,13 +2,14 @@
 
 use super::super::{
     Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load,
-    Method, ModeExtent, ModesKept, SensorSpot, StepLength,
+    Method, ModesKept, SensorSpot, StepLength,
 };
 use super::range::{
     above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor,
     not_empty, ratio, share, zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
+use crate::fe::modal::ModeRange;
 use crate::formats::is_array_name;
 
 /// Signals that every simulation records under these names.
@@ -137,9 +138,9 @@ fn at_least_one(key: &str, found: usize) -> Result<(), BrokenRule> {
 
 pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
     match case.modes.extent {
-        ModeExtent::Count(count) => at_least_one("modes.count", count)?,
-        ModeExtent::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
-        ModeExtent::BandHz(band) => band_of("modes.band_hz", band)?,
+        ModeRange::Count(count) | ModeRange::AtMost(count) => at_least_one("modes.count", count)?,
+        ModeRange::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
+        ModeRange::BandHz(band) => band_of("modes.band_hz", band)?,
     }
     if case.modes.ball_pass && case.modes.linearise == Linearise::None {
         let other = "`modes.linearise = \"static\"`";

@@ -6,11 +6,12 @@ use serde::Deserialize;
 
 use super::{FULL, near, read};
 use crate::app::case::{
-    BallInertia, Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold,
-    Integration, InterfaceModes, Joint, LinearElements, Linearise, Link, Material, Method,
-    ModeExtent, ModesKept, PerNodeOrGroup, SensorSpot, Source, StepLength,
+    Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold,
+    InterfaceModes, Linearise, Material, Method, ModesKept, SensorSpot, Source, StepLength,
 };
-use crate::fe::model::OverlapRule;
+use crate::fe::element::continuum::{Integration, LinearFormulation};
+use crate::fe::modal::ModeRange;
+use crate::fe::model::{Connection, Link, OverlapRule, SpringStiffness, SupportShare};
 
 #[test]
 fn every_key_of_the_full_case_arrives() {
@@ -29,15 +30,15 @@ fn every_key_of_the_full_case_arrives() {
     assert!(near(housing.length_unit.to_metres(), 1e-3));
     assert!(matches!(
         housing.supports[1].hold,
-        Hold::Spring { spring, per: PerNodeOrGroup::Group } if near(spring.y, 2e5)
+        Hold::Spring(SpringStiffness::Global([_, y, _]), SupportShare::PerGroup) if near(y, 2e5)
     ));
     assert!(matches!(
         housing.supports[2].hold,
-        Hold::Radial { stiffness, per: PerNodeOrGroup::Node } if near(stiffness, 3e5)
+        Hold::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerNode) if near(stiffness, 3e5)
     ));
     assert_eq!(
-        (housing.integration, housing.linear),
-        (Integration::FourPoint, LinearElements::Plain)
+        (housing.formulation.integration, housing.formulation.linear),
+        (Integration::FourPoint, LinearFormulation::Plain)
     );
     assert_eq!(housing.overlap, OverlapRule::Allow);
     let between = ["lid seat", "case seat"].map(str::to_owned);
@@ -45,16 +46,16 @@ fn every_key_of_the_full_case_arrives() {
         housing.links[0],
         Link {
             between,
-            joint: Joint::Tie
+            connection: Connection::Tie
         }
     );
     assert!(matches!(
-        housing.links[1].joint,
-        Joint::Spring { spring, per: PerNodeOrGroup::Group } if near(spring.y, 2e6)
+        housing.links[1].connection,
+        Connection::Spring(SpringStiffness::Global([_, y, _]), SupportShare::PerGroup) if near(y, 2e6)
     ));
     assert!(matches!(
-        housing.links[2].joint,
-        Joint::Radial { stiffness, per: PerNodeOrGroup::Node } if near(stiffness, 3e6)
+        housing.links[2].connection,
+        Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerNode) if near(stiffness, 3e6)
     ));
     let Some(Material::Orthotropic(printed)) = case.material("printed") else {
         panic!("not orthotropic");
@@ -77,7 +78,7 @@ fn every_key_of_the_full_case_arrives() {
     assert!(matches!(case.damping, Some(Damping::Ratios(points)) if near(points[1].ratio, 0.03)));
     assert_eq!(case.sensors[1].spot, SensorSpot::RingDeg(90.0));
     assert_eq!(case.sensors[2].spot, SensorSpot::Point([0.0, 9e-3, 0.0]));
-    assert_eq!(case.modes.extent, ModeExtent::UpToHz(1e5));
+    assert_eq!(case.modes.extent, ModeRange::UpToHz(1e5));
     let compare = &case.modes.compare[0];
     assert_eq!(compare.file, Path::new("folder/calculix.csv"));
     assert_eq!(compare.name(), "CalculiX 2.20");
@@ -133,10 +134,10 @@ fn defaults_are_those_of_the_format() {
     assert!(near(bearing.first_ball_deg, 270.0));
     assert!((bearing.play() - 2.5e-6).abs() < 1e-12);
     assert_eq!(bearing.stiffness, ContactStiffness::Hertz);
-    assert_eq!(bearing.ball_inertia(), BallInertia::Material);
+    assert_eq!((bearing.ball_mass, bearing.density), (None, None));
     assert!((case.ball_mass().unwrap() - 3.2882e-5).abs() < 1e-9);
     assert!(near(case.shaft.as_ref().unwrap().gravity[1], -9.81));
-    assert_eq!(case.modes.extent, ModeExtent::Count(20));
+    assert_eq!(case.modes.extent, ModeRange::AtMost(20));
     assert_eq!(case.modes.linearise, Linearise::None);
     assert!(case.condense.enhanced);
     assert_eq!(case.condense.interface_modes, InterfaceModes::None);

@@ -1,6 +1,7 @@
 //! What of a simulated bearing a signal cannot show, and the case knows.
 
-use crate::app::case::{Case, Defect, DentDefect, Load, MeasuredDefect, RaceName};
+use crate::app::case::{Case, Defect, DentDefect, Load, MeasuredDefect};
+use crate::bearing::Race;
 use crate::report::significant;
 use crate::signal::diagnosis::Fault;
 
@@ -42,8 +43,8 @@ fn part_of(defect: &Defect) -> Fault {
     match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => {
             match on {
-                RaceName::Outer => Fault::OuterRace,
-                RaceName::Inner => Fault::InnerRace,
+                Race::Outer => Fault::OuterRace,
+                Race::Inner => Fault::InnerRace,
             }
         }
         Defect::Flat(_) => Fault::Ball,

@@ -47,17 +47,11 @@ impl AnalysisSettings {
     /// What a case asks for.
     #[must_use]
     pub fn of(case: &Case) -> Self {
-        let windows = case.analysis.envelope.iter();
         Self {
             band: AskedBand::of(case),
             shown_band: None,
             whiten: case.analysis.whiten,
-            windows: windows
-                .map(|window| TimeWindow {
-                    from: window.from,
-                    to: window.to,
-                })
-                .collect(),
+            windows: case.analysis.envelope.clone(),
             good_to_hz: good_to_hz(case),
             no_signs: no_signs(case),
         }

@@ -1,6 +1,6 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
 
-use crate::app::case::{Case, InterfaceModes, ModeExtent};
+use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::app::scene::ReducedInterface;
@@ -8,7 +8,7 @@ use crate::app::scene::loose::name_mechanisms;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, doubts};
-use crate::fe::modal::FullModes;
+use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
     size_study,
@@ -171,8 +171,8 @@ fn compare(
     estimate: &ErrorEstimate,
     watch: &impl Watch,
 ) -> Result<FullComparison, ComputeError> {
-    let extent = ModeExtent::Count(estimate.modes.len().max(1));
-    let modes = FullModes::of(stage.full_matrices(), extent.range(), watch)?;
+    let extent = ModeRange::Count(estimate.modes.len().max(1));
+    let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
     let rigid = modes.basis.rigid_modes;
     let full = &modes.basis.frequencies_hz;
     let errors = estimate.modes.iter().zip(full).enumerate();

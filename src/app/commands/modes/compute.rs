@@ -5,14 +5,14 @@ use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use super::shapes::mode_shapes;
-use crate::app::case::{Case, Expected, Linearise, ModeExtent};
+use crate::app::case::{Case, Expected, Linearise};
 use crate::app::commands::parts::tables::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::contact_limits::accept_contacts;
 use crate::app::scene::structure_modes::UnloadedModes;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::ModalSurvey;
+use crate::fe::modal::{ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::numerics::{Unwatched, Watch};
@@ -194,8 +194,8 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         .copied()
         .fold(0.0, f64::max);
     let asked_hz = match case.modes.extent {
-        ModeExtent::UpToHz(top_hz) | ModeExtent::BandHz([_, top_hz]) => top_hz,
-        ModeExtent::Count(_) => 0.0,
+        ModeRange::UpToHz(top_hz) | ModeRange::BandHz([_, top_hz]) => top_hz,
+        ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
     };
     let top_hz = top_hz.max(asked_hz);
     let beyond = imported.filter_map(|imported| imported.doubt(top_hz));
@@ -221,8 +221,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, Compute
         model,
         matrices,
     } = AssembledHousing::of(case, watch)?;
-    let survey =
-        ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent.range(), watch)?;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
     let mut base = Reading {
         what: String::new(),
         set: Vec::new(),
@@ -296,7 +295,7 @@ fn reading(
 fn condensation_difference(
     stage: &CoupledStructure,
     full: &UnloadedModes,
-    extent: ModeExtent,
+    extent: ModeRange,
 ) -> Option<f64> {
     stage.housing.as_ref()?;
     let condensed: Vec<f64> = (0..stage.modes.count())
@@ -310,9 +309,9 @@ fn condensation_difference(
         differences.reduce(f64::max)
     };
     match extent {
-        ModeExtent::Count(_) | ModeExtent::UpToHz(_) => largest(0),
+        ModeRange::Count(_) | ModeRange::AtMost(_) | ModeRange::UpToHz(_) => largest(0),
         // how many modes lie below the band is not known: where they fit best
-        ModeExtent::BandHz(_) => (0..=condensed.len().saturating_sub(full.frequencies_hz.len()))
+        ModeRange::BandHz(_) => (0..=condensed.len().saturating_sub(full.frequencies_hz.len()))
             .filter_map(largest)
             .min_by(f64::total_cmp),
     }

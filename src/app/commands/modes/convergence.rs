@@ -1,14 +1,13 @@
 //! How far the frequencies of the case's own mesh are from those of an infinitely fine one.
 
 use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
-use crate::app::case::{Case, ModeExtent};
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::ModalSurvey;
-use crate::fe::modal::partners;
 use crate::fe::modal::{
     Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
 };
+use crate::fe::modal::{ModalSurvey, ModeRange, partners};
 use crate::fe::model::HousingModel;
 use crate::numerics::Watch;
 use schemars::JsonSchema;
@@ -161,15 +160,15 @@ struct OnLevel {
     frequencies_hz: Vec<Option<f64>>,
 }
 
-fn extent(asked: ModeExtent, own_modes: usize) -> ModeExtent {
+fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
     match asked {
-        ModeExtent::BandHz([low, high]) => {
-            ModeExtent::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high])
+        ModeRange::BandHz([low, high]) => {
+            ModeRange::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high])
         }
         // a limit in Hz would cut off modes that a coarse mesh has above it
-        ModeExtent::Count(_) | ModeExtent::UpToHz(_) => {
+        ModeRange::Count(_) | ModeRange::AtMost(_) | ModeRange::UpToHz(_) => {
             let [least, part] = MORE;
-            ModeExtent::Count(own_modes + least.max(own_modes / part))
+            ModeRange::Count(own_modes + least.max(own_modes / part))
         }
     }
 }

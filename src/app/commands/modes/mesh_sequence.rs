@@ -1,11 +1,11 @@
 //! The other meshes of a case: what they are, and the modes on each.
 
-use crate::app::case::{Case, HousingSource, ModeExtent};
+use crate::app::case::{Case, HousingSource};
 use crate::app::commands::inspect::{elements_of, size};
 use crate::app::error::ComputeError;
 use crate::app::scene::bodies::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
-use crate::fe::modal::FullModes;
+use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::modal::{MeshLevels, ModeSet};
 use crate::numerics::Unwatched;
 use crate::report::significant;
@@ -191,12 +191,14 @@ impl ModesOnMesh {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model and eigenvalues.
-    pub fn compute(case: &Case, path: PathBuf, extent: ModeExtent) -> Result<Self, ComputeError> {
+    pub fn compute(case: &Case, path: PathBuf, extent: ModeRange) -> Result<Self, ComputeError> {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
         let modes = match extent {
             // a coarse mesh may have fewer
-            ModeExtent::Count(count) => FullModes::lowest(matrices, count, &Unwatched),
-            other => FullModes::of(matrices, other.range(), &Unwatched),
+            ModeRange::Count(count) | ModeRange::AtMost(count) => {
+                FullModes::lowest(matrices, count, &Unwatched)
+            }
+            other => FullModes::of(matrices, other, &Unwatched),
         }?;
         let free_dof = modes.free_dof();
         let set = bodies.mode_set(&modes);

@@ -64,7 +64,7 @@ pub fn compute_mode_shapes(
         model,
         matrices,
     } = AssembledHousing::of(case, watch)?;
-    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent.range(), watch)?;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;
     let shapes = mode_shapes(&survey, Some((&mesh, &model)));
     Ok((Some(mesh), shapes))
 }

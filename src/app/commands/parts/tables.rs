@@ -3,8 +3,11 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::app::case::{Bond, Case, Damping, PlaneAssumption, RadiusRule, RingElement};
+use crate::app::case::{Bond, Case, Damping};
 use crate::app::scene::CoupledStructure;
+use crate::fe::element::continuum::PlaneAssumption;
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::material::RadiusRule;
 use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
@@ -39,8 +42,8 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
             format!(
                 "{}, shear {}, rotary inertia {}",
                 match asked.element {
-                    RingElement::ExactArc => "exact circular arc",
-                    RingElement::Raveendranath => "Raveendranath's polynomials",
+                    RingInterpolation::ExactArc => "exact circular arc",
+                    RingInterpolation::Raveendranath => "Raveendranath's polynomials",
                 },
                 on(asked.shear),
                 on(asked.rotary_inertia)

@@ -4,7 +4,7 @@ use super::keeper::{InMemory, Keeper};
 use super::recording::Recording;
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
-use crate::app::case::Case;
+use crate::app::case::{Case, RunCase};
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
@@ -14,7 +14,7 @@ use crate::numerics::Watch;
 use crate::report::{Table, significant};
 use crate::signal::diagnosis::Kinematics;
 use crate::system::Statics;
-use crate::system::{EnergyBalance, LoadedModes, RunRecord, SystemError};
+use crate::system::{EnergyBalance, LoadedModes, RunRecord};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
 /// (callgrind, seven modes with residual), 0.2 s of the wall's clock then.
@@ -64,10 +64,9 @@ pub fn explain_run(
     case: &Case,
     watch: &impl Watch,
 ) -> Result<(ModelChoice, Vec<String>), ComputeError> {
-    let scene = Scene::build(case, watch)?;
-    // a run without transient was refused with the case
-    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
-    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    let run = case.for_run()?;
+    let scene = Scene::build(run, watch)?;
+    let choice = ModelChoice::of_case(run, &scene)?;
     let warnings = [scene.doubts, choice.warnings()].concat();
     Ok((choice, warnings))
 }
@@ -81,9 +80,11 @@ pub fn compute_kept_run<K: Keeper>(
     watch: &impl Watch,
     keeper: &mut K,
 ) -> Result<RunResult<K::Record>, ComputeError> {
-    let mut scene = Scene::build(case, watch)?;
-    // a run without transient was refused with the case
-    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
+    let run = case.for_run()?;
+    let RunCase {
+        transient: asked, ..
+    } = run;
+    let mut scene = Scene::build(run, watch)?;
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(
@@ -92,14 +93,14 @@ pub fn compute_kept_run<K: Keeper>(
         &scene.setup,
         &scene.equilibrium,
     )?;
-    let choice = ModelChoice::of_case(case, asked, &scene)?;
+    let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
     let span = Span {
         duration: asked.end - asked.start,
         output_hz: asked.output_hz,
     };
     watch.stage("compare with a finer run");
-    let horizon = Horizon::of(case, &scene, &choice);
+    let horizon = Horizon::of(run, &scene, &choice);
     watch.stage("step");
     let samples = span.duration / choice.model.step;
     let energy = case.analysis.energy.unwrap_or(samples <= FEW_SAMPLES);

@@ -110,7 +110,8 @@ fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
     let few: &[&[&str]] = &[&["exponential", "end=2e-4"]];
     let mut other = Vec::new();
     for (scene_set, methods) in [(with_inertia, methods), (without, few)] {
-        let scene = Scene::build(&case(&scene_set), &Unwatched).unwrap();
+        let of_scene = case(&scene_set);
+        let scene = Scene::build(of_scene.for_run().unwrap(), &Unwatched).unwrap();
         for keys in methods {
             let method = format!("transient.method={}", keys[0]);
             let others = keys[1..].iter().map(|key| format!("transient.{key}"));
@@ -127,8 +128,9 @@ fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
 }
 
 fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
-    let (asked, set) = (case.transient.as_ref().unwrap(), &case.source.set);
-    let model = ModelChoice::of_case(case, asked, scene).unwrap().model;
+    let (run, set) = (case.for_run().unwrap(), &case.source.set);
+    let asked = run.transient;
+    let model = ModelChoice::of_case(run, scene).unwrap().model;
     let span = Span {
         duration: asked.end - asked.start,
         output_hz: asked.output_hz,
@@ -166,9 +168,10 @@ fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
 fn a_run_of_another_model_does_not_go_on() {
     let stopped = |set: &[&str], stops: &mut Stops| {
         let case = case(set);
-        let asked = case.transient.as_ref().unwrap();
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
+        let run = case.for_run().unwrap();
+        let asked = run.transient;
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let model = ModelChoice::of_case(run, &scene).unwrap().model;
         let span = Span {
             duration: 1e-4,
             output_hz: asked.output_hz,
@@ -328,9 +331,9 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
 #[test]
 fn a_run_is_stable_up_to_the_limit_that_a_blow_up_names() {
     let case = case(&["transient.modes=7"]);
-    let scene = Scene::build(&case, &Unwatched).unwrap();
-    let asked = case.transient.as_ref().unwrap();
-    let model = ModelChoice::of_case(&case, asked, &scene).unwrap().model;
+    let run = case.for_run().unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
+    let model = ModelChoice::of_case(run, &scene).unwrap().model;
     let mut system = scene.system(&model).unwrap();
     let rest = scene.at_rest(&system);
     for method in [

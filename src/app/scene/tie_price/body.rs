@@ -58,7 +58,7 @@ impl RingBody {
         };
         let layer = layer(case, section)?;
         let [height, width] = layer.rectangle();
-        let bore = asked.outer_radius.unwrap_or(f64::NAN);
+        let bore = asked.outer_radius.ok_or(NoTiePrice::NoOuterRadius)?;
         let mut notes = Vec::new();
         let radius = placed(&layer, height, bore, &mut notes)?;
         if layer_is_not_rectangular(&layer) && housing.model.dimension() == 3 {

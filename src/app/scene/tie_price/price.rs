@@ -20,7 +20,7 @@ use crate::fe::modal::FullModes;
 use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
 use crate::fe::modal::{Partner, partners};
 use crate::fe::model::{
-    Connection, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
+    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
     PlaneModel, Ring, SpringStiffness, SupportShare,
 };
 use crate::numerics::Watch;
@@ -200,8 +200,8 @@ pub(crate) fn compared(
     })
 }
 
-pub(crate) fn note_of_fit(fit: case::Fit) -> Option<String> {
-    (fit == case::Fit::Sliding).then(|| {
+pub(crate) fn note_of_fit(fit: Fit) -> Option<String> {
+    (fit == Fit::Sliding).then(|| {
         format!("The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height.")
     })
 }
@@ -225,8 +225,8 @@ pub(crate) fn joined(
     let outside = body.ring.radius + 0.5 * body.ring.height;
     let area = std::f64::consts::TAU * outside * body.ring.width;
     let connection = match tie.fit {
-        case::Fit::Bonded => Connection::Tie,
-        case::Fit::Sliding => {
+        Fit::Bonded => Connection::Tie,
+        Fit::Sliding => {
             let stiffness = SLIDING * body.material.young / body.ring.height * area;
             Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
         }

@@ -21,6 +21,9 @@ pub enum NoTiePrice {
         /// How many.
         count: usize,
     },
+    /// A ring of unknown outer radius.
+    #[error("the case does not give `ring.outer_radius`, the radius of the bore")]
+    NoOuterRadius,
     /// A rectangle that does not go into the bore.
     #[error(
         "the rectangle of the section's area and second moment is {height_m:.4e} m high, so that its outer face lies at a radius of {outside_m:.4e} m, and the bore at {bore_m:.4e} m: too far apart for one to stand in the other"

@@ -6,12 +6,11 @@ use super::reference::models;
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
 use super::systems::{Ready, Systems};
 use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
-use crate::app::case::{self, Case, ModesKept, StepLength};
+use crate::app::case::{self, Case, ModesKept, RunCase, StepLength};
 use crate::app::commands::analyze::AskedBand;
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
-use crate::system::SystemError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -68,21 +67,25 @@ impl Chart {
 /// # Errors
 /// [`ChartError`]; a candidate that fails is no error but an omission.
 pub fn compute_chart(
-    case: &Case,
+    run: RunCase<'_>,
     effort: Effort,
     watch: &(impl Watch + Sync),
 ) -> Result<Chart, ChartError> {
-    let scene = Scene::with_all_modes(case, watch)?;
-    // a chart without transient was refused with the case
-    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
-    let settings = Settings::of(case, asked, effort)?;
+    let RunCase {
+        case,
+        transient: asked,
+        ..
+    } = run;
+    let scene = Scene::with_all_modes(run, watch)?;
+    let settings = Settings::of(run, effort)?;
     watch.stage("starts");
     let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
     watch.stage("reference");
     let progress = Counter::new(watch, starts.starts.len());
     let reference = Reference::find(&scene, &starts, &settings, || progress.done())?;
-    let chosen = |asked: &case::Transient| -> Result<RunModel, ChartError> {
-        Ok(ModelChoice::of_case(case, asked, &scene)?.model)
+    let chosen = |transient: &case::Transient| -> Result<RunModel, ChartError> {
+        let run = RunCase { transient, ..run };
+        Ok(ModelChoice::of_case(run, &scene)?.model)
     };
     let automatic = chosen(&automatic(asked, case::Method::Auto))?;
     let source = chosen(&automatic_source(asked))?;

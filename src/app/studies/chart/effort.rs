@@ -1,7 +1,7 @@
 //! How much a chart computes.
 
 use super::ChartError;
-use crate::app::case::{self, Case};
+use crate::app::case::{self, RunCase};
 use crate::app::commands::run::Span;
 use crate::app::error::ComputeError;
 use crate::signal::band_limit_edge_s;
@@ -62,7 +62,12 @@ impl Settings {
     ///
     /// # Errors
     /// [`ChartError::TooShort`].
-    pub fn of(case: &Case, asked: &case::Transient, effort: Effort) -> Result<Self, ChartError> {
+    pub fn of(run: RunCase<'_>, effort: Effort) -> Result<Self, ChartError> {
+        let RunCase {
+            case,
+            transient: asked,
+            ..
+        } = run;
         let band_hz = case.band_hz().map_or(0.5 * asked.output_hz, |band| band[1]);
         let output_hz = SAMPLES_A_PERIOD * band_hz;
         let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz).map_err(ComputeError::from)?;

@@ -17,9 +17,9 @@ fn small() -> (Scene, Settings) {
         "transient.ensemble.runs=2",
     ];
     let case = Case::example("scenes/smooth", &set);
-    let asked = case.transient.as_ref().unwrap();
-    let settings = Settings::of(&case, asked, Effort::Quick).unwrap();
-    (Scene::build(&case, &Unwatched).unwrap(), settings)
+    let run = case.for_run().unwrap();
+    let settings = Settings::of(run, Effort::Quick).unwrap();
+    (Scene::build(run, &Unwatched).unwrap(), settings)
 }
 
 fn all_modes(method: Method, steps: &[f64]) -> Family {
@@ -98,10 +98,10 @@ fn marked_points_take_every_start_and_others_some() {
         "transient.ensemble.runs=9",
     ];
     let case = Case::example("scenes/smooth", &set);
-    let asked = case.transient.as_ref().unwrap();
-    let settings = Settings::of(&case, asked, Effort::Full).unwrap();
+    let run = case.for_run().unwrap();
+    let settings = Settings::of(run, Effort::Full).unwrap();
     assert_eq!(settings.point_stride(), 2);
-    let scene = Scene::build(&case, &Unwatched).unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
     let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
     let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
     let family = all_modes(Method::Exponential, &[2e-7]);

@@ -2,13 +2,16 @@
 
 use crate::fe::element::ElementError;
 use crate::fe::material::{ElasticMaterial, Material};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// What the plane model assumes across its thickness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What vanishes across a plane model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum PlaneAssumption {
-    /// No stress through the thickness: thin parts, free faces.
+    /// Stress across the plane is zero: thin parts, free faces.
     Stress,
-    /// No strain through the thickness: long parts, or a slice held between its neighbours.
+    /// Strain across the plane is zero: long parts, or a slice held between its neighbours.
     Strain,
 }
 

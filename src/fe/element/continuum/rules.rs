@@ -1,10 +1,12 @@
 //! Which formulation an element uses, and which rule integrates what.
 
 use super::{ContinuumKind, QuadratureRule};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The choices that an element's stiffness leaves open; the default is [`Integration::Full`] with
 /// [`LinearFormulation::Incompatible`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 pub struct Formulation {
     /// Stiffness of Tet10.
     pub integration: Integration,
@@ -12,20 +14,22 @@ pub struct Formulation {
     pub linear: LinearFormulation,
 }
 
-/// How the stiffness of Tet10 is integrated; other elements are not touched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+/// How the stiffness of ten-noded tetrahedra is integrated; other elements are not touched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Integration {
     /// Exact for straight edges, converged for curved ones.
     #[default]
     Full,
-    /// Four points, as most programs do: exact for straight edges only. The stiffness of curved elements is
-    /// wrong in the third digit (see [`ContinuumKind::stiffness_rule`]), and a curved patch fails the patch
-    /// test (by 4e-5 with middle nodes moved by 1 % of the patch, measured).
+    /// Four points, as most programs do: exact for straight edges only. The stiffness of curved elements is wrong in the third digit, and a
+    /// curved patch fails the patch test (by 4e-5 with middle nodes moved by 1 % of the patch, measured).
+    #[serde(rename = "4-point")]
     FourPoint,
 }
 
-/// How Quad4 and Hex8 bend.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+/// How four-noded quadrilaterals and eight-noded hexahedra bend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum LinearFormulation {
     /// With incompatible modes: a rectangle or box bends exactly. The element is no longer conforming, so that
     /// frequencies need not converge from above.

@@ -6,15 +6,18 @@ use super::quadrature::over_arc;
 use super::raveendranath::CoupledPolynomial;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// Which interpolation the element uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// The ring element's interpolation.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum RingInterpolation {
     /// The solution of the unloaded circular arc: exact rigid motions, exact nodal statics.
     #[default]
     ExactArc,
-    /// Cubic radial displacement with the tangential displacement and the rotation that follow from
-    /// equilibrium (Raveendranath, Singh, Pradhan 1999); rigid translations are not exact.
+    /// The source paper's (Raveendranath, Singh, Pradhan 1999): a cubic radial displacement with the tangential one and the rotation that
+    /// follow from equilibrium; rigid translations are not exact.
     Raveendranath,
 }
 

@@ -1,6 +1,8 @@
 //! The beam that the rings of a section make together.
 
 use super::layer::{RingLayer, SectionError, check};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// How the rings of a section hold together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,13 +13,14 @@ pub enum Bond {
     Composite,
 }
 
-/// On which radius a ring of a slipping section bends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// On which radius sections that slip bend.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum RadiusRule {
     /// Each on its own: EI / R^3 and rho A R are summed ring by ring.
+    #[default]
     Own,
-    /// All on the EA-weighted centroid radius: EI and rho A are summed. Slip does not justify it,
-    /// but it reproduces the source paper's 36 kHz.
+    /// All on the centroid weighted by EA: EI and rho A are summed. Slip does not justify it, the source paper's frequencies need it.
     CommonCentroid,
 }
 

@@ -1,6 +1,8 @@
 //! Springs between a ring and the ground.
 
 use super::{NODE_DOF, Ring, RingError, RingSpring};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Springs between part of a ring and the ground.
@@ -19,12 +21,15 @@ pub struct RingSupport {
     pub offset: f64,
 }
 
-/// How a support's stiffness is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Whether a stiffness stands at each node or is shared by all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum SpringShare {
-    /// Each node carries the given stiffness.
+    /// Each node has a spring of this stiffness.
+    #[default]
+    #[serde(rename = "node")]
     PerNode,
-    /// The nodes share the given stiffness equally.
+    /// The springs sum up to this stiffness, all alike.
     Total,
 }
 

@@ -195,7 +195,7 @@ fn elements_of_another_kind_are_shown_only() {
 #[test]
 fn a_pair_cut_in_two_is_recognised() {
     let mut case = case("ring_6_9_48.msh", "\"ring_6_9_24.msh\"", "");
-    case.modes.extent = ModeExtent::Count(4);
+    case.modes.extent = ModeRange::Count(4);
     let found = converged(&case);
     assert_eq!(found.modes.len(), 1);
     assert!(found.modes[0].mesh_error.is_some(), "{found:?}");

@@ -3,7 +3,6 @@
 use super::loaded_errors::LoadedErrors;
 use super::model_choice::ChosenPart;
 use super::quantities::{ball_frequency, hertz};
-use crate::app::case::{self, Case};
 use crate::app::scene::Scene;
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation};
@@ -17,12 +16,6 @@ const SHARE: f64 = 0.2;
 /// Part of the target that a model with such balls may err by on a stretch, beside balls with inertia. A start from rest shakes the balls far above the
 /// band, and what of it reaches the band no loaded mode tells: estimates by these alone were up to a hundred times too low.
 pub(crate) const MEASURED_SHARE: f64 = 0.5;
-
-/// Whether the case leaves the balls' inertia to the program.
-pub(crate) fn is_free(case: &Case) -> bool {
-    let bearing = case.bearing.as_ref();
-    bearing.is_none_or(|bearing| bearing.balls_inertia.is_none())
-}
 
 /// Balls with inertia, as a stretch without it showed an error; none where it could not be stepped.
 pub(crate) fn needed(error: Option<f64>) -> (BallsInertia, ChosenPart) {
@@ -42,19 +35,15 @@ pub(crate) fn needed(error: Option<f64>) -> (BallsInertia, ChosenPart) {
     (BallsInertia::Dynamic, part)
 }
 
-/// Balls with inertia unless all of them stay pressed onto both races and vibrate there far above the band: a motion of
+/// As `given`, or balls with inertia unless all of them stay pressed onto both races and vibrate there far above the band: a motion of
 /// frequency f then loses `(f / f_ball)^2`, and the mass that ring and shaft lack shifts their phase more and more.
 pub(crate) fn chosen(
-    case: &Case,
+    given: Option<BallsInertia>,
     scene: &Scene,
     band_hz: f64,
     target: f64,
     loaded: &LoadedErrors,
 ) -> (BallsInertia, ChosenPart) {
-    let given = case
-        .bearing
-        .as_ref()
-        .and_then(|bearing| bearing.balls_inertia);
     let balls = scene.equilibrium.balls.iter();
     let pressed = balls
         .clone()
@@ -67,8 +56,7 @@ pub(crate) fn chosen(
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
     let (inertia, why) = match given {
-        Some(case::BallsInertia::Dynamic) => (BallsInertia::Dynamic, "given".to_owned()),
-        Some(case::BallsInertia::QuasiStatic) => (BallsInertia::QuasiStatic, "given".to_owned()),
+        Some(given) => (given, "given".to_owned()),
         None if !pressed => (
             BallsInertia::Dynamic,
             "not all balls are held between both races: they move on their own".to_owned(),

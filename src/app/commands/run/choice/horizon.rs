@@ -7,7 +7,7 @@
 use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT};
 use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
 use super::quantities::USUAL_BAND;
-use crate::app::case::Case;
+use crate::app::case::RunCase;
 use crate::app::commands::run::Span;
 use crate::app::scene::Scene;
 use crate::report::significant;
@@ -35,8 +35,8 @@ pub struct Horizon {
 impl Horizon {
     /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already. `None` for a
     /// model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
-    pub fn of(case: &Case, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
-        let asked = case.transient.as_ref()?;
+    pub fn of(run: RunCase<'_>, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
+        let asked = run.transient;
         let (start_s, run_s) = (asked.start, asked.end - asked.start);
         if choice.growth <= 1.0 {
             let measured = choice.measured?;
@@ -49,7 +49,7 @@ impl Horizon {
                 strikes: false,
             });
         }
-        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let band_hz = run.case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let finer = choice.measured?.finer;
         let most = choice.share_of_steps()? / SAFETY;
         let first_s = stretch_s(asked, band_hz);
@@ -137,15 +137,16 @@ impl ModelChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::case::Case;
     use crate::app::commands::run::choice::ModelChoice;
     use crate::numerics::Unwatched;
 
     fn horizon(example: &str, set: &[&str]) -> Horizon {
         let case = Case::example(example, set);
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let asked = case.transient.as_ref().unwrap();
-        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
-        Horizon::of(&case, &scene, &choice).unwrap()
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let choice = ModelChoice::of_case(run, &scene).unwrap();
+        Horizon::of(run, &scene, &choice).unwrap()
     }
 
     /// Against runs with all modes in equal steps of 25 ns, the error since the start passes the estimate of 0.0037 after 5.6 ms.
@@ -196,9 +197,9 @@ mod tests {
     #[test]
     fn vectors_left_out_shorten_it() {
         let case = Case::example("scenes/impact", &[]);
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let asked = case.transient.as_ref().unwrap();
-        let mut choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let mut choice = ModelChoice::of_case(run, &scene).unwrap();
         let method = choice.parts.iter().find(|part| part.what == "method");
         let mut part = method.unwrap().clone();
         let measured = part.estimated_error.unwrap();

@@ -364,7 +364,7 @@ mod tests {
 
     fn smooth(keys: &[&str], band_hz: f64, seconds: f64) -> LoadedErrors {
         let case = Case::example("scenes/smooth", keys);
-        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let scene = Scene::build(case.for_run().unwrap(), &Unwatched).unwrap();
         LoadedErrors::of(&scene, None, band_hz, seconds).unwrap()
     }
 

@@ -200,7 +200,7 @@ mod tests {
     fn dented_with(keys: &[&str]) -> Scene {
         let set = [&["transient.start=2.3"], keys].concat();
         let case = Case::example("tadina2011/outer-dent", &set);
-        Scene::build(&case, &Unwatched).unwrap()
+        Scene::build(case.for_run().unwrap(), &Unwatched).unwrap()
     }
 
     /// Measured with dop853 against all 216 modes over 5 ms from 2.3 s: 4.4e-3 (5 modes and residual), 6.4e-4 (7), 2.4e-4 (13);

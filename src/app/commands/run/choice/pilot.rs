@@ -324,9 +324,10 @@ mod tests {
 
     fn with_tolerance(example: &str, tolerance: f64, set: &[&str]) -> (f64, f64) {
         let case = Case::example(example, set);
-        let asked = case.transient.as_ref().unwrap();
-        let scene = Scene::build(&case, &Unwatched).unwrap();
-        let choice = ModelChoice::of_case(&case, asked, &scene).unwrap();
+        let run = case.for_run().unwrap();
+        let asked = run.transient;
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let choice = ModelChoice::of_case(run, &scene).unwrap();
         let model = RunModel {
             method: Method::ExponentialAdams {
                 tolerance: Some(tolerance),
@@ -354,7 +355,7 @@ mod tests {
     fn the_stretch_begins_before_an_impact_at_the_highest_speed() {
         let (_, begin) = with_tolerance("tadina2011/outer-dent", 1e-3, &[]);
         let case = Case::example("tadina2011/outer-dent", &[]);
-        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let scene = Scene::build(case.for_run().unwrap(), &Unwatched).unwrap();
         let (cage, defect) = (scene.setup.cage.motion(begin), &scene.setup.race_defects[0]);
         let ahead = (defect.angle() - cage.angle).rem_euclid(scene.setup.cage.spacing());
         let edge = ahead / defect.contact_half_angle();

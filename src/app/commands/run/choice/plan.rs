@@ -9,7 +9,7 @@ use super::model_choice::{CONDENSATION, ChosenPart, Measured, ModelChoice, SUPER
 use super::modes::modes;
 use super::quantities::USUAL_BAND;
 use super::{balls, pilot, stepping};
-use crate::app::case::{self, Case};
+use crate::app::case::{self, RunCase};
 use crate::app::error::ComputeError;
 use crate::app::scene::structure::left_out;
 use crate::app::scene::{RunModel, Scene};
@@ -29,11 +29,13 @@ impl ModelChoice {
     ///
     /// # Errors
     /// [`ComputeError`] for modes or a residual that do not fit the scene.
-    pub fn of_case(
-        case: &Case,
-        asked: &case::Transient,
-        scene: &Scene,
-    ) -> Result<Self, ComputeError> {
+    pub fn of_case(run: RunCase<'_>, scene: &Scene) -> Result<Self, ComputeError> {
+        let RunCase {
+            case,
+            bearing,
+            transient: asked,
+            ..
+        } = run;
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let target = case.target();
         let source = asked.method == case::Method::NewmarkExplicit;
@@ -45,7 +47,7 @@ impl ModelChoice {
         let errors = ModeErrors::of(scene, band_hz, &loaded);
         let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
         let (mut balls_inertia, mut balls_part) =
-            balls::chosen(case, scene, band_hz, target, &loaded);
+            balls::chosen(bearing.balls_inertia, scene, band_hz, target, &loaded);
         let growth = growth(scene, rest);
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
             let mut model = RunModel {
@@ -80,7 +82,7 @@ impl ModelChoice {
                     .ok()
                     .and_then(|found| Some(found.as_ref()?.error));
                 match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
-                    false if balls::is_free(case) => {
+                    false if bearing.balls_inertia.is_none() => {
                         (balls_inertia, balls_part) = balls::needed(error);
                         (model, method_part, step_part) = with_inertia;
                         beside(&model, &model)

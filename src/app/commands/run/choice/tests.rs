@@ -7,9 +7,9 @@ use crate::numerics::Unwatched;
 
 fn choice(example: &str, set: &[&str]) -> ModelChoice {
     let case = Case::example(example, set);
-    let scene = Scene::build(&case, &Unwatched).unwrap();
-    let asked = case.transient.as_ref().unwrap();
-    ModelChoice::of_case(&case, asked, &scene).unwrap()
+    let run = case.for_run().unwrap();
+    let scene = Scene::build(run, &Unwatched).unwrap();
+    ModelChoice::of_case(run, &scene).unwrap()
 }
 
 fn part(choice: &ModelChoice, what: &str) -> f64 {

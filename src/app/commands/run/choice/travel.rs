@@ -51,7 +51,7 @@ mod tests {
             "analysis.envelope=[]",
         ];
         let case = Case::example(name, &[&steady, keys].concat());
-        let scene = Scene::build(&case, &Unwatched).unwrap();
+        let scene = Scene::build(case.for_run().unwrap(), &Unwatched).unwrap();
         (case, scene)
     }
 

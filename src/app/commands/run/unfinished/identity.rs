@@ -30,7 +30,7 @@ impl RunIdentity {
         for defect in defects {
             if let Defect::Measured(measured) = defect {
                 // one that cannot be read is named where it is needed
-                files.extend(FileDigest::of_file(&measured.csv));
+                files.extend(FileDigest::of_file(&measured.profile.csv));
             }
         }
         Ok(Self {

@@ -5,12 +5,11 @@ use super::super::{ChartError, Effort};
 use super::cell::{MethodStability, by_tolerance, on_grid};
 use super::condition::{Condition, Variant};
 use super::measured::{Measurement, Reference};
-use crate::app::case::{self, Case};
+use crate::app::case::{self, Case, RunCase};
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
 use crate::numerics::ode::{Linearised, Method, fastest};
-use crate::system::SystemError;
 use rayon::prelude::*;
 
 /// Shortest and longest step of the grid, s.
@@ -97,22 +96,21 @@ struct Prepared {
 /// # Errors
 /// [`ChartError`]; a condition that the bearing cannot be in is no error.
 pub fn compute_stability(
-    case: &Case,
+    run: RunCase<'_>,
     scene: &Scene,
     conditions: Vec<Condition>,
     effort: Effort,
     watch: &(impl Watch + Sync),
 ) -> Result<Stability, ChartError> {
-    // a chart without transient was refused with the case
-    let asked = case.transient.as_ref().ok_or(SystemError::NotSupported)?;
-    let choice = ModelChoice::of_case(case, &automatic(asked, case::Method::Auto), scene)?;
+    let transient = &automatic(run.transient, case::Method::Auto);
+    let choice = ModelChoice::of_case(RunCase { transient, ..run }, scene)?;
     let (model, grid) = (choice.model, grid(effort));
     watch.stage("conditions");
     let progress = Counter::new(watch, conditions.len());
     let prepared: Vec<Result<Prepared, String>> = conditions
         .par_iter()
         .map(|condition| {
-            let prepared = prepare(*condition, case, scene, &model, effort);
+            let prepared = prepare(*condition, run.case, scene, &model, effort);
             progress.done();
             prepared.map_err(|error| error.to_string())
         })

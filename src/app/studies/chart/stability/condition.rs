@@ -1,13 +1,14 @@
 //! What is varied, one at a time, and the scene that it gives.
 
 use super::super::{ChartError, Effort};
-use crate::app::case::{self, Case, Defect, Load, SpeedPoint};
-use crate::app::scene::{RunModel, Scene, bearing_setup};
-use crate::bearing::ContactStiffness;
+use crate::app::case::{self, Case, Defect, Load};
+use crate::app::error::ComputeError;
+use crate::app::scene::bearing::setup_of;
+use crate::app::scene::{RunModel, Scene};
+use crate::bearing::{ContactStiffness, SpeedKnot};
 use crate::report::significant;
 use crate::system::{
     BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
-    SystemError,
 };
 
 /// Forces on the shaft, in units of those given.
@@ -140,7 +141,8 @@ impl Condition {
     ) -> Result<Variant, ChartError> {
         let mut case = case.clone();
         self.apply(&mut case, scene);
-        let setup = bearing_setup(&case)?.ok_or(SystemError::NotSupported)?;
+        let run = case.for_chart().map_err(ComputeError::from)?;
+        let setup = setup_of(run.case, run.bearing, run.shaft)?;
         let setup = BearingSetup {
             balls_inertia: model.balls_inertia,
             ..setup
@@ -178,7 +180,10 @@ impl Condition {
                 }
             }
             Self::Speed(hz) => {
-                let profile = vec![SpeedPoint { time: 0.0, hz }];
+                let profile = vec![SpeedKnot {
+                    time: 0.0,
+                    frequency_hz: hz,
+                }];
                 case.speed = Some(case::Speed { profile });
             }
             _ => {}

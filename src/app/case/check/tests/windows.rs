@@ -1,7 +1,7 @@
 //! Stretches of time that the analysis takes.
 
-use super::super::tests::FULL;
-use super::tests::{breaks, full, holds};
+use super::{breaks, full, holds};
+use crate::app::case::tests::FULL;
 
 #[test]
 fn windows_lie_within_the_simulation() {
