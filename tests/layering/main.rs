@@ -139,7 +139,6 @@ fn wings_import_downwards_and_unsafe_stays_where_it_is() {
 }
 
 #[test]
-#[ignore = "circles are left"]
 fn no_files_and_no_rooms_go_in_circles() {
     let arrows = arrows(&read_all(&src()));
     let mut found = circles_in_words(&arrows, |path| path.to_owned());

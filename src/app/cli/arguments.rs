@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::progress::Visibility;
-use super::schema::ResultOf;
 use super::{AnalyzeArguments, InitArguments, SweepArguments};
 use crate::app::case::Case;
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
@@ -482,6 +481,37 @@ impl Options {
             Visibility::OnTerminal
         }
     }
+}
+
+/// A result that has a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ResultOf {
+    /// modes.json
+    Modes,
+    /// condense.json, of a mesh or of a superelement from a file
+    Condense,
+    /// frf.json
+    Frf,
+    /// run.json, and what run --explain prints
+    Run,
+    /// analysis.json, of one input or of several
+    Analyze,
+    /// chart.json
+    Chart,
+    /// stability.json
+    Stability,
+    /// sweep.json, and what --task and --slurm print
+    Sweep,
+    /// verify.json
+    Verify,
+    /// inspect.json
+    Inspect,
+    /// What init prints, of a case file or of the catalogue
+    Init,
+    /// export.json
+    Export,
+    /// What report prints
+    Report,
 }
 
 #[cfg(test)]

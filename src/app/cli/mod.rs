@@ -40,7 +40,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
-pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options};
+pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options, ResultOf};
 pub use export::ExportError;
 pub use failure::CliError;
 pub use init::{InitArguments, InitError};
@@ -48,7 +48,6 @@ pub use outcome::{Outcome, Verdict};
 pub use output::{OutputFolder, emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
 pub use results_error::ResultsError;
-pub use schema::ResultOf;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};

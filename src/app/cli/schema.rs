@@ -1,5 +1,6 @@
 //! `plummer schema`: what case files and results look like, for editors and for programs that read them.
 
+use super::arguments::ResultOf;
 use std::borrow::Cow;
 use std::marker::PhantomData;
 
@@ -22,37 +23,6 @@ use crate::app::commands::run::{ExplainSummary, RunSummary};
 use crate::app::studies::chart::{ChartResult, StabilitySummary};
 use crate::app::studies::sweep::{ScriptsSummary, SweepSummary, TaskSummary};
 use crate::app::verification::VerifyResult;
-
-/// A result that has a schema.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ResultOf {
-    /// modes.json
-    Modes,
-    /// condense.json, of a mesh or of a superelement from a file
-    Condense,
-    /// frf.json
-    Frf,
-    /// run.json, and what run --explain prints
-    Run,
-    /// analysis.json, of one input or of several
-    Analyze,
-    /// chart.json
-    Chart,
-    /// stability.json
-    Stability,
-    /// sweep.json, and what --task and --slurm print
-    Sweep,
-    /// verify.json
-    Verify,
-    /// inspect.json
-    Inspect,
-    /// What init prints, of a case file or of the catalogue
-    Init,
-    /// export.json
-    Export,
-    /// What report prints
-    Report,
-}
 
 /// The JSON Schema of a result, without one that of the case file.
 pub(super) fn schema(results: Option<ResultOf>) -> Value {

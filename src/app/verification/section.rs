@@ -1,6 +1,5 @@
 //! What a section of the suite hands on: checks, what is told beside them, and its part of the report.
 
-use super::orders::OrdersSummary;
 use crate::report::{Cell, Column, Section, Table, Verdict, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -146,6 +145,25 @@ impl Check {
             ok: self.ok(),
         }
     }
+}
+
+/// What `verify.json` says of the errors of one quantity over ever finer sizes.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OrdersSummary {
+    /// What it is.
+    pub name: String,
+    /// What a size is.
+    pub size: &'static str,
+    /// Unit of the sizes.
+    pub unit: &'static str,
+    /// Sizes, falling.
+    pub sizes: Vec<f64>,
+    /// Relative errors, as many.
+    pub relative_errors: Vec<f64>,
+    /// Order from each size to the next.
+    pub orders: Vec<f64>,
+    /// Order that theory gives.
+    pub theory: f64,
 }
 
 /// A section of the suite, carried out.

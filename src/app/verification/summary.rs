@@ -1,7 +1,6 @@
 //! What `verify.json` says.
 
-use super::orders::OrdersSummary;
-use super::section::{CheckSummary, Information};
+use super::section::{CheckSummary, Information, OrdersSummary};
 use crate::app::commands::result::ResultHead;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -5,10 +5,8 @@ mod rings;
 mod solids;
 mod steps;
 
-use super::section::{Check, Kind, SectionResult, VerificationError};
+use super::section::{Check, Kind, OrdersSummary, SectionResult, VerificationError};
 use crate::report::{Abscissa, Axis, Cell, Column, Curve, Plot, Section, Table};
-use schemars::JsonSchema;
-use serde::Serialize;
 
 /// Title of the section.
 const TITLE: &str = "Orders of convergence";
@@ -37,25 +35,6 @@ struct Family {
     assumptions: &'static str,
     reason: &'static str,
     series: Vec<Series>,
-}
-
-/// What `verify.json` says of the errors of one quantity over ever finer sizes.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct OrdersSummary {
-    /// What it is.
-    pub name: String,
-    /// What a size is.
-    pub size: &'static str,
-    /// Unit of the sizes.
-    pub unit: &'static str,
-    /// Sizes, falling.
-    pub sizes: Vec<f64>,
-    /// Relative errors, as many.
-    pub relative_errors: Vec<f64>,
-    /// Order from each size to the next.
-    pub orders: Vec<f64>,
-    /// Order that theory gives.
-    pub theory: f64,
 }
 
 /// Carries the section out.
