@@ -6,35 +6,69 @@
 //! with faults; the signal is diagnosed. Source of the bearing model: Tadina and Boltezar, J. Sound
 //! Vib. (2011), with its equations put right where that was needed (`docs/theory/bearing.md`).
 //!
-//! The data flows one way:
+//! # From a mesh to its modes
 //!
-//! 1. [`case`]: a TOML file to checked types; [`units`], SI inside; [`files`] that a user
-//!    named; [`shell_word`], arguments as they are typed.
-//! 2. [`mesh`]: gmsh import with physical names and a validator.
-//! 3. [`material`], [`element`]: plane and solid elements and the curved beam; [`model`]: properties,
-//!    supports, links, the ring and the tie of the bore to its interpolation.
-//! 4. [`assembly`]: sparse stiffness and mass; [`linalg`]: factorisation, eigenpairs with a proof, dense problems.
-//! 5. [`modal`], [`reduction`]: modes; constraint and fixed-interface modes to a superelement.
-//! 6. [`bearing`]: geometry, Hertz contact, dents, cage, speed; [`catalogue`]: bearings that can be bought; [`closed_form`]: known
-//!    answers.
-//! 7. [`system`]: structure, balls and shaft; equilibrium, loaded modes, contact forces.
-//! 8. [`dynamics`], [`transient`]: what a system shows to an integrator, and the integrators.
-//! 9. [`series`], [`signal`], [`diagnosis`]: recorded signals; filters, spectra, scalograms, orders, kurtograms; verdicts on
-//!    each part.
-//! 10. [`exchange`], [`report`], [`stages`], [`cli`]: files that other programs read and write, one
-//!     self-contained HTML page, commands.
-//! 11. [`verification`]: the built-in checks of `plummer verify`; [`chart`]: speed against accuracy of the simulation;
-//!     [`sweep`]: many runs of one case.
+//! ```
+//! use plummer::prelude::*;
 //!
-//! ```no_run
-//! use plummer::app::case::Case;
-//! use plummer::app::commands::run::compute_run;
-//! use crate::numerics::Unwatched;
-//! let case = Case::load("examples/tadina2011/outer-dent.toml", &[])?;
-//! let run = compute_run(&case, &Unwatched)?;
-//! assert_eq!(run.simulation.record.sensors[0].0, "P1");
+//! let mesh = Mesh::read_gmsh("meshes/pedestal.msh".as_ref(), LengthUnit::Millimetre)?;
+//! let aluminium = Material::new(70e9, 0.33, 2700.0)?;
+//! let model = HousingModel::new(
+//!     &mesh,
+//!     HousingDescription {
+//!         parts: vec![HousingPart { group: "housing".to_owned(), material: aluminium.into() }],
+//!         ..HousingDescription::default()
+//!     },
+//! )?;
+//! let modes = model.modes(ModeRange::Count(10))?;
+//! assert_eq!(modes.rigid_modes, 6);
+//! println!("first elastic mode: {:.0} Hz", modes.frequencies_hz[6]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # From a case to a verdict
+//!
+//! ```
+//! use plummer::prelude::*;
+//!
+//! let windows = "analysis.envelope=[{from=1.0, to=2.6}]".to_owned();
+//! let case = Case::load("examples/tadina2011/outer-dent.toml", &[windows])?;
+//! let run = compute_run(&case, &Unwatched)?;
+//! let diagnosis = run.windows[0].diagnosis.as_ref().map_err(Clone::clone)?;
+//! println!("{}", diagnosis.sentence());
+//! let outer = diagnosis.faults.iter().find(|verdict| verdict.fault == Fault::OuterRace);
+//! assert_eq!(outer.map(|verdict| verdict.conclusion), Some(Conclusion::Named));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # A superelement for NumPy
+//!
+//! ```
+//! use plummer::prelude::*;
+//!
+//! let case = Case::load("examples/housings/ring.toml", &[])?;
+//! let condensed = compute_condense(&case, Comparison::None, &Unwatched)?;
+//! let record = superelement_record(&case, &condensed.stage)?;
+//! let file = std::env::temp_dir().join("plummer-superelement.npz");
+//! write_superelement_npz(&file, &record)?;
+//! assert_eq!(read_superelement_npz(&file)?.order(), record.order());
+//! # std::fs::remove_file(&file)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # The wings
+//!
+//! Each wing imports from those above it in this list alone:
+//!
+//! 1. [`files`]: files that a user named, whole files, one error for both;
+//! 2. [`numerics`]: linear algebra, integrators, series, units;
+//! 3. [`fe`]: mesh, elements, model, assembly, modes, reduction;
+//! 4. [`bearing`]: geometry, contact, kinematics, defects, catalogue; [`signal`]: filters, spectra, diagnosis;
+//! 5. [`system`]: ring, shaft and housing as one structure; contact forces, equilibrium, energy;
+//! 6. [`formats`]: files that other programs read and write; [`report`]: one HTML page from plain data;
+//! 7. [`app`]: case files, commands, studies, verification, command line.
+//!
+//! [`prelude`] has what most programs need.
 //!
 //! # Limitations
 //!
@@ -47,6 +81,7 @@ pub mod fe;
 pub mod files;
 pub mod formats;
 pub mod numerics;
+pub mod prelude;
 pub mod report;
 pub mod signal;
 pub mod system;

@@ -171,3 +171,13 @@ pub fn housing_modes(
     };
     Ok(FullModes::sharpened(matrices, range, products, &Unwatched)?.basis)
 }
+
+impl HousingModel {
+    /// Modes of the housing, assembled here: the frequencies of `plummer modes` for the same mesh, materials and supports.
+    ///
+    /// # Errors
+    /// [`ModalError`] of elements, factorisation, iteration or proof; [`ModalError::NoModes`] for a range without any.
+    pub fn modes(&self, range: ModeRange) -> Result<ModalBasis, ModalError> {
+        housing_modes(self, SystemMatrices::assemble(self)?, range)
+    }
+}
