@@ -13,9 +13,9 @@ pub enum Formulation {
     /// Ball positions from the fixed bearing centre: symmetric, keeps energy.
     #[default]
     Consistent,
-    /// The source's equations (3)-(16): ball position from the ring's mean centre, total ring
-    /// displacement in the raceway radius (rigid motion counted twice), ball inertia coupled to the
-    /// mean centre's acceleration, no weight on the ring. For reproduction only.
+    /// The source paper's equations (3)-(16), their misprints corrected: ball position from the ring's mean centre,
+    /// total ring displacement in the raceway radius (rigid motion counted twice), ball inertia coupled to the mean
+    /// centre's acceleration, no weight on the ring. For reproduction only.
     Printed,
 }
 

@@ -23,12 +23,12 @@ const DEPTH_LIMIT: f64 = 0.25;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CurvatureReading {
-    /// That of the floor as it is: race and ellipse together, `±1/R − κ_D`, or the flat's own `1/R_2`.
+    /// That of the floor as it is: of race and dent together, `±1/R − κ_D`, or of the flat itself, `1/R_2`.
     #[default]
     #[serde(rename = "profile")]
     Total,
-    /// As the source prints: on a dent the ellipse alone, `−κ_D` of (23), (24), depth measured from a flat;
-    /// on a ball's flat the ball's own `1/ρ_b` of (31).
+    /// As the source paper prints it: of the dent alone, `−κ_D` of its equations (23) and (24), depth measured from a
+    /// flat; on a ball's flat that of the ball, `1/ρ_b` of (31).
     Paper,
 }
 

@@ -35,7 +35,7 @@ pub enum LinearFormulation {
     /// frequencies need not converge from above.
     #[default]
     Incompatible,
-    /// The plain isoparametric element, which locks in bending.
+    /// The plain isoparametric element, which locks in bending: much too stiff.
     Plain,
 }
 
