@@ -160,7 +160,7 @@ Example: the pages of results that an earlier version computed; the results stay
 Nothing is computed: the content of each page lies beside it as report.cbor.gz (CBOR, packed by gzip).";
 
 const VERIFY_EXAMPLE: &str = "\
-Examples: every built-in check of seconds; those of minutes too: orders of convergence
+Examples: every built-in check of seconds; the orders of convergence too, half a minute
   plummer verify
   plummer verify --full --out out/full
 
@@ -291,7 +291,7 @@ pub enum Command {
     /// Built-in checks against published numbers and closed forms; needs no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
-        /// Also orders of convergence (minutes)
+        /// Also orders of convergence (half a minute)
         #[arg(long)]
         full: bool,
     },
