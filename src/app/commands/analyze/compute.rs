@@ -11,7 +11,7 @@ use crate::signal::diagnosis::Kinematics;
 use crate::signal::usual_high_pass_hz;
 
 /// Analyses every signal in every window; without windows each as a whole. Without a band in `settings`: the high-pass of
-/// the usual high-pass
+/// `usual_high_pass_hz`.
 ///
 /// # Errors
 /// [`ComputeError`]: a window outside a signal, a filter beyond half the sampling rate.
