@@ -110,14 +110,22 @@ fn what_commands_print_is_valid() {
     }
 }
 
-/// Every property of a schema, wherever it stands.
+/// Every property of a schema, wherever it stands; the one key of an alternative is described with it.
 fn properties<'a>(schema: &'a Value, found: &mut Vec<(&'a String, &'a Value)>) {
     match schema {
         Value::Array(items) => items.iter().for_each(|item| properties(item, found)),
         Value::Object(keywords) => {
             let own = keywords.get("properties").and_then(Value::as_object);
             found.extend(own.into_iter().flatten());
-            keywords.values().for_each(|part| properties(part, found));
+            for (keyword, part) in keywords {
+                match (keyword.as_str(), part) {
+                    ("oneOf", Value::Array(alternatives)) => {
+                        let inside = alternatives.iter().map(|one| &one["properties"]);
+                        inside.for_each(|part| properties(part, found));
+                    }
+                    _ => properties(part, found),
+                }
+            }
         }
         _ => {}
     }

@@ -1,10 +1,10 @@
 //! The coupled system of a scene as equations of first order, as other integrators take them.
 
 use plummer::app::case::Case;
-use plummer::numerics::ode::{SecondOrderSystem, State, Tangent};
 use plummer::app::commands::run::choice::ModelChoice;
-use plummer::numerics::{Unwatched};
 use plummer::app::scene::{RunModel, Scene};
+use plummer::numerics::Unwatched;
+use plummer::numerics::ode::{SecondOrderSystem, State, Tangent};
 use plummer::system::CoupledSystem;
 use std::error::Error;
 

@@ -2,10 +2,10 @@
 
 use crate::equations::Equations;
 use plummer::numerics::ode::{Instant, NoRecord, Observer, SecondOrderSystem};
+use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::series::TimeSeries;
 use plummer::signal::band_limit;
 use plummer::system::Recorder;
-use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use std::error::Error;
 
 /// Tolerance of what goes on from a step's end to the samples before the next one's.

@@ -37,6 +37,11 @@ impl<A: JsonSchema, B: JsonSchema> JsonSchema for Either<A, B> {
         "Either".into()
     }
 
+    /// Others of this name are other types.
+    fn inline_schema() -> bool {
+        true
+    }
+
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let forms = [
             generator.subschema_for::<A>(),
