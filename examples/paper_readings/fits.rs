@@ -125,11 +125,7 @@ fn shaped(reading: &ReadingResult) -> [bool; 3] {
 impl Fits {
     /// Finds them.
     pub fn of(study: &Study) -> Self {
-        let mut fits: Vec<Fit> = study
-            .readings
-            .iter()
-            .filter_map(|reading| Fit::of(reading))
-            .collect();
+        let mut fits: Vec<Fit> = study.readings.iter().filter_map(Fit::of).collect();
         fits.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         let counts = counts(study, &fits);
         let determined = Factor::ALL

@@ -53,7 +53,7 @@ impl ModalSurvey {
         let rigid = rigid_motions(model.coordinates(), model.dimension(), centroid(&mass));
         let matrices = CoupledMatrices::of_housing(matrices, model);
         let products = |motions: &CoupledMotions, all: &DenseMatrix| {
-            Ok(strain_products(model, &motions.housing(model, all))?)
+            strain_products(model, &motions.housing(model, all))
         };
         let (modes, all, participation) =
             FullModes::analysed(matrices, range, &rigid, products, watch)?;

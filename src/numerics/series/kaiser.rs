@@ -100,10 +100,6 @@ const INTERPOLATION_REACH: usize = 32;
 
 impl KaiserInterpolation {
     /// The kernel.
-    #[expect(
-        clippy::new_without_default,
-        reason = "a kernel is not a default value"
-    )]
     pub(crate) fn new() -> Self {
         let beta = beta(attenuation_db(INTERPOLATION_REACH, 2.0 * PI * 0.2));
         Self {

@@ -264,7 +264,7 @@ pub(crate) fn modes_of(
     let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
     let mut modes = FullModes::lowest(matrices, sought, watch)?;
     modes.sharpen(|motions: &CoupledMotions, all: &DenseMatrix| {
-        Ok(strain_products(model, &motions.housing(model, all))?)
+        strain_products(model, &motions.housing(model, all))
     })?;
     Ok(modes)
 }
